@@ -1,0 +1,148 @@
+/* The core's own words: a point of the motion, and what a row of each table consists of. */
+#ifndef ZD_CORE_H
+#define ZD_CORE_H
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "workspace.h"
+#include "zerodrift.h"
+
+/* ---- a point: all that is known at one (t, p, v), computed when first wanted and never twice ---- */
+
+enum {                                  /* known beside the system's own terms */
+    ZD_FACTORED = 1 << 12,              /* the formulation's leading matrix, at this (t, p) */
+    ZD_ACCELERATED = 1 << 13,           /* vdot and lambda, at this (t, p, v) */
+    ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_ACCELERATED
+};
+
+typedef struct zd_point {
+    const zd_system *system;
+    zd_statistics *statistics;
+    int known;              /* what of all this is valid now */
+    double t, *p, *v;
+    zd_terms terms;
+    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *force, *rhs;    /* (nv,), (m,): right sides being put together */
+    int culprit;            /* the coordinate or row that a failed factorization names */
+    double defect;          /* what a failed iteration was left with */
+} zd_point;
+
+static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
+
+zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
+void zd_point_move(zd_point *point, double t, const double *p, const double *v);
+void zd_point_move_velocity(zd_point *point, const double *v);
+int zd_point_need_missing(zd_point *point, int missing);
+void zd_point_force(const zd_point *point, double *force);          /* f - d */
+void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); needs C, Phi_t */
+void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
+double zd_point_kinetic(const zd_point *point);     /* needs M */
+double zd_point_potential(const zd_point *point);   /* needs V */
+double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
+
+/* Has the terms in `want` computed, those that the system has and that are not known yet. */
+static inline int zd_point_need(zd_point *point, int want)
+{
+    int missing = want & point->system->provides & ~point->known;
+    return missing ? zd_point_need_missing(point, missing) : ZD_DONE;
+}
+
+/* ---- a formulation: a leading matrix and its solve, and the state that is integrated ---- */
+
+typedef struct zd_formulation {
+    zd_card card;
+    int violates;           /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
+    int (*state_size)(const zd_system *system);
+    void *(*take)(zd_arena *arena, const zd_system *system);
+    /* The leading matrix at the point, from M and C. */
+    int (*factor)(void *self, zd_point *point);
+    /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */
+    void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
+    int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
+    void (*leave)(void *self, const zd_point *point, double *y);            /* (p, v) of the point -> state */
+    int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
+} zd_formulation;
+
+/* ---- an integrator: one step of an opaque state ---- */
+
+typedef struct zd_rate {
+    int (*evaluate)(void *context, double t, const double *y, double *ydot);
+    void *context;
+    int size;               /* of the state */
+} zd_rate;
+
+typedef struct zd_integrator {
+    zd_card card;
+    const void *table;      /* coefficients, for methods that share a stepper */
+    void *(*take)(zd_arena *arena, const void *table, int size);
+    int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+} zd_integrator;
+
+/* ---- a correction: something done to the right side of (6), or to the state after a step ---- */
+
+typedef struct zd_correction {
+    zd_card card;
+    int (*enabled)(const zd_settings *settings);
+    int needs;              /* terms for `stabilize` */
+    void *(*take)(zd_arena *arena, const zd_system *system);    /* may be NULL */
+    void (*stabilize)(void *self, const zd_settings *settings, const zd_point *point, double *rhs);   /* xi -> xi_stab */
+    int (*after_step)(void *self, zd_run *run);
+} zd_correction;
+
+/* ---- the run ---- */
+
+enum { ZD_CORRECTIONS_MAX = 8, ZD_MESSAGE = 320 };
+
+typedef struct zd_active {
+    const zd_correction *row;
+    void *self;
+} zd_active;
+
+struct zd_run {
+    zd_settings settings;
+    zd_system system;
+    zd_statistics statistics;
+    const zd_formulation *formulation;
+    void *solver;
+    const zd_integrator *integrator;
+    void *stepper;
+    zd_active active[ZD_CORRECTIONS_MAX];
+    int corrections;
+    int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
+    zd_rate rate;
+    zd_point *point;
+    double *y;              /* the integrated state; last, if it has one, the energy input (28) */
+    double *input;          /* points to it, or to 0 */
+    double *Psi;            /* (m,) */
+    double no_input;
+    double energy0;         /* E0 of (28) */
+    long step, steps;       /* done, to do */
+    int iterations;         /* most position iterations of a step since the last saved row */
+    int status;
+    char message[ZD_MESSAGE];
+};
+
+/* dynamics.c: what integrators, corrections and recorder ask of a run */
+int zd_has_energy(const zd_system *system);
+int zd_has_input(const zd_system *system);  /* of energy, besides V: then it is integrated along */
+int zd_run_rate(void *run, double t, const double *y, double *ydot);
+int zd_run_factor(zd_run *run);             /* the leading matrix at the point */
+int zd_run_accelerate(zd_run *run);         /* vdot, lambda at the point */
+int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic);   /* (28) */
+int zd_run_correct(zd_run *run);            /* all corrections that are on, in their order */
+
+/* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
+zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
+void zd_run_place(zd_run *run, double t, const double *p, const double *v);
+double zd_run_time(const zd_run *run, long step);
+long zd_count_steps(const zd_settings *settings);
+
+/* recorder.c */
+int zd_record_row(zd_run *run, zd_record *record);
+
+/* status.c */
+int zd_explain(zd_run *run, int status);    /* writes the run's message, gives the status back */
+
+#endif

@@ -1,0 +1,119 @@
+/* Back onto the constraint manifold after a step: positions by iteration, then velocities in one solve.
+ *
+ *     p <- p + A solve(0, -[Phi; 0])      (25a), (26a), (27a)     until max |Phi| <= tolerance
+ *     v <- v + solve(0, -Psi)             (25b), (26b), (27b)
+ *
+ * `solve` is the formulation's own, whose metric is the mass matrix: the correction is M-orthogonal to the manifold and leaves
+ * the motion along it alone.
+ */
+#include "../core.h"
+#include "../newton.h"
+
+typedef struct projection {
+    double *p, *v;      /* (nq,), (nv,): the corrected ones */
+    double *rhs, *x;    /* (m,), (nv,) */
+} projection;
+
+typedef struct position_problem {   /* what Newton's loop is handed */
+    projection *self;
+    zd_run *run;
+} position_problem;
+
+static int enabled(const zd_settings *settings)
+{
+    return settings->projection.every > 0;
+}
+
+static void *take(zd_arena *arena, const zd_system *system)
+{
+    size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    projection self = {
+        .p = zd_take_doubles(arena, nq),
+        .v = zd_take_doubles(arena, nv),
+        .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
+        .x = zd_take_doubles(arena, nv),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int position_residual(void *context, double *size)
+{
+    zd_point *point = ((position_problem *)context)->run->point;
+    int status = zd_point_need(point, ZD_PHI);
+    if (!status) *size = zd_max_abs(point->system->mh, point->terms.Phi);
+    return status;
+}
+
+static int solve(zd_run *run, const double *rhs, double *x)
+{
+    int status = zd_run_factor(run);
+    if (status) return status;
+    run->statistics.solves++;
+    run->formulation->solve(run->solver, NULL, rhs, x, NULL);
+    return ZD_DONE;
+}
+
+static int improve_position(void *context)
+{
+    position_problem *problem = context;
+    projection *self = problem->self;
+    zd_point *point = problem->run->point;
+    const zd_system *system = point->system;
+    int status = zd_point_need(point, ZD_PHI | ZD_A);
+    if (status) return status;
+    for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? -point->terms.Phi[k] : 0;
+    status = solve(problem->run, self->rhs, self->x);
+    if (status) return status;
+    zd_point_rate(point, self->x, self->p);
+    for (int i = 0; i < system->nq; i++) self->p[i] += point->p[i];         /* (25a), (26a), (27a) */
+    zd_point_move(point, point->t, self->p, point->v);
+    return ZD_DONE;
+}
+
+static int correct_positions(projection *self, zd_run *run)
+{
+    const zd_projection *settings = &run->settings.projection;
+    const zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations};
+    position_problem problem = {self, run};
+    zd_statistics *statistics = &run->statistics;
+    int iterations;
+    int status = zd_newton_solve(&newton, &problem, &iterations, &run->point->defect);
+    statistics->position_iterations += iterations;
+    if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
+    if (iterations > run->iterations) run->iterations = iterations;
+    return status;
+}
+
+static int correct_velocities(projection *self, zd_run *run)
+{
+    zd_point *point = run->point;
+    int status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
+    if (status) return status;
+    zd_point_velocity_violation(point, self->rhs);
+    for (int k = 0; k < zd_constraints(point->system); k++) self->rhs[k] = -self->rhs[k];
+    status = solve(run, self->rhs, self->x);
+    if (status) return status;
+    for (int i = 0; i < point->system->nv; i++) self->v[i] = point->v[i] + self->x[i];  /* (25b), (26b), (27b) */
+    zd_point_move_velocity(point, self->v);
+    run->statistics.velocity_corrections++;
+    return ZD_DONE;
+}
+
+static int after_step(void *memory, zd_run *run)
+{
+    const zd_projection *settings = &run->settings.projection;
+    int violates = run->formulation->violates, status = ZD_DONE;
+    if (run->step % settings->every && run->step != run->steps) return ZD_DONE;
+    if (settings->positions && (violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
+    if (!status && settings->velocities && (violates & ZD_C) && zd_constraints(&run->system))
+        status = correct_velocities(memory, run);
+    return status;
+}
+
+const zd_correction zd_projection_row = {
+    .card = {"projection", "Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.",
+             "(25), (26), (27)", 0},
+    .enabled = enabled,
+    .take = take,
+    .after_step = after_step,
+};

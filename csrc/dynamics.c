@@ -1,0 +1,87 @@
+/* The equations of motion of a run at its point: the rate of the integrated state, and the energy balance. */
+#include "core.h"
+
+int zd_has_energy(const zd_system *system)
+{
+    return (system->provides & ZD_POTENTIAL) != 0;
+}
+
+int zd_has_input(const zd_system *system)
+{
+    return zd_has_energy(system) && (system->provides & (ZD_POWER | ZD_PHI_T));
+}
+
+int zd_run_factor(zd_run *run)
+{
+    zd_point *point = run->point;
+    if (point->known & ZD_FACTORED) return ZD_DONE;
+    int status = zd_point_need(point, ZD_M | ZD_C);
+    if (status) return status;
+    run->statistics.factorizations++;
+    status = run->formulation->factor(run->solver, point);
+    if (!status) point->known |= ZD_FACTORED;
+    return status;
+}
+
+static void stabilize(zd_run *run)
+{
+    for (int i = 0; i < run->corrections; i++) {
+        const zd_active *active = &run->active[i];
+        if (active->row->stabilize) active->row->stabilize(active->self, &run->settings, run->point, run->point->rhs);
+    }
+}
+
+int zd_run_accelerate(zd_run *run)
+{
+    zd_point *point = run->point;
+    if (point->known & ZD_ACCELERATED) return ZD_DONE;
+    int status = zd_point_need(point, run->acceleration_needs);
+    if (!status) status = zd_run_factor(run);
+    if (status) return status;
+    zd_point_force(point, point->force);
+    int m = zd_constraints(point->system);
+    if (m) memcpy(point->rhs, point->terms.xi, (size_t)m * sizeof(double));
+    stabilize(run);
+    run->statistics.solves++;
+    run->formulation->solve(run->solver, point->force, point->rhs, point->vdot, point->lambda);   /* (8), (9), (13) */
+    point->known |= ZD_ACCELERATED;
+    return ZD_DONE;
+}
+
+/* What comes in besides V: from forces, and through moving constraints, whose force -C^T lambda does work as C v = -Phi_t. */
+static double power(const zd_point *point)
+{
+    double sum = point->terms.power ? *point->terms.power : 0;
+    if (point->terms.Phi_t)
+        for (int k = 0; k < zd_constraints(point->system); k++) sum += point->lambda[k] * point->terms.Phi_t[k];
+    return sum;
+}
+
+int zd_run_rate(void *context, double t, const double *y, double *ydot)
+{
+    zd_run *run = context;
+    int status = run->formulation->enter(run->solver, run->point, t, y);
+    if (!status) status = zd_run_accelerate(run);
+    if (!status) status = run->formulation->rate(run->solver, run->point, ydot);
+    if (!status && zd_has_input(&run->system)) ydot[run->rate.size - 1] = power(run->point);
+    return status;
+}
+
+int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic)
+{
+    int status = zd_point_need(run->point, ZD_M | ZD_POTENTIAL);
+    if (status) return status;
+    *kinetic = zd_point_kinetic(run->point);
+    *violation = *kinetic + zd_point_potential(run->point) - run->energy0 - *run->input;     /* (28) */
+    return ZD_DONE;
+}
+
+int zd_run_correct(zd_run *run)
+{
+    for (int i = 0; i < run->corrections; i++) {
+        const zd_active *active = &run->active[i];
+        int status = active->row->after_step ? active->row->after_step(active->self, run) : ZD_DONE;
+        if (status) return status;
+    }
+    return ZD_DONE;
+}

@@ -1,0 +1,84 @@
+/* (8): accelerations and multipliers at once from the (n + m) x (n + m) matrix
+ *
+ *     G = [M  C^T]        G [vdot; lambda] = [f - d; xi]
+ *         [C   0 ]
+ *
+ * by Gaussian elimination with partial pivoting, which needs of M no more than that G is regular. M and C have different units;
+ * C is scaled to the size of M first, and the multipliers back after, so that pivots are compared like with like.
+ */
+#include "dependent.h"
+
+#include "../linalg/lu.h"
+
+typedef struct augmented {
+    int n, m;
+    double scale;       /* of C in G */
+    double *G;          /* (n + m, n + m) */
+    double *b;          /* (n + m,) */
+    int *order;         /* (n + m,) */
+} augmented;
+
+static void *take(zd_arena *arena, const zd_system *system)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
+    augmented self = {
+        .n = (int)n,
+        .m = (int)m,
+        .G = zd_take_doubles(arena, size * size),
+        .b = zd_take_doubles(arena, size),
+        .order = zd_take(arena, size * sizeof(int)),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* A power of two, so that scaling rounds nothing. */
+static double scale_of_constraints(const augmented *self, const double *M, const double *C)
+{
+    double mass = zd_max_abs(self->n * self->n, M), gradient = zd_max_abs(self->m * self->n, C);
+    return mass > 0 && gradient > 0 && mass < INFINITY && gradient < INFINITY ? exp2(round(log2(mass / gradient))) : 1;
+}
+
+static void fill(augmented *self, const double *M, const double *C)
+{
+    int n = self->n, size = n + self->m;
+    double *G = self->G;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) G[i * size + j] = M[i * n + j];
+    for (int k = 0; k < self->m; k++) {
+        for (int j = 0; j < n; j++) G[(n + k) * size + j] = G[j * size + n + k] = self->scale * C[k * n + j];
+        for (int l = 0; l < self->m; l++) G[(n + k) * size + n + l] = 0;
+    }
+}
+
+static int factor(void *memory, zd_point *point)
+{
+    augmented *self = memory;
+    int size = self->n + self->m;
+    self->scale = scale_of_constraints(self, point->terms.M, point->terms.C);
+    fill(self, point->terms.M, point->terms.C);                         /* (8) */
+    int column = zd_lu_factor(size, self->G, self->order);
+    if (column == size) return ZD_DONE;
+    point->culprit = column < self->n ? column : column - self->n;
+    return column < self->n ? ZD_SINGULAR : ZD_DEPENDENT;
+}
+
+static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
+{
+    augmented *self = memory;
+    int n = self->n, m = self->m;
+    double *b = self->b;
+    for (int i = 0; i < n; i++) b[i] = force ? force[i] : 0;
+    for (int k = 0; k < m; k++) b[n + k] = self->scale * rhs[k];
+    zd_lu_solve(n + m, self->G, self->order, b);                        /* (8), (25) */
+    memcpy(x, b, (size_t)n * sizeof *x);
+    if (!lambda) return;
+    for (int k = 0; k < m; k++) lambda[k] = self->scale * b[n + k];
+}
+
+const zd_formulation zd_augmented = {
+    .card = {"augmented", "Dependent variables; accelerations and multipliers at once from one symmetric matrix.", "(8), (25)", 0},
+    ZD_DEPENDENT_STATE,
+    .take = take,
+    .factor = factor,
+    .solve = solve,
+};

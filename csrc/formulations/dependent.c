@@ -1,0 +1,32 @@
+/* The state (p, v) of the dependent formulations and its rate, (1) beside the acceleration. */
+#include "dependent.h"
+
+int zd_dependent_state_size(const zd_system *system)
+{
+    return system->nq + system->nv;
+}
+
+int zd_dependent_enter(void *self, zd_point *point, double t, const double *y)
+{
+    (void)self;
+    zd_point_move(point, t, y, y + point->system->nq);
+    return ZD_DONE;
+}
+
+void zd_dependent_leave(void *self, const zd_point *point, double *y)
+{
+    (void)self;
+    size_t nq = (size_t)point->system->nq, nv = (size_t)point->system->nv;
+    memcpy(y, point->p, nq * sizeof *y);
+    memcpy(y + nq, point->v, nv * sizeof *y);
+}
+
+int zd_dependent_rate(void *self, zd_point *point, double *ydot)
+{
+    (void)self;
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
+    zd_point_rate(point, point->v, ydot);                               /* (1) */
+    memcpy(ydot + point->system->nq, point->vdot, (size_t)point->system->nv * sizeof *ydot);
+    return ZD_DONE;
+}

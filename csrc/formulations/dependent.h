@@ -1,0 +1,19 @@
+/* What the dependent formulations (8), (9), (13) share: the state is (p, v), and it drifts from (3) and (5). */
+#ifndef ZD_DEPENDENT_H
+#define ZD_DEPENDENT_H
+
+#include "../core.h"
+
+int zd_dependent_state_size(const zd_system *system);
+int zd_dependent_enter(void *self, zd_point *point, double t, const double *y);
+void zd_dependent_leave(void *self, const zd_point *point, double *y);
+int zd_dependent_rate(void *self, zd_point *point, double *ydot);
+
+#define ZD_DEPENDENT_STATE                         \
+    .violates = ZD_PHI | ZD_C,                     \
+    .state_size = zd_dependent_state_size,         \
+    .enter = zd_dependent_enter,                   \
+    .leave = zd_dependent_leave,                   \
+    .rate = zd_dependent_rate
+
+#endif

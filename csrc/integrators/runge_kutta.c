@@ -1,0 +1,51 @@
+/* One step of an explicit Runge-Kutta method:
+ *
+ *     k_i = f(t + c_i h, y + h sum_j a_ij k_j),    y <- y + h sum_i b_i k_i
+ */
+#include "runge_kutta.h"
+
+typedef struct runge_kutta {
+    const zd_tableau *tableau;
+    int size;
+    double *k;      /* (stages, size) */
+    double *stage;  /* (size,) */
+} runge_kutta;
+
+void *zd_runge_kutta_take(zd_arena *arena, const void *table, int size)
+{
+    const zd_tableau *tableau = table;
+    runge_kutta self = {
+        .tableau = tableau,
+        .size = size,
+        .k = zd_take_doubles(arena, (size_t)tableau->stages * (size_t)size),
+        .stage = zd_take_doubles(arena, (size_t)size),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* to <- y + h sum_j weight_j k_j, over the first `stages` of them */
+static void combine(const runge_kutta *self, int stages, const double *weight, double h, const double *y, double *to)
+{
+    int size = self->size;
+    if (to != y) memcpy(to, y, (size_t)size * sizeof *y);
+    for (int j = 0; j < stages; j++) {
+        if (weight[j] == 0) continue;
+        double w = h * weight[j];
+        const double *k = self->k + j * size;
+        for (int i = 0; i < size; i++) to[i] += w * k[i];
+    }
+}
+
+int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
+{
+    (void)statistics;
+    runge_kutta *self = memory;
+    const zd_tableau *T = self->tableau;
+    for (int i = 0; i < T->stages; i++) {
+        combine(self, i, T->a + i * T->stages, h, y, self->stage);
+        int status = rate->evaluate(rate->context, t + T->c[i] * h, self->stage, self->k + i * self->size);
+        if (status) return status;
+    }
+    combine(self, T->stages, T->b, h, y, y);
+    return ZD_DONE;
+}

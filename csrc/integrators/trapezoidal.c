@@ -1,0 +1,139 @@
+/* The trapezoidal rule,
+ *
+ *     y1 = y0 + h/2 (f(t0, y0) + f(t1, y1)),
+ *
+ * which for y = (p, v) is the method of Newmark with beta = 1/4 and gamma = 1/2, for any system: y1 is found by Newton's
+ * iteration with the matrix I - h/2 df/dy. That matrix comes from differences and is kept from step to step as long as
+ * the iteration contracts well with it.
+ */
+#include "../core.h"
+#include "../linalg/lu.h"
+#include "../newton.h"
+
+enum { MAX_ITERATIONS = 20 };
+static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */
+static const double ROUNDING = 4 * 0x1p-52;     /* solved when the defect is this small among the terms it is summed from */
+
+typedef struct trapezoidal {
+    int size;
+    double *y0, *f0;    /* (size,) */
+    double *y1, *f1;    /* (size,) */
+    double *g;          /* (size,): the defect, then Newton's step */
+    double *varied;     /* (size,): f at a varied y1 */
+    double *J;          /* (size, size): I - h/2 df/dy, factored */
+    int *order;         /* (size,) */
+    int factored;
+    double factored_h;
+    const zd_rate *rate;    /* of the step being solved, as are the next three */
+    double t1, h;
+    double before;          /* the last iteration's defect */
+} trapezoidal;
+
+static void *take(zd_arena *arena, const void *table, int size)
+{
+    (void)table;
+    size_t n = (size_t)size;
+    trapezoidal self = {
+        .size = size,
+        .y0 = zd_take_doubles(arena, n),
+        .f0 = zd_take_doubles(arena, n),
+        .y1 = zd_take_doubles(arena, n),
+        .f1 = zd_take_doubles(arena, n),
+        .g = zd_take_doubles(arena, n),
+        .varied = zd_take_doubles(arena, n),
+        .J = zd_take_doubles(arena, n * n),
+        .order = zd_take(arena, n * sizeof(int)),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int rate_at_end(trapezoidal *self, double *f)
+{
+    return self->rate->evaluate(self->rate->context, self->t1, self->y1, f);
+}
+
+/* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
+static double increment(const trapezoidal *self, int i, double largest)
+{
+    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), 1e-3 * largest));
+    return 0x1p-26 * (size > 0 ? size : 1);
+}
+
+static int factor_matrix(trapezoidal *self)
+{
+    int n = self->size;
+    double largest = zd_max_abs(n, self->y1);
+    for (int j = 0; j < n; j++) {
+        double here = self->y1[j];
+        self->y1[j] = here + increment(self, j, largest);
+        double change = self->y1[j] - here;
+        int status = rate_at_end(self, self->varied);
+        self->y1[j] = here;
+        if (status) return status;
+        for (int i = 0; i < n; i++)
+            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change;
+    }
+    self->factored = zd_lu_factor(n, self->J, self->order) == n;
+    self->factored_h = self->h;
+    return self->factored ? ZD_DONE : ZD_NO_STEP;
+}
+
+static int residual(void *context, double *size)
+{
+    trapezoidal *self = context;
+    int status = rate_at_end(self, self->f1);
+    if (status) return status;
+    double scale = 0;
+    for (int i = 0; i < self->size; i++) {
+        double mean = 0.5 * self->h * (self->f0[i] + self->f1[i]);
+        self->g[i] = self->y1[i] - self->y0[i] - mean;
+        scale = fmax(scale, fabs(self->y0[i]) + fabs(mean));
+    }
+    double defect = zd_max_abs(self->size, self->g);
+    *size = scale > 0 ? defect / scale : defect;
+    return ZD_DONE;
+}
+
+static int improve(void *context)
+{
+    trapezoidal *self = context;
+    double now = zd_max_abs(self->size, self->g);
+    int stale = !self->factored || self->factored_h != self->h || now > SLOW * self->before;
+    self->before = now;
+    if (stale) {
+        int status = factor_matrix(self);
+        if (status) return status;
+    }
+    zd_lu_solve(self->size, self->J, self->order, self->g);
+    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i];
+    return ZD_DONE;
+}
+
+static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
+{
+    trapezoidal *self = memory;
+    size_t bytes = (size_t)self->size * sizeof *y;
+    self->rate = rate;
+    self->t1 = t + h;
+    self->h = h;
+    self->before = INFINITY;
+    memcpy(self->y0, y, bytes);
+    int status = rate->evaluate(rate->context, t, y, self->f0);
+    if (status) return status;
+    for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
+
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS};
+    int iterations;
+    double left;
+    status = zd_newton_solve(&newton, self, &iterations, &left);
+    statistics->implicit_iterations += iterations;
+    if (status) return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
+    memcpy(y, self->y1, bytes);
+    return ZD_DONE;
+}
+
+const zd_integrator zd_trapezoidal = {
+    .card = {"trapezoidal", "The implicit trapezoidal rule: Newmark's method with beta = 1/4, gamma = 1/2.", "section 4.2", 2},
+    .take = take,
+    .step = step,
+};

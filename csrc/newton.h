@@ -1,0 +1,16 @@
+/* The one Newton loop: of the position correction and of implicit steps. */
+#ifndef ZD_NEWTON_H
+#define ZD_NEWTON_H
+
+typedef struct zd_newton {
+    int (*residual)(void *context, double *size);   /* how far the unknown is from the solution, now */
+    int (*improve)(void *context);                  /* moves the unknown closer */
+    double tolerance;
+    int max_iterations;
+} zd_newton;
+
+/* Returns 0 with the number of iterations and the last residual; ZD_NO_CONVERGENCE; ZD_NOT_FINITE; or what a function
+ * returned. */
+int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, double *residual);
+
+#endif

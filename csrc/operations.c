@@ -1,0 +1,67 @@
+/* Acceleration and projection outside a run, for those who bring their own integrator: a run that takes no step. */
+#include <stdio.h>
+
+#include "core.h"
+#include "systems/held.h"
+
+static int finish(zd_run *run, int status, char *message, int size)
+{
+    if (status) status = zd_explain(run, status);
+    snprintf(message, (size_t)size, "%s", run->message);
+    zd_run_free(run);
+    return status;
+}
+
+static int no_memory(char *message, int size)
+{
+    snprintf(message, (size_t)size, "there is no memory for this operation");
+    return ZD_NO_MEMORY;
+}
+
+int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
+                    double *vdot, double *multipliers, char *message, int message_size)
+{
+    zd_settings settings = {.formulation = formulation};
+    zd_run *run = zd_run_lay_out(system, &settings);
+    if (!run) return no_memory(message, message_size);
+    zd_run_place(run, t, p, v);
+    int status = zd_run_accelerate(run);
+    memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
+    if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
+    return finish(run, status, message, message_size);
+}
+
+/* One of the two stages, positions or velocities, with what is held at that stage as further constraints. */
+static int project_stage(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
+                         int *iterations, char *message, int message_size)
+{
+    zd_run *run = zd_run_lay_out(system, settings);
+    if (!run) return no_memory(message, message_size);
+    zd_run_place(run, t, p, v);
+    int status = zd_run_correct(run);
+    memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
+    memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
+    if (iterations) *iterations = (int)run->statistics.position_iterations;
+    return finish(run, status, message, message_size);
+}
+
+int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
+               const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
+{
+    zd_settings stage = *settings;
+    zd_held held;
+    int status = ZD_DONE;
+    message[0] = '\0';
+    if (settings->projection.positions) {
+        stage.projection.velocities = 0;
+        zd_system holding = zd_hold_positions(&held, system, hold_p, p);
+        status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
+    }
+    if (!status && settings->projection.velocities) {
+        stage.projection.velocities = 1;
+        stage.projection.positions = 0;
+        zd_system holding = zd_hold_velocities(&held, system, hold_v, v);
+        status = project_stage(&holding, &stage, t, p, v, NULL, message, message_size);
+    }
+    return status;
+}

@@ -1,0 +1,54 @@
+/* What is kept of a run: one row of the caller's arrays for each saved instant. */
+#include "core.h"
+
+static void copy_row(double *table, long row, int width, const double *values)
+{
+    if (width) memcpy(table + row * width, values, (size_t)width * sizeof *values);
+}
+
+static int record_constraints(zd_run *run, zd_record *record, long row)
+{
+    zd_point *point = run->point;
+    int m = zd_constraints(point->system);
+    if (!m) return ZD_DONE;
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
+    if (status) return status;
+    copy_row(record->position_violation, row, point->system->mh, point->terms.Phi);     /* (3) */
+    zd_point_velocity_violation(point, record->velocity_violation + row * m);            /* (5) */
+    copy_row(record->multipliers, row, m, point->lambda);                                /* (7) */
+    return ZD_DONE;
+}
+
+static int record_energy(zd_run *run, zd_record *record, long row)
+{
+    double violation, kinetic;
+    if (!zd_has_energy(&run->system)) {
+        int status = zd_point_need(run->point, ZD_M);
+        record->kinetic[row] = status ? 0 : zd_point_kinetic(run->point);
+        return status;
+    }
+    int status = zd_run_energy_violation(run, &violation, &kinetic);
+    if (status) return status;
+    record->kinetic[row] = kinetic;
+    record->potential[row] = zd_point_potential(run->point);
+    record->input[row] = *run->input;
+    record->energy_violation[row] = violation;                                           /* (28) */
+    return ZD_DONE;
+}
+
+int zd_record_row(zd_run *run, zd_record *record)
+{
+    long row = record->rows;
+    zd_point *point = run->point;
+    int status = zd_run_accelerate(run);
+    if (!status) status = record_constraints(run, record, row);
+    if (!status) status = record_energy(run, record, row);
+    if (status) return status;
+    record->t[row] = point->t;
+    copy_row(record->p, row, point->system->nq, point->p);
+    copy_row(record->v, row, point->system->nv, point->v);
+    record->iterations[row] = run->iterations;
+    run->iterations = 0;
+    record->rows = row + 1;
+    return ZD_DONE;
+}

@@ -1,0 +1,53 @@
+#include "registry.h"
+
+#define SYSTEMS(X)      X(zd_four_bar) X(zd_oscillator)
+#define FORMULATIONS(X) X(zd_augmented) X(zd_schur)
+#define INTEGRATORS(X)  X(zd_rk4) X(zd_trapezoidal)
+#define CORRECTIONS(X)  X(zd_baumgarte_row) X(zd_projection_row) X(zd_energy_row)    /* in the order they are applied */
+
+#define DECLARE_KIND(name) extern const zd_kind name;
+#define DECLARE_FORMULATION(name) extern const zd_formulation name;
+#define DECLARE_INTEGRATOR(name) extern const zd_integrator name;
+#define DECLARE_CORRECTION(name) extern const zd_correction name;
+#define ADDRESS(name) &name,
+
+SYSTEMS(DECLARE_KIND)
+FORMULATIONS(DECLARE_FORMULATION)
+INTEGRATORS(DECLARE_INTEGRATOR)
+CORRECTIONS(DECLARE_CORRECTION)
+
+static const zd_kind *const kinds[] = {SYSTEMS(ADDRESS)};
+static const zd_formulation *const formulations[] = {FORMULATIONS(ADDRESS)};
+static const zd_integrator *const integrators[] = {INTEGRATORS(ADDRESS)};
+static const zd_correction *const corrections[] = {CORRECTIONS(ADDRESS)};
+
+#define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]))
+#define PICK(table, row) ((row) >= 0 && (row) < COUNT(table) ? (table)[row] : NULL)
+
+const zd_kind *zd_kind_of(int row) { return PICK(kinds, row); }
+const zd_formulation *zd_formulation_of(int row) { return PICK(formulations, row); }
+const zd_integrator *zd_integrator_of(int row) { return PICK(integrators, row); }
+const zd_correction *zd_correction_of(int row) { return PICK(corrections, row); }
+
+int zd_rows(enum zd_table table)
+{
+    switch (table) {
+    case ZD_SYSTEMS: return COUNT(kinds);
+    case ZD_FORMULATIONS: return COUNT(formulations);
+    case ZD_INTEGRATORS: return COUNT(integrators);
+    case ZD_CORRECTIONS: return COUNT(corrections);
+    }
+    return 0;
+}
+
+const zd_card *zd_row(enum zd_table table, int row)
+{
+    if (row < 0 || row >= zd_rows(table)) return NULL;
+    switch (table) {
+    case ZD_SYSTEMS: return &kinds[row]->card;
+    case ZD_FORMULATIONS: return &formulations[row]->card;
+    case ZD_INTEGRATORS: return &integrators[row]->card;
+    case ZD_CORRECTIONS: return &corrections[row]->card;
+    }
+    return NULL;
+}

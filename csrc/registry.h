@@ -1,0 +1,11 @@
+/* The four tables. A new row is a new file and one word here. */
+#ifndef ZD_REGISTRY_H
+#define ZD_REGISTRY_H
+
+#include "core.h"
+
+const zd_formulation *zd_formulation_of(int row);
+const zd_integrator *zd_integrator_of(int row);
+const zd_correction *zd_correction_of(int row);
+
+#endif

@@ -1,0 +1,168 @@
+/* A run from its creation to its end: all its memory, and the checks of its start. */
+#include <stdio.h>
+
+#include "core.h"
+#include "registry.h"
+
+static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
+
+/* ---- memory ---- */
+
+static void enable_corrections(zd_run *run, zd_arena *arena)
+{
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
+        const zd_correction *correction = zd_correction_of(row);
+        if (!correction->enabled(&run->settings)) continue;
+        void *self = correction->take ? correction->take(arena, &run->system) : NULL;
+        run->active[run->corrections++] = (zd_active){correction, self};
+        run->acceleration_needs |= correction->needs;
+    }
+}
+
+/* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
+static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
+{
+    zd_run *here = zd_take(arena, sizeof *here);
+    if (here) here->system = *system;       /* the point refers to it */
+    zd_run run = {
+        .settings = *settings,
+        .system = *system,
+        .formulation = zd_formulation_of(settings->formulation),
+        .integrator = zd_integrator_of(settings->integrator),
+        .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
+        .steps = zd_count_steps(settings),
+    };
+    int size = run.formulation->state_size(system) + (zd_has_input(system) ? 1 : 0);
+    if (zd_has_input(system)) run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
+    run.solver = run.formulation->take(arena, system);
+    run.stepper = run.integrator->take(arena, run.integrator->table, size);
+    enable_corrections(&run, arena);
+    run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
+    run.y = zd_take_doubles(arena, (size_t)size);
+    run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
+    run.rate = (zd_rate){zd_run_rate, here, size};
+    if (here) {
+        *here = run;
+        here->input = zd_has_input(system) ? here->y + size - 1 : &here->no_input;
+    }
+    return here;
+}
+
+zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings)
+{
+    if (!zd_formulation_of(settings->formulation) || !zd_integrator_of(settings->integrator)) return NULL;
+    zd_arena counting = {NULL, 0};
+    take_run(&counting, system, settings);
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    return arena.base ? take_run(&arena, system, settings) : NULL;
+}
+
+void zd_run_free(zd_run *run)
+{
+    zd_release(run);    /* it stands first in its own arena */
+}
+
+/* ---- the start ---- */
+
+void zd_run_place(zd_run *run, double t, const double *p, const double *v)
+{
+    zd_point_move(run->point, t, p, v);
+    run->formulation->leave(run->solver, run->point, run->y);
+}
+
+/* Refuses a violation of the constraints beyond the tolerance. */
+static int check_constraints(zd_run *run)
+{
+    zd_point *point = run->point;
+    int mh = run->system.mh, m = zd_constraints(&run->system);
+    double allowed = fmax(run->settings.projection.tolerance, START_TOLERANCE);
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
+    if (status || !m) return status;
+    zd_point_velocity_violation(point, run->Psi);
+    double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
+    if (position <= allowed && velocity <= allowed) return ZD_DONE;
+    snprintf(run->message, sizeof run->message,
+             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
+             "zd.assemble finds a consistent start nearby", position, velocity, allowed);
+    return ZD_BAD_START;
+}
+
+/* Refuses a tolerance that the rounding of p alone keeps Phi from reaching. */
+static int check_tolerance(zd_run *run)
+{
+    const zd_projection *projection = &run->settings.projection;
+    const zd_point *point = run->point;
+    int n = run->system.nq < run->system.nv ? run->system.nq : run->system.nv;
+    if (!projection->every || !projection->positions || !run->system.mh) return ZD_DONE;
+    double reachable = 0;
+    for (int k = 0; k < run->system.mh; k++) {
+        double rounding = 0;
+        for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->system.nv + i] * point->p[i]);
+        reachable = fmax(reachable, rounding);
+    }
+    if (projection->tolerance > reachable) return ZD_DONE;
+    snprintf(run->message, sizeof run->message,
+             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g",
+             projection->tolerance, reachable);
+    return ZD_UNREACHABLE;
+}
+
+static int start_energy(zd_run *run)
+{
+    double kinetic;
+    if (!zd_has_energy(&run->system)) return ZD_DONE;
+    return zd_run_energy_violation(run, &run->energy0, &kinetic);    /* E0 of (28), as it stands at 0 */
+}
+
+static int start(zd_run *run)
+{
+    int status = check_constraints(run);
+    if (!status) status = zd_run_accelerate(run);
+    if (!status) status = check_tolerance(run);
+    if (!status) status = start_energy(run);
+    return status;
+}
+
+static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)
+{
+    *status = zd_explain(run, why);
+    snprintf(message, (size_t)size, "%s", run->message);
+    zd_run_free(run);
+    return NULL;
+}
+
+zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
+                      int *status, char *message, int message_size)
+{
+    zd_run *run = zd_run_lay_out(system, settings);
+    *status = run ? ZD_DONE : ZD_NO_MEMORY;
+    snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
+    if (!run) return NULL;
+    zd_run_place(run, settings->t0, p0, v0);
+    int why = start(run);
+    return why ? refuse(run, why, status, message, message_size) : run;
+}
+
+/* ---- time ---- */
+
+/* A span within rounding of a whole number of steps has that many; else a last, shorter one is added. */
+long zd_count_steps(const zd_settings *settings)
+{
+    if (!(settings->step > 0)) return 0;
+    double ratio = (settings->t1 - settings->t0) / settings->step, whole = round(ratio);
+    return (long)(fabs(ratio - whole) <= 1e-9 * whole ? whole : ceil(ratio));
+}
+
+/* Never accumulated, so that slicing a run changes nothing. */
+double zd_run_time(const zd_run *run, long step)
+{
+    return step == run->steps ? run->settings.t1 : run->settings.t0 + (double)step * run->settings.step;
+}
+
+double zd_run_progress(const zd_run *run)
+{
+    return run->steps ? (double)run->step / (double)run->steps : 1;
+}
+
+const char *zd_run_message(const zd_run *run) { return run->message; }
+const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->statistics; }

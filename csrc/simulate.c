@@ -1,0 +1,49 @@
+/* The story: a step in time, back onto the constraints, keep what is wanted; again until the end. */
+#include <time.h>
+
+#include "core.h"
+
+enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
+
+static double now(void)
+{
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int take_step(zd_run *run)
+{
+    double t = zd_run_time(run, run->step), t1 = zd_run_time(run, run->step + 1);
+    double h = run->step + 1 == run->steps ? t1 - t : run->settings.step;
+    int status = run->integrator->step(run->stepper, &run->rate, t, h, run->y, &run->statistics);
+    if (status) return status;
+    run->step++;
+    run->statistics.steps++;
+    if (!isfinite(zd_max_abs(run->rate.size, run->y))) return ZD_NOT_FINITE;
+
+    status = run->formulation->enter(run->solver, run->point, t1, run->y);
+    if (!status) status = zd_run_correct(run);
+    run->formulation->leave(run->solver, run->point, run->y);
+    return status;
+}
+
+static int is_saved(const zd_run *run)
+{
+    return run->step % run->settings.save_every == 0 || run->step == run->steps;
+}
+
+int zd_run_advance(zd_run *run, zd_record *record, double seconds)
+{
+    double deadline = now() + seconds;
+    int status = run->status;
+    if (!status && run->step == 0 && record->rows == 0) status = zd_record_row(run, record);
+    while (!status && run->step < run->steps) {
+        if (record->rows == record->capacity) return ZD_FULL;
+        if (run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
+        status = take_step(run);
+        if (!status && is_saved(run)) status = zd_record_row(run, record);
+    }
+    if (status && !run->status) run->status = zd_explain(run, status);
+    return status;
+}

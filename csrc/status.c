@@ -1,0 +1,53 @@
+/* What went wrong, in one sentence with its numbers. */
+#include <stdio.h>
+
+#include "core.h"
+
+static void describe(const zd_run *run, int status, char *to, size_t size)
+{
+    const zd_point *point = run->point;
+    const zd_projection *projection = &run->settings.projection;
+    int culprit = point->culprit;
+    switch (status) {
+    case ZD_NOT_FINITE:
+        snprintf(to, size, "the state left the range of doubles; try a smaller step or another stabilization");
+        break;
+    case ZD_NOT_DEFINITE:
+        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)", culprit);
+        break;
+    case ZD_DEPENDENT:
+        snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", culprit);
+        break;
+    case ZD_SINGULAR:
+        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);
+        break;
+    case ZD_NO_CONVERGENCE:
+        snprintf(to, size, "the position correction left max |Phi| = %.3g after %d iterations (tolerance %.3g)",
+                 point->defect, projection->max_iterations, projection->tolerance);
+        break;
+    case ZD_NO_STEP:
+        snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
+        break;
+    case ZD_CALLBACK: snprintf(to, size, "the system's own evaluation failed"); break;
+    default: snprintf(to, size, "status %d", status); break;
+    }
+}
+
+/* Numbers that are no numbers surface first in some factorization: the cause is named, not the place. */
+static int cause_of(const zd_run *run, int status)
+{
+    const zd_point *point = run->point;
+    if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
+    int finite = isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
+    return finite ? status : ZD_NOT_FINITE;
+}
+
+int zd_explain(zd_run *run, int status)
+{
+    char what[ZD_MESSAGE - 64];
+    if (run->message[0]) return status;
+    status = cause_of(run, status);
+    describe(run, status, what, sizeof what);
+    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld of %ld): %s", run->point->t, run->step, run->steps, what);
+    return status;
+}

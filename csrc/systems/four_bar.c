@@ -1,0 +1,199 @@
+/* The paper's example 1: a four-bar mechanism under gravity, cut open at its last joint (Figure 4).
+ *
+ *      2      alpha_2      3         p = [alpha_1, alpha_2, alpha_3], absolute angles from the x axis, v = pdot;
+ *      o------------------o          link 1 turns about the origin, and the tip of link 3 is held at (l0, 0).
+ *     /                    \         All from section 4.1, with the inertias J_i about the link midpoints.
+ *    / alpha_1      alpha_3 \
+ *   o                        o  (l0, 0)
+ */
+#include "../core.h"
+#include "../linalg/small.h"
+
+enum { ALPHA_1, ALPHA_2, ALPHA_3, N = 3 };
+
+/* parameters, in the order of the table at the end */
+typedef struct given {
+    double l[4];        /* m: l0 ... l3 */
+    double m[3];        /* kg */
+    double J[3];        /* kg m^2 */
+    double g;           /* m/s^2 */
+    double crossed;
+    double angle, rate; /* alpha_1(0), rad; its rate, rad/s */
+} given;
+
+/* what evaluate() needs of them */
+typedef struct constants {
+    double l0, l[N];
+    double diagonal[N];         /* M_ii, kg m^2 */
+    double k12, k13, k23;       /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
+    double weight[N];           /* -f_i / cos(alpha_i), N m */
+} constants;
+
+typedef struct sines {          /* kept while p stays */
+    double s[N], c[N];
+} sines;
+
+static void write_mass(const constants *k, const sines *a, double *M)
+{
+    const double *s = a->s, *c = a->c;
+    for (int i = 0; i < N; i++) M[i * N + i] = k->diagonal[i];
+    M[0 * N + 1] = M[1 * N + 0] = k->k12 * (c[1] * c[0] + s[1] * s[0]);
+    M[0 * N + 2] = M[2 * N + 0] = k->k13 * (c[2] * c[0] + s[2] * s[0]);
+    M[1 * N + 2] = M[2 * N + 1] = k->k23 * (c[2] * c[1] + s[2] * s[1]);
+}
+
+static void write_bias(const constants *k, const sines *a, const double *v, double *d)
+{
+    const double *s = a->s, *c = a->c;
+    double w1 = v[0] * v[0], w2 = v[1] * v[1], w3 = v[2] * v[2];
+    double s21 = k->k12 * (s[1] * c[0] - c[1] * s[0]);
+    double s31 = k->k13 * (s[2] * c[0] - c[2] * s[0]);
+    double s32 = k->k23 * (s[2] * c[1] - c[2] * s[1]);
+    d[0] = -s21 * w2 - s31 * w3;
+    d[1] = s21 * w1 - s32 * w3;
+    d[2] = s31 * w1 + s32 * w2;
+}
+
+static void write_closure(const constants *k, const sines *a, double *Phi)
+{
+    const double *l = k->l, *s = a->s, *c = a->c;
+    Phi[0] = l[0] * c[0] + l[1] * c[1] + l[2] * c[2] - k->l0;
+    Phi[1] = l[0] * s[0] + l[1] * s[1] + l[2] * s[2];
+}
+
+static void write_closure_bias(const constants *k, const sines *a, const double *v, double *xi)
+{
+    xi[0] = xi[1] = 0;
+    for (int i = 0; i < N; i++) {
+        xi[0] += k->l[i] * v[i] * v[i] * a->c[i];
+        xi[1] += k->l[i] * v[i] * v[i] * a->s[i];
+    }
+}
+
+static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+{
+    (void)t;
+    const constants *k = data;
+    sines *a = (sines *)out->scratch;
+    if (want & ZD_MOVED)
+        for (int i = 0; i < N; i++) {
+            a->s[i] = sin(p[i]);
+            a->c[i] = cos(p[i]);
+        }
+    if (want & ZD_M) write_mass(k, a, out->M);
+    if (want & ZD_BIAS) write_bias(k, a, v, out->d);
+    if (want & ZD_FORCE)
+        for (int i = 0; i < N; i++) out->f[i] = -k->weight[i] * a->c[i];
+    if (want & ZD_PHI) write_closure(k, a, out->Phi);
+    if (want & ZD_C)
+        for (int i = 0; i < N; i++) {
+            out->C[i] = -k->l[i] * a->s[i];
+            out->C[N + i] = k->l[i] * a->c[i];
+        }
+    if (want & ZD_XI) write_closure_bias(k, a, v, out->xi);
+    if (want & ZD_POTENTIAL) *out->V = zd_dot(N, k->weight, a->s);
+    return ZD_DONE;
+}
+
+/* ---- the start: alpha_2, alpha_3 and their rates from alpha_1 ---- */
+
+/* Both angles close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
+static int close_loop(const given *q, double *p)
+{
+    double x = q->l[0] - q->l[1] * cos(q->angle), y = -q->l[1] * sin(q->angle), diagonal = hypot(x, y);
+    double cosine = (q->l[2] * q->l[2] + diagonal * diagonal - q->l[3] * q->l[3]) / (2 * q->l[2] * diagonal);
+    if (!(fabs(cosine) <= 1)) return 0;
+    double side = q->crossed ? -1 : 1;
+    p[ALPHA_1] = q->angle;
+    p[ALPHA_2] = atan2(y, x) + side * acos(cosine);
+    p[ALPHA_3] = atan2(y - q->l[2] * sin(p[ALPHA_2]), x - q->l[2] * cos(p[ALPHA_2]));
+    return 1;
+}
+
+static void close_rates(const given *q, const double *p, double *v)
+{
+    double sine = sin(p[ALPHA_3] - p[ALPHA_2]);
+    v[ALPHA_1] = q->rate;
+    v[ALPHA_2] = q->rate * q->l[1] / q->l[2] * sin(p[ALPHA_1] - p[ALPHA_3]) / sine;
+    v[ALPHA_3] = q->rate * q->l[1] / q->l[3] * sin(p[ALPHA_2] - p[ALPHA_1]) / sine;
+}
+
+static void start(const double *parameters, double *p, double *v)
+{
+    given q;
+    memcpy(&q, parameters, sizeof q);
+    close_loop(&q, p);
+    close_rates(&q, p, v);
+}
+
+static const char *prepare(const double *parameters, double *to)
+{
+    given q;
+    memcpy(&q, parameters, sizeof q);
+    double p[N];
+    if (!close_loop(&q, p)) return "links of these lengths cannot close the loop at this crank_angle";
+    if (!(fabs(sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
+        return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
+    double J[N];
+    for (int i = 0; i < N; i++) J[i] = isnan(q.J[i]) ? q.m[i] * q.l[i + 1] * q.l[i + 1] / 12 : q.J[i];
+    double l1 = q.l[1], l2 = q.l[2], l3 = q.l[3], m1 = q.m[0], m2 = q.m[1], m3 = q.m[2];
+    constants k = {
+        .l0 = q.l[0],
+        .l = {l1, l2, l3},
+        .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
+        .k12 = (0.5 * m2 + m3) * l1 * l2,
+        .k13 = 0.5 * m3 * l1 * l3,
+        .k23 = 0.5 * m3 * l2 * l3,
+        .weight = {(0.5 * m1 + m2 + m3) * q.g * l1, (0.5 * m2 + m3) * q.g * l2, 0.5 * m3 * q.g * l3},
+    };
+    memcpy(to, &k, sizeof k);
+    return NULL;
+}
+
+static void draw(const double *data, const double *p, double *points)
+{
+    const constants *k = (const constants *)data;
+    points[0] = points[1] = 0;
+    for (int i = 0; i < N; i++) {
+        points[2 * i + 2] = points[2 * i] + k->l[i] * cos(p[i]);
+        points[2 * i + 3] = points[2 * i + 1] + k->l[i] * sin(p[i]);
+    }
+}
+
+static const double lengths[] = {1, 0.3, 1, 0.6}, masses[] = {1.5, 5, 3}, gravity[] = {9.81}, open[] = {0},
+                    angle[] = {0x1.921fb54442d18p+0}, rate[] = {1};
+
+static const zd_parameter parameter[] = {
+    {"lengths", "m", "ground l0 and links l1, l2, l3", 4, ZD_POSITIVE, lengths},
+    {"masses", "kg", "of links 1, 2, 3", 3, ZD_POSITIVE, masses},
+    {"inertias", "kg m^2", "about the link midpoints; left out: slender rods, m l^2 / 12", 3, ZD_NOT_NEGATIVE, NULL},
+    {"gravity", "m/s^2", "downwards, along -y", 1, ZD_ANY, gravity},
+    {"assembly", "", "open crossed", 1, ZD_CHOICE, open},
+    {"crank_angle", "rad", "alpha1 at the start", 1, ZD_ANY, angle},
+    {"crank_rate", "rad/s", "its rate at the start", 1, ZD_ANY, rate},
+};
+
+static const zd_variable coordinate[] = {{"alpha1", "rad"}, {"alpha2", "rad"}, {"alpha3", "rad"}};
+static const zd_variable velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_dot", "rad/s"}, {"alpha3_dot", "rad/s"}};
+static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
+
+const zd_kind zd_four_bar = {
+    .card = {"four_bar", "Four-bar mechanism under gravity, cut open at its last joint: the paper's example 1.", "section 4.1", 0},
+    .system = {
+        .nq = N, .nv = N, .mh = 2,
+        .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .scratch = sizeof(sines) / sizeof(double),
+        .evaluate = evaluate,
+    },
+    .parameters = sizeof parameter / sizeof parameter[0],
+    .constants = sizeof(constants) / sizeof(double),
+    .parameter = parameter,
+    .coordinate = coordinate,
+    .velocity = velocity,
+    .constraint = constraint,
+    .prepare = prepare,
+    .start = start,
+    .points = N + 1,
+    .dimension = 2,
+    .draw = draw,
+};

@@ -1,0 +1,43 @@
+/* The only file that allocates. */
+#include "workspace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CACHE_LINE = 64 };
+
+static size_t round_up(size_t bytes)
+{
+    return (bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE;
+}
+
+void *zd_take(zd_arena *arena, size_t bytes)
+{
+    void *here = arena->base ? arena->base + arena->used : NULL;
+    arena->used += round_up(bytes);
+    return here;
+}
+
+double *zd_take_doubles(zd_arena *arena, size_t count)
+{
+    return zd_take(arena, count * sizeof(double));
+}
+
+void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes)
+{
+    void *here = zd_take(arena, bytes);
+    if (here) memcpy(here, filled, bytes);
+    return here;
+}
+
+void *zd_allocate(size_t bytes)
+{
+    size_t size = round_up(bytes ? bytes : 1);
+    void *memory = aligned_alloc(CACHE_LINE, size);
+    return memory ? memset(memory, 0, size) : NULL;
+}
+
+void zd_release(void *memory)
+{
+    free(memory);
+}

@@ -1,0 +1,20 @@
+/* All memory of a run comes from one arena. It is laid out twice by the same code: first to count, then to hand out. */
+#ifndef ZD_WORKSPACE_H
+#define ZD_WORKSPACE_H
+
+#include <stddef.h>
+
+typedef struct zd_arena {
+    unsigned char *base;    /* NULL while counting: then everything handed out is NULL, too */
+    size_t used;
+} zd_arena;
+
+void *zd_take(zd_arena *arena, size_t bytes);
+double *zd_take_doubles(zd_arena *arena, size_t count);
+/* A structure in the arena, filled with what was laid out beside it: `*here = *filled`. */
+void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes);
+
+void *zd_allocate(size_t bytes);    /* zeroed, aligned to a cache line; NULL if there is no memory */
+void zd_release(void *memory);
+
+#endif
