@@ -137,7 +137,6 @@ int zd_run_correct(zd_run *run);            /* all corrections that are on, in t
 zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
 void zd_run_place(zd_run *run, double t, const double *p, const double *v);
 double zd_run_time(const zd_run *run, long step);
-long zd_count_steps(const zd_settings *settings);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

@@ -30,7 +30,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .formulation = zd_formulation_of(settings->formulation),
         .integrator = zd_integrator_of(settings->integrator),
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
-        .steps = zd_count_steps(settings),
+        .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
     int size = run.formulation->state_size(system) + (zd_has_input(system) ? 1 : 0);
     if (zd_has_input(system)) run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
@@ -145,12 +145,11 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
 
 /* ---- time ---- */
 
-/* A span within rounding of a whole number of steps has that many; else a last, shorter one is added. */
-long zd_count_steps(const zd_settings *settings)
+double zd_count_steps(double t0, double t1, double step)
 {
-    if (!(settings->step > 0)) return 0;
-    double ratio = (settings->t1 - settings->t0) / settings->step, whole = round(ratio);
-    return (long)(fabs(ratio - whole) <= 1e-9 * whole ? whole : ceil(ratio));
+    if (!(step > 0)) return 0;
+    double ratio = (t1 - t0) / step, whole = round(ratio);
+    return fabs(ratio - whole) <= 1e-9 * whole ? whole : ceil(ratio);
 }
 
 /* Never accumulated, so that slicing a run changes nothing. */

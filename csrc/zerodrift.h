@@ -176,6 +176,9 @@ typedef struct zd_record {      /* one row per saved instant; memory belongs to 
 
 typedef struct zd_run zd_run;
 
+/* Steps from t0 to t1: a span within rounding of a whole number of steps has that many, else a shorter one is added. */
+double zd_count_steps(double t0, double t1, double step);
+
 /* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`. */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size);

@@ -1,0 +1,92 @@
+"""What every system is, wherever its equations are written."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _check, _gateway
+from ._gateway import Variable
+
+
+class Terms:
+    """The terms of the equations of motion at one (t, p, v); what a system does not have is None.
+
+    Attributes
+    ----------
+    A : ndarray (nq, nv)
+        Kinematic matrix of (1); None: identity.
+    M : ndarray (nv, nv)
+        Mass matrix of (2).
+    d, f : ndarray (nv,)
+        Bias and applied forces of (2); None: zero.
+    Phi : ndarray (mh,)
+        Holonomic constraints (3).
+    C, Phi_t, xi : ndarray (m, nv), (m,), (m,)
+        Constraint matrix, time derivative of Phi at fixed p, and right side of (5) and (6).
+    V : ndarray ()
+        Potential energy in J.
+    power : ndarray ()
+        Energy input rate of (28) in W.
+    """
+
+    __slots__ = tuple(_gateway.TERMS)
+
+    def __init__(self, **arrays: np.ndarray) -> None:
+        for name in self.__slots__:
+            setattr(self, name, arrays.get(name))
+
+    def __repr__(self) -> str:
+        present = (f"{name} {array.shape}" for name in self.__slots__ if (array := getattr(self, name)) is not None)
+        return f"Terms({', '.join(present)})"
+
+
+class BaseSystem:
+    """A mechanism: its sizes, names, start, and the equations behind them.
+
+    Attributes
+    ----------
+    name : str
+    coordinates, velocities, constraints : tuple of Variable(name, unit)
+        What the entries of p, of v and of the multipliers are.
+    p0, v0 : ndarray (nq,), (nv,)
+        Where `zerodrift.simulate` starts unless told otherwise.
+    """
+
+    name: str
+    coordinates: tuple[Variable, ...]
+    velocities: tuple[Variable, ...]
+    constraints: tuple[Variable, ...]
+    p0: np.ndarray
+    v0: np.ndarray
+    _core: _gateway.CoreSystem
+
+    nq = property(lambda self: self._core.nq, doc="Number of coordinates, the entries of p.")
+    nv = property(lambda self: self._core.nv, doc="Number of velocities, the entries of v.")
+    mh = property(lambda self: self._core.mh, doc="Number of holonomic constraints.")
+    mn = property(lambda self: self._core.mn, doc="Number of nonholonomic constraints.")
+    m = property(lambda self: self._core.m, doc="Number of constraints.")
+    has_energy = property(lambda self: self._core.has_energy, doc="Whether a potential energy is declared.")
+
+    def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
+        """The terms of the equations of motion at (t, p, v); p and v left out: the system's own start.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> zd.systems.oscillator(mass=2.0).evaluate().M
+        array([[2.]])
+        """
+        p = self.p0 if p is None else _check.vector("p", p, self.nq)
+        v = self.v0 if v is None else _check.vector("v", v, self.nv)
+        return Terms(**self._core.evaluate(_check.number("t", t), p, v))
+
+    def points(self, p: Any) -> np.ndarray | None:
+        """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
+        return None
+
+    def _described(self) -> dict[str, Any]:
+        """What a saved solution says of its system, as JSON."""
+        return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,
+                "constraints": self.constraints, "has_energy": self.has_energy}

@@ -1,0 +1,60 @@
+"""What can go wrong, by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .solution import Solution
+
+
+class ZerodriftError(Exception):
+    """Base of all errors of this package.
+
+    Attributes
+    ----------
+    solution : Solution or None
+        What was computed before the failure, if it happened during a run.
+    """
+
+    solution: Solution | None = None
+
+
+class InconsistentStart(ZerodriftError, ValueError):
+    """The initial state violates the constraints; `zerodrift.assemble` finds one that does not."""
+
+
+class UnreachableTolerance(ZerodriftError, ValueError):
+    """The tolerance is below what double precision can reach for this system."""
+
+
+class SingularSystem(ZerodriftError, ArithmeticError):
+    """The mass matrix is not positive definite, or the constraints are dependent."""
+
+
+class Diverged(ZerodriftError, ArithmeticError):
+    """The state left the range of doubles."""
+
+
+class CorrectionFailed(ZerodriftError):
+    """A correction did not reach its tolerance."""
+
+
+class StepFailed(ZerodriftError):
+    """The equations of an implicit step were not solved."""
+
+
+class StaleCore(ZerodriftError, ImportError):
+    """The compiled core does not belong to the C sources beside it."""
+
+
+class CorrectionWarning(UserWarning):
+    """Some corrections were left out because they had no bounded solution; they are counted in `Solution.stats`."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """A run was interrupted from the keyboard; `solution` has what was computed before."""
+
+    def __init__(self, message: str, solution: Solution) -> None:
+        super().__init__(message)
+        self.solution = solution

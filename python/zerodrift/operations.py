@@ -1,0 +1,133 @@
+"""The steps of a run by themselves: assemble, project, accelerate. For those who bring their own integrator."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _check, _gateway, settings
+from ._system import BaseSystem
+
+
+def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = (), *, t: float = 0.0, tol: float = 1e-12,
+             max_iterations: int = 100) -> tuple[np.ndarray, np.ndarray]:
+    """Find a consistent state near a guess.
+
+    Positions are iterated onto the constraints, then velocities corrected; each moves as little as possible in the mass
+    metric, (25), and what is held does not move at all.
+
+    Parameters
+    ----------
+    system : system
+    p : array_like (nq,)
+        Guess of the coordinates.
+    v : array_like (nv,), optional
+        Guess of the velocities; left out: zero.
+    hold : sequence of str, or str
+        Names of coordinates and velocities that keep the values guessed.
+    t : float
+        Time in s, for constraints that depend on it.
+    tol : float
+        Of ``|Phi|``.
+    max_iterations : int
+        At most so many.
+
+    Returns
+    -------
+    p, v : ndarray (nq,), (nv,)
+
+    Raises
+    ------
+    CorrectionFailed
+        If no consistent position was found: links cannot close, or the guess is too far away.
+    SingularSystem
+        If what is held leaves no way to satisfy the constraints.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> bar = zd.systems.four_bar()
+    >>> p, v = zd.assemble(bar, [1.2, 0.3, -1.5], [2.0, 0.0, 0.0], hold=("alpha1", "alpha1_dot"))
+    >>> float(p[0]), float(v[0])
+    (1.2, 2.0)
+    """
+    hold = (hold,) if isinstance(hold, str) else tuple(hold)
+    known = [variable.name for variable in (*system.coordinates, *system.velocities)]
+    for name in hold:
+        _check.choice("hold", name, known)
+    holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
+    v = np.zeros(system.nv) if v is None else v
+    return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "schur", holds)
+
+
+def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
+            formulation: str = "schur") -> tuple[np.ndarray, np.ndarray]:
+    """Correct positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
+
+    Parameters
+    ----------
+    system : system
+    p, v : array_like (nq,), (nv,)
+        The state to be corrected; it is not changed.
+    t : float
+        Time in s.
+    projection : Projection
+        Tolerance, metric, and so on.
+    formulation : str
+        Whose leading matrix is used.
+
+    Returns
+    -------
+    p, v : ndarray (nq,), (nv,)
+
+    Raises
+    ------
+    CorrectionFailed, SingularSystem
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> bar = zd.systems.four_bar()
+    >>> p, v = zd.project(bar, bar.p0 + 1e-3, bar.v0)
+    >>> bool(abs(bar.evaluate(p, v).Phi).max() < 1e-12)
+    True
+    """
+    return _corrected(system, p, v, t, projection or settings.Projection(), formulation, (None, None))
+
+
+def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
+    p, v = _check.vector("p", p, system.nq), _check.vector("v", v, system.nv)
+    options = _gateway.settings({"formulation": settings.formulation_row(formulation), **projection._core()})
+    _gateway.project(system._core, options, _check.number("t", t), p, v, *holds)
+    return p, v
+
+
+def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = "schur") -> tuple[np.ndarray, np.ndarray]:
+    """Accelerations and multipliers at (t, p, v).
+
+    Parameters
+    ----------
+    system : system
+    p, v : array_like (nq,), (nv,)
+        The state. It need not satisfy the constraints.
+    t : float
+        Time in s.
+    formulation : str
+        One of `formulations()`.
+
+    Returns
+    -------
+    vdot, multipliers : ndarray (nv,), (m,)
+        With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> vdot, multipliers = zd.acceleration(zd.systems.oscillator(), [0.1], [0.0])
+    >>> vdot
+    array([-1.])
+    """
+    return _gateway.acceleration(system._core, settings.formulation_row(formulation), _check.number("t", t),
+                                 _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))

@@ -1,0 +1,181 @@
+"""What a run may be told: formulation, integrator, stabilization, energy correction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from . import _check, _gateway
+
+
+@dataclass(frozen=True, slots=True)
+class Projection:
+    """Correct positions and velocities after the step, (25)-(27).
+
+    Parameters
+    ----------
+    tol : float
+        Positions are iterated until every ``|Phi|`` is at most this, in the units of Phi.
+    max_iterations : int
+        At most so many; a correction that needs more is an error.
+    every : int
+        Steps between corrections; the last step is always corrected.
+    metric : {"mass", "identity"}
+        What the correction is orthogonal in: the mass matrix, or (for comparison) the identity of the paper's reference [20].
+    positions, velocities : bool
+        Which of the two are corrected.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.05, stabilization=zd.Projection(tol=1e-10))
+    >>> bool(abs(sol.position_violation).max() <= 1e-10)
+    True
+    """
+
+    METRICS: ClassVar = ("mass", "identity")
+
+    tol: float = 1e-12
+    max_iterations: int = 10
+    every: int = 1
+    metric: str = "mass"
+    positions: bool = True
+    velocities: bool = True
+
+    def __post_init__(self) -> None:
+        _check.number("tol", self.tol, above=0)
+        _check.count("max_iterations", self.max_iterations)
+        _check.count("every", self.every)
+        _check.choice("metric", self.metric, self.METRICS)
+        for name in ("positions", "velocities"):
+            if not isinstance(getattr(self, name), bool):
+                raise TypeError(f"{name} must be True or False, not {getattr(self, name)!r}")
+
+    def _core(self) -> dict[str, Any]:
+        return {"projection": {
+            "every": self.every, "tolerance": self.tol, "max_iterations": self.max_iterations,
+            "metric": self.METRICS.index(self.metric), "positions": self.positions, "velocities": self.velocities}}
+
+
+@dataclass(frozen=True, slots=True)
+class Baumgarte:
+    """Feed violations back into the acceleration constraints, (23).
+
+    Parameters
+    ----------
+    alpha, beta : float
+        Gains of the velocity and the position violation, in 1/s and 1/s^2. ``beta = alpha**2 / 4`` damps critically.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, stabilization=zd.Baumgarte(alpha=10, beta=25))
+    """
+
+    alpha: float = 10.0
+    beta: float = 25.0
+
+    def __post_init__(self) -> None:
+        _check.number("alpha", self.alpha, least=0)
+        _check.number("beta", self.beta, least=0)
+
+    def _core(self) -> dict[str, Any]:
+        return {"baumgarte": {"on": 1, "alpha": self.alpha, "beta": self.beta}}
+
+
+@dataclass(frozen=True, slots=True)
+class EnergyCorrection:
+    """Scale the velocities after the step so that the energy balance (28) holds, (29).
+
+    Parameters
+    ----------
+    every : int
+        Steps between corrections; the last step is always corrected.
+    """
+
+    every: int = 1
+
+    def __post_init__(self) -> None:
+        _check.count("every", self.every)
+
+    def _core(self) -> dict[str, Any]:
+        return {"energy": {"every": self.every}}
+
+
+STABILIZATIONS = {"projection": Projection, "baumgarte": Baumgarte}
+Stabilization = Projection | Baumgarte | None
+
+
+def stabilization(value: Any) -> Stabilization:
+    """The argument `stabilization` of `simulate`: None, a word, or settings."""
+    if value is None or isinstance(value, tuple(STABILIZATIONS.values())):
+        return value
+    if isinstance(value, str):
+        return STABILIZATIONS[_check.choice("stabilization", value, STABILIZATIONS)]()
+    raise TypeError(f"stabilization must be None, {', '.join(map(repr, STABILIZATIONS))}, zd.Projection(...) "
+                    f"or zd.Baumgarte(...), not {value!r}")
+
+
+def energy(value: Any) -> EnergyCorrection | None:
+    """The argument `energy` of `simulate`."""
+    if value is None or value is False:
+        return None
+    if value is True:
+        return EnergyCorrection()
+    if isinstance(value, EnergyCorrection):
+        return value
+    raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
+
+
+class _Names(dict):
+    """Cards by name, printed as a table."""
+
+    def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{card.name:{width}}  {card.equations:24}  {card.summary}" for card in self.values())
+
+
+def _names(table: str) -> _Names:
+    return _Names({card.name: card for card in _gateway.cards(table)})
+
+
+_FORMULATIONS, _INTEGRATORS, _CORRECTIONS = _names("formulations"), _names("integrators"), _names("corrections")
+
+
+def formulations() -> dict[str, _gateway.Card]:
+    """The formulations there are, by name.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.formulations()["schur"].equations
+    '(13), (27)'
+    """
+    return _Names(_FORMULATIONS)
+
+
+def integrators() -> dict[str, _gateway.Card]:
+    """The integrators there are, by name; `order` is the order of the method.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.integrators()["rk4"].order
+    4
+    """
+    return _Names(_INTEGRATORS)
+
+
+def corrections() -> dict[str, _gateway.Card]:
+    """The corrections there are, by name, in the order in which they are applied."""
+    return _Names(_CORRECTIONS)
+
+
+def formulation_row(name: Any) -> int:
+    """The row of a formulation in the core's table."""
+    return list(_FORMULATIONS).index(_check.choice("formulation", name, _FORMULATIONS))
+
+
+def integrator_row(name: Any) -> int:
+    """The row of an integrator in the core's table."""
+    return list(_INTEGRATORS).index(_check.choice("integrator", name, _INTEGRATORS))

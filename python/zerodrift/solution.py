@@ -1,0 +1,186 @@
+"""The result of a run."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _gateway, systems
+from ._system import BaseSystem
+from .settings import STABILIZATIONS, EnergyCorrection
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution:
+    """A motion, how well it satisfies its constraints and its energy balance, and what it cost.
+
+    Time comes first in every array; arrays are read-only.
+
+    Attributes
+    ----------
+    t : ndarray (k,)
+        Times in s.
+    p, v : ndarray (k, nq), (k, nv)
+        Coordinates and velocities, in the units of `system`.
+    multipliers : ndarray (k, m)
+        Constraint reactions with the sign of (7), ``M vdot + d = f - C.T @ multipliers``.
+    position_violation : ndarray (k, mh)
+        Phi of (3).
+    velocity_violation : ndarray (k, m)
+        Psi of (5).
+    kinetic_energy : ndarray (k,)
+        In J.
+    potential_energy, energy_input, energy_violation : ndarray (k,) or None
+        V, the integral of the energy input rate, and Psi_E of (28), in J; None where the system declares no potential.
+    iterations : ndarray (k,)
+        Most position iterations of a step since the row before.
+    stats : dict
+        Counts (steps, evaluations, factorizations, ...) and `seconds`, the time spent in the core.
+    status : int
+        0 done, positive: ended early, negative: failed. What there is is valid in every case.
+    success : bool
+        Whether the end was reached.
+    message : str
+        What happened, in a sentence.
+    settings : dict
+        As `simulate` takes them: ``simulate(system, t_span, **settings)`` repeats the run.
+    system : system
+        What moved.
+    t_span : tuple of float
+        (t0, t1) as asked for.
+    """
+
+    t: np.ndarray
+    p: np.ndarray
+    v: np.ndarray
+    multipliers: np.ndarray
+    position_violation: np.ndarray
+    velocity_violation: np.ndarray
+    kinetic_energy: np.ndarray
+    potential_energy: np.ndarray | None
+    energy_input: np.ndarray | None
+    energy_violation: np.ndarray | None
+    iterations: np.ndarray
+    stats: dict[str, Any]
+    status: int
+    success: bool
+    message: str
+    settings: dict[str, Any]
+    system: BaseSystem
+    t_span: tuple[float, float]
+
+    def __repr__(self) -> str:
+        s, stats = self.settings, self.stats
+        steps = max(1, stats["steps"])
+        lines = [
+            f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._reached:g} s, {self.message}",
+            f"  how        {s['formulation']}, {s['integrator']}, step {s['step']:g} s, "
+            f"{s['stabilization'] or 'no stabilization'}" + (f", {s['energy']}" if s["energy"] else ""),
+            f"  cost       {1e3 * stats['seconds']:.3g} ms, {steps} steps of {1e6 * stats['seconds'] / steps:.3g} us, "
+            f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
+        ]
+        if self.system.m:
+            lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
+                         f"max |Psi| = {_largest(self.velocity_violation)}")
+        if self.energy_violation is not None:
+            lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
+        return "\n".join(lines)
+
+    @property
+    def _reached(self) -> float:
+        return float(self.t[-1]) if len(self.t) else self.t_span[0]
+
+    def save(self, path: str | Path) -> Path:
+        """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it.
+
+        Parameters
+        ----------
+        path : str or Path
+            The suffix ``.npz`` is added where it is missing.
+
+        Returns
+        -------
+        Path
+            Where it was written.
+        """
+        path = Path(path)
+        path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
+        rest = {name: value for name, value in values.items() if name not in arrays}
+        rest["system"] = self.system._described()
+        rest["settings"] = {name: _plain(value) for name, value in self.settings.items()}
+        np.savez_compressed(path, zerodrift=np.array(json.dumps(rest)), **arrays)
+        return path
+
+
+def load(path: str | Path) -> Solution:
+    """Read a solution that `Solution.save` wrote.
+
+    Raises
+    ------
+    ValueError
+        If the file is no saved solution.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = zd.load(sol.save(folder + "/motion"))
+    >>> bool((again.p == sol.p).all())
+    True
+    """
+    with np.load(path, allow_pickle=False) as file:
+        if "zerodrift" not in file:
+            raise ValueError(f"{path} is no solution saved by zerodrift")
+        rest = json.loads(str(file["zerodrift"]))
+        arrays = {name: file[name] for name in file.files if name != "zerodrift"}
+    for array in arrays.values():
+        array.flags.writeable = False
+    rest["t_span"] = tuple(rest["t_span"])
+    rest["system"] = _restored_system(rest["system"])
+    rest["settings"] = {name: _restored(value) for name, value in rest["settings"].items()}
+    return Solution(**arrays, **rest)
+
+
+_SETTINGS = {cls.__name__: cls for cls in (*STABILIZATIONS.values(), EnergyCorrection)}
+
+
+def _plain(value: Any) -> Any:
+    """A setting as JSON."""
+    if type(value).__name__ in _SETTINGS:
+        return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
+    return value
+
+
+def _restored(value: Any) -> Any:
+    return _SETTINGS[value.pop("kind")](**value) if isinstance(value, dict) else value
+
+
+class Described(BaseSystem):
+    """A system of which only the description was saved: enough for tables and plots, not for another run."""
+
+    def __init__(self, description: dict[str, Any]) -> None:
+        self.name = description["name"]
+        for group in ("coordinates", "velocities", "constraints"):
+            setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
+
+    m = property(lambda self: len(self.constraints), doc="Number of constraints.")
+
+    def __repr__(self) -> str:
+        return f"<description of {self.name}>"
+
+
+def _restored_system(description: dict[str, Any]) -> BaseSystem:
+    if "parameters" in description and description["name"] in systems.__all__:
+        return systems.BuiltIn(description["name"], description["parameters"])
+    return Described(description)
+
+
+def _largest(violation: np.ndarray) -> str:
+    return f"{np.abs(violation).max(initial=0.0):.2g}"

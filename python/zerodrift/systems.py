@@ -1,0 +1,107 @@
+"""The built-in systems: ``zd.systems.four_bar(...)`` and whatever else the core's table has.
+
+Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
+"""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import numpy as np
+
+from . import _check, _gateway
+from ._system import BaseSystem
+
+_KINDS = _gateway.kinds()
+
+
+class BuiltIn(BaseSystem):
+    """A system of the core's table with its parameters."""
+
+    def __init__(self, kind: str, parameters: dict[str, Any]) -> None:
+        row = _KINDS[kind]
+        unknown = set(parameters) - {parameter.name for parameter in row.parameters}
+        if unknown:
+            known = ", ".join(parameter.name for parameter in row.parameters)
+            raise TypeError(f"{kind} has no parameter {sorted(unknown)[0]!r}; it has {known}")
+        self._kind = row
+        self._given = dict(parameters)
+        values = [_values(parameter, parameters.get(parameter.name)) for parameter in row.parameters]
+        self._core, self.p0, self.v0 = row.make(np.concatenate(values))
+        self.p0.flags.writeable = self.v0.flags.writeable = False
+        self.name, self.parameters = kind, {p.name: _shown(p, v) for p, v in zip(row.parameters, values, strict=True)}
+        self.coordinates, self.velocities, self.constraints = row.coordinates, row.velocities, row.constraints
+
+    def points(self, p: Any) -> np.ndarray:
+        """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN."""
+        return self._kind.draw(self._core, _check.vector("p", p, self.nq))
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={value!r}" for name, value in self._given.items())
+        return f"zd.systems.{self.name}({given})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return BuiltIn, (self.name, self._given)
+
+    def _described(self) -> dict[str, Any]:
+        given = {name: np.asarray(value).tolist() for name, value in self._given.items()}
+        return {**super()._described(), "parameters": given}
+
+
+def _values(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
+    """The numbers the core is handed for a parameter."""
+    if given is None:
+        return np.array(parameter.initial or [np.nan] * parameter.size, dtype=float)
+    if parameter.rule == "choice":
+        words = parameter.text.split()
+        return np.array([float(words.index(_check.choice(parameter.name, given, words)))])
+    values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
+        parameter.name, given, parameter.size)
+    too_small = {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule)
+    if too_small is not None and too_small.any():
+        raise ValueError(f"{parameter.name} must be {parameter.rule}, not {given!r}")
+    return values
+
+
+def _shown(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
+    """A parameter's value as a user would write it; None where it is derived."""
+    if parameter.rule == "choice":
+        return parameter.text.split()[int(values[0])]
+    if np.isnan(values).any():
+        return None
+    return float(values[0]) if parameter.size == 1 else tuple(map(float, values))
+
+
+def _documentation(kind: _gateway.Kind) -> str:
+    lines = [f"{kind.card.summary}\n\nParameters\n----------"]
+    for parameter in kind.parameters:
+        shape = "" if parameter.size == 1 else f" ({parameter.size},)"
+        if parameter.rule == "choice":
+            lines.append(f"{parameter.name} : {{{', '.join(map(repr, parameter.text.split()))}}}")
+        else:
+            unit = f" in {parameter.unit}" if parameter.unit else ""
+            lines.append(f"{parameter.name} : float{shape}{unit}, {parameter.rule}\n    {parameter.text}")
+    named = {"Coordinates p": kind.coordinates, "Velocities v": kind.velocities, "Constraints": kind.constraints}
+    for title, variables in named.items():
+        lines.append(f"\n{title}: {', '.join(f'{name} [{unit}]' for name, unit in variables) or 'none'}.")
+    lines.append(f"\nSource: {kind.card.equations}.")
+    return "\n".join(lines)
+
+
+def _factory(kind: str) -> Any:
+    def make(**parameters: Any) -> BuiltIn:
+        return BuiltIn(kind, parameters)
+
+    row = _KINDS[kind]
+    make.__name__ = make.__qualname__ = kind
+    make.__doc__ = _documentation(row)
+    defaults = [_shown(p, _values(p, None)) for p in row.parameters]
+    make.__signature__ = inspect.Signature(
+        [inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=value)
+         for p, value in zip(row.parameters, defaults, strict=True)])
+    return make
+
+
+__all__ = list(_KINDS)
+globals().update({kind: _factory(kind) for kind in _KINDS})
