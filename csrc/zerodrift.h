@@ -144,7 +144,8 @@ typedef struct zd_projection {      /* (25)-(27) */
 
 typedef struct zd_baumgarte {       /* (23) */
     int on;
-    double alpha, beta;             /* 1/s, 1/s^2 */
+    double alpha, beta;             /* 1/s, 1/s^2: of Psi and Phi */
+    double integral;                /* 1/s^3: of the time integral of Phi; 0: not integrated */
 } zd_baumgarte;
 
 typedef struct zd_energy {          /* (28), (29) */

@@ -10,6 +10,7 @@
 #include "../linalg/small.h"
 
 enum { ALPHA_1, ALPHA_2, ALPHA_3, N = 3 };
+static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
 /* parameters, in the order of the table at the end */
 typedef struct given {
@@ -24,6 +25,7 @@ typedef struct given {
 /* what evaluate() needs of them */
 typedef struct constants {
     double l0, l[N];
+    double side;                /* of the diagonal that joint 3 is on: 1 open, -1 crossed */
     double diagonal[N];         /* M_ii, kg m^2 */
     double k12, k13, k23;       /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
     double weight[N];           /* -f_i / cos(alpha_i), N m */
@@ -95,20 +97,32 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return ZD_DONE;
 }
 
-/* ---- the start: alpha_2, alpha_3 and their rates from alpha_1 ---- */
+/* ---- alpha_2 and alpha_3 from alpha_1 ---- */
 
-/* Both angles close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
-static int close_loop(const given *q, double *p)
+/* alpha_2, alpha_3 in (-pi, pi] close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
+static int close_loop(double l0, const double *l, double side, double *p)
 {
-    double x = q->l[0] - q->l[1] * cos(q->angle), y = -q->l[1] * sin(q->angle), diagonal = hypot(x, y);
-    double cosine = (q->l[2] * q->l[2] + diagonal * diagonal - q->l[3] * q->l[3]) / (2 * q->l[2] * diagonal);
+    double x = l0 - l[0] * cos(p[ALPHA_1]), y = -l[0] * sin(p[ALPHA_1]), diagonal = hypot(x, y);
+    double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
     if (!(fabs(cosine) <= 1)) return 0;
-    double side = q->crossed ? -1 : 1;
-    p[ALPHA_1] = q->angle;
     p[ALPHA_2] = atan2(y, x) + side * acos(cosine);
-    p[ALPHA_3] = atan2(y - q->l[2] * sin(p[ALPHA_2]), x - q->l[2] * cos(p[ALPHA_2]));
+    p[ALPHA_3] = atan2(y - l[1] * sin(p[ALPHA_2]), x - l[1] * cos(p[ALPHA_2]));
     return 1;
 }
+
+/* (18), q = alpha_1: angles continue the turns they have made. */
+static int embed(const void *data, double t, const double *q, double *p)
+{
+    (void)t;
+    const constants *k = data;
+    double before[N] = {p[0], p[1], p[2]};
+    p[ALPHA_1] = q[0];
+    if (!close_loop(k->l0, k->l, k->side, p)) return ZD_NO_EMBEDDING;
+    for (int i = ALPHA_2; i < N; i++) p[i] += TURN * round((before[i] - p[i]) / TURN);
+    return ZD_DONE;
+}
+
+/* ---- the start ---- */
 
 static void close_rates(const given *q, const double *p, double *v)
 {
@@ -122,7 +136,8 @@ static void start(const double *parameters, double *p, double *v)
 {
     given q;
     memcpy(&q, parameters, sizeof q);
-    close_loop(&q, p);
+    p[ALPHA_1] = q.angle;
+    close_loop(q.l[0], q.l + 1, q.crossed ? -1 : 1, p);
     close_rates(&q, p, v);
 }
 
@@ -130,8 +145,8 @@ static const char *prepare(const double *parameters, double *to)
 {
     given q;
     memcpy(&q, parameters, sizeof q);
-    double p[N];
-    if (!close_loop(&q, p)) return "links of these lengths cannot close the loop at this crank_angle";
+    double p[N] = {q.angle};
+    if (!close_loop(q.l[0], q.l + 1, q.crossed ? -1 : 1, p)) return "links of these lengths cannot close the loop at this crank_angle";
     if (!(fabs(sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
     double J[N];
@@ -140,6 +155,7 @@ static const char *prepare(const double *parameters, double *to)
     constants k = {
         .l0 = q.l[0],
         .l = {l1, l2, l3},
+        .side = q.crossed ? -1 : 1,
         .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
         .k12 = (0.5 * m2 + m3) * l1 * l2,
         .k13 = 0.5 * m3 * l1 * l3,
@@ -184,6 +200,8 @@ const zd_kind zd_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .embed = embed,
+        .independent = (const int[]){ALPHA_1},
     },
     .parameters = sizeof parameter / sizeof parameter[0],
     .constants = sizeof(constants) / sizeof(double),
