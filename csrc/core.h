@@ -127,6 +127,7 @@ struct zd_run {
     int extras;             /* numbers in the state that corrections add */
     double *input;          /* the last of y where the system has energy input, else 0 */
     double *Psi;            /* (m,) */
+    double *factor;         /* (nv, nv): of M at the start, to see whether it is positive definite */
     double no_input;
     double energy0;         /* E0 of (28) */
     long step, steps;       /* done, to do */

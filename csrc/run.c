@@ -2,9 +2,11 @@
 #include <stdio.h>
 
 #include "core.h"
+#include "linalg/small.h"
 #include "registry.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
+static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
 
 /* ---- memory ---- */
 
@@ -47,6 +49,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
     run.state = run.y = zd_take_doubles(arena, (size_t)size);
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
+    run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
     if (here) {
         *here = run;
@@ -114,6 +117,23 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
+/* Formulations need not notice: some read half of M, some only parts of it. */
+static int check_mass(zd_run *run)
+{
+    zd_point *point = run->point;
+    int n = run->system.nv, status = zd_point_need(point, ZD_M);
+    if (status) return status;
+    const double *M = point->terms.M;
+    double largest = zd_max_abs(n * n, M);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            point->culprit = i;
+            if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
+        }
+    point->culprit = zd_cholesky(n, M, run->factor);
+    return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
+}
+
 static int start_energy(zd_run *run)
 {
     double kinetic;
@@ -124,6 +144,7 @@ static int start_energy(zd_run *run)
 static int start(zd_run *run)
 {
     int status = check_constraints(run);
+    if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = start_energy(run);

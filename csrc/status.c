@@ -15,6 +15,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)", culprit);
         break;
+    case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", culprit); break;
     case ZD_DEPENDENT:
         snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", culprit);
         break;

@@ -27,7 +27,8 @@ enum zd_status {
     ZD_NO_MEMORY = -9,
     ZD_CALLBACK = -10,        /* a system's own evaluation failed */
     ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
-    ZD_NO_EMBEDDING = -12     /* p = g(q) was not solved */
+    ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
+    ZD_NOT_SYMMETRIC = -13    /* M is not */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -63,6 +64,9 @@ typedef struct zd_terms {
     double *gamma;      /* (nv,) */
     double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
 } zd_terms;
+
+/* Whether all are finite: for systems that check what they are given. */
+int zd_all_finite(const double *x, int count);
 
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns 0, or ZD_CALLBACK. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
