@@ -7,6 +7,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->point;
     const zd_projection *projection = &run->settings.projection;
+    const char *failure = run->system.failure;
     int culprit = point->culprit;
     switch (status) {
     case ZD_NOT_FINITE:
@@ -28,7 +29,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NO_STEP:
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "the system's own evaluation failed"); break;
+    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }

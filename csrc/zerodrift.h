@@ -68,6 +68,7 @@ typedef struct zd_system {
     int scratch;        /* doubles it keeps per run */
     zd_evaluate *evaluate;
     const void *data;   /* its parameters, or whatever it wants to be handed */
+    const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
 
 /* ---- the four tables ---- */
