@@ -82,6 +82,7 @@ typedef struct zd_system {
     const void *data;   /* its parameters, or whatever it wants to be handed */
     zd_embed *embed;    /* may be NULL: then g is found numerically */
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
+    const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
 
 /* ---- the four tables ---- */
