@@ -136,7 +136,18 @@ double zd_max_abs(int n, const double *x)
     return largest;
 }
 
-int zd_all_finite(const double *x, int count)
+int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms)
 {
-    return isfinite(zd_max_abs(count, x));
+    int nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    const struct {
+        int term, count;
+        const double *x;
+    } all[] = {
+        {ZD_A, nq * nv, terms->A}, {ZD_M, nv * nv, terms->M},       {ZD_BIAS, nv, terms->d}, {ZD_FORCE, nv, terms->f},
+        {ZD_C, m * nv, terms->C},  {ZD_PHI, system->mh, terms->Phi}, {ZD_XI, m, terms->xi},   {ZD_PHI_T, m, terms->Phi_t},
+        {ZD_POTENTIAL, 1, terms->V}, {ZD_POWER, 1, terms->power},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if ((want & all[i].term) && !isfinite(zd_max_abs(all[i].count, all[i].x))) return all[i].term;
+    return 0;
 }

@@ -65,9 +65,6 @@ typedef struct zd_terms {
     double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
 } zd_terms;
 
-/* Whether all are finite: for systems that check what they are given. */
-int zd_all_finite(const double *x, int count);
-
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns 0, or ZD_CALLBACK. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
@@ -84,6 +81,9 @@ typedef struct zd_system {
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
+
+/* The first of the wanted terms that has an entry which is not finite, as its bit; 0: there is none. */
+int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms);
 
 /* ---- the four tables ---- */
 

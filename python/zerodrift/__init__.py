@@ -10,6 +10,7 @@ import importlib
 from typing import Any
 
 from . import systems
+from .checking import check
 from .custom import System
 from .errors import (
     CorrectionFailed,
@@ -32,7 +33,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted",
     "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System", "UnreachableTolerance", "ZerodriftError",
-    "acceleration", "assemble", "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
+    "acceleration", "assemble", "check", "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
 ]
 
 

@@ -200,32 +200,41 @@ class CoreSystem:
 class Evaluator:
     """Between the core's evaluation of one run and the callables of a system.
 
-    The core hands the same memory to each call of a run, so the arrays over it are made once. `write` is handed the
-    wanted terms' names, t, p, v and these arrays; what it raises is kept, and the run stops.
+    The core hands the same memory to each call of a run, so the arrays over it are made once. What `write` raises is kept,
+    and the run stops.
     """
 
     def __init__(self, core: PythonCore) -> None:
         self.core, self.error = core, None
-        self._known, self._arrays = None, None
+        self._memory, self._arrays = None, None
 
     def arrays(self, p: Any, v: Any, terms: Any) -> dict[str, np.ndarray]:
         """Arrays over the memory of (p, v) and of the terms."""
-        if self._known == (p, v, terms):
-            return self._arrays
+        memory = (p, v, ffi.buffer(terms)[:])
+        if memory != self._memory:
+            self._memory, self._arrays = memory, self._over(p, v, terms)
+        return self._arrays
+
+    def _over(self, p: Any, v: Any, terms: Any) -> dict[str, np.ndarray]:
         core = self.core
         arrays = {"p": _over(p, (core.nq,)), "v": _over(v, (core.nv,))}
         arrays["p"].flags.writeable = arrays["v"].flags.writeable = False
         for name, (bit, shape) in TERMS.items():
             if core.provides & bit:
                 arrays[name] = _over(getattr(terms, name), [getattr(core, size) for size in shape])
-        self._known, self._arrays = (p, v, terms), arrays
+        if "C" in arrays:
+            arrays["C_H"], arrays["C_NH"] = arrays["C"][: core.mh], arrays["C"][core.mh :]
         return arrays
 
     def evaluate(self, want: int, t: float, p: Any, v: Any, terms: Any) -> int:
         """What the core calls."""
         try:
             self.core.write(want, t, self.arrays(p, v, terms))
-        except BaseException as error:      # noqa: BLE001 - it surfaces where the run was started
+            bit = lib.zd_first_not_finite(self.core.c, want, terms)
+            if bit:
+                name = next(name for name, (mine, _) in TERMS.items() if mine == bit)
+                raise self.core.write.not_finite(name, t, self._arrays[name])
+        except BaseException as error:      # it surfaces where the run was started
             self.error = error
             return lib.ZD_CALLBACK
         return lib.ZD_DONE
@@ -244,7 +253,11 @@ def zd_evaluate_in_python(data, want, t, p, v, terms):  # noqa: D103
 
 
 class PythonCore(CoreSystem):
-    """A system whose terms `write` computes: write(want, t, arrays), where `want` is a mask of the bits of TERMS."""
+    """A system whose terms `write` computes.
+
+    ``write(want, t, arrays)`` fills the arrays of the terms whose bits are in `want`, from `arrays["p"]` and `arrays["v"]`;
+    ``write.not_finite(name, t, value)`` is the error for a term that came out not finite.
+    """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None]) -> None:
         system = ffi.new("zd_system *")
@@ -268,11 +281,6 @@ class PythonCore(CoreSystem):
     def error(self) -> BaseException | None:
         """What a callable raised."""
         return self.evaluator.error if self.evaluator else None
-
-
-def all_finite(array: np.ndarray) -> bool:
-    """Whether a contiguous array has only finite entries."""
-    return bool(lib.zd_all_finite(ffi.from_buffer("double[]", array), array.size))
 
 
 # ---- runs ----

@@ -189,8 +189,6 @@ class _Function:
         if value.shape != out.shape:
             raise ValueError(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
         out[...] = value
-        if not _gateway.all_finite(out):
-            raise ValueError(f"{self.name} is not finite at t = {t:g}: {value}")
 
     def jets(self, shape: tuple[int, ...], t: Any, p: Any, v: Any) -> Any:
         """Its value with derivatives."""
@@ -245,65 +243,84 @@ def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.
             raise ValueError(f"{name} must return shape {expected}, not {found}")
 
 
+# Which callable gives a term directly.
+_SOURCE = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential", "power": "power",
+           "xi": "xi"}
+
+
 class _Writer:
     """Writes the wanted terms into the core's arrays, (2)-(6), deriving what is not given."""
-
-    DIRECT: ClassVar = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential",
-                        "power": "power", "xi": "xi"}
 
     def __init__(self, functions: dict[str, _Function], nq: int, nv: int, mh: int, mn: int) -> None:
         self.functions, self.nq, self.nv, self.mh, self.mn = functions, nq, nv, mh, mn
         moving = "constraints" in functions and "t" in functions["constraints"].wants
-        self.provides = [name for name, source in self.DIRECT.items() if source in functions]
+        self.provides = [name for name, source in _SOURCE.items() if source in functions]
         self.provides += ["C", "xi"] * bool(mh + mn) + ["Phi_t"] * moving
-        self._direct = [(BIT[name], name, functions[source]) for name, source in self.DIRECT.items() if source in functions]
-        self._constrained = BIT["C"] | BIT["Phi_t"] | (0 if "xi" in functions else BIT["xi"])
+        self._direct = {name: functions[source] for name, source in _SOURCE.items() if source in functions}
+        if "kinematics" not in functions and "jacobian" in functions:
+            self._direct["C_H"] = functions["jacobian"]
+        if mn:
+            self._direct["C_NH"] = functions["nonholonomic"]
+        self._plans: dict[int, tuple[list[tuple[str, _Function]], frozenset[str]]] = {}
 
     def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+        plan = self._plans.get(want)
+        if plan is None:
+            plan = self._plans[want] = self._plan(want)
+        direct, derived = plan
         p, v = arrays["p"], arrays["v"]
-        if "A" in arrays and want & self._constrained:
-            want |= BIT["A"]
-        for bit, name, function in self._direct:
-            if want & bit:
-                function.write(arrays[name], t, p, v)
-        if self.mh and want & self._constrained:
-            self._write_holonomic(want, t, arrays)
-        if self.mn and want & self._constrained:
-            self._write_nonholonomic(want, t, arrays)
+        for name, function in direct:
+            function.write(arrays[name], t, p, v)
+        if derived:
+            self._derive(derived, t, arrays)
 
-    def _write_holonomic(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+    def _plan(self, want: int) -> tuple[list[tuple[str, _Function]], frozenset[str]]:
+        """What is called for these terms, and what of them is derived. Rows of C and xi go by group."""
+        names = {name for name, bit in BIT.items() if want & bit}
+        grouped = {"C"} if "xi" in self.functions else {"C", "xi"}
+        for name in names & grouped:
+            names = names | ({f"{name}_H"} if self.mh else set()) | ({f"{name}_NH"} if self.mn else set())
+        names -= grouped
+        derived = frozenset(names - set(self._direct))
+        if derived and "A" in self._direct:
+            names.add("A")
+        return [(name, function) for name, function in self._direct.items() if name in names], derived
+
+    def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
+        """The error for a term that is not finite: it names the callable."""
+        source = _SOURCE.get(name)
+        if source not in self.functions:
+            source = "constraints" if self.mh else "nonholonomic"
+            name = f"{name}, derived from it,"
+            return ValueError(f"{source}: {name} is not finite at t = {t:g}: {value}")
+        return ValueError(f"{source} is not finite at t = {t:g}: {value}")
+
+    def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         p, v, mh = arrays["p"], arrays["v"], self.mh
-        given = self.functions.get("jacobian")
-        if want & BIT["C"] and given:
+        if "C_H" in derived and "jacobian" in self.functions:
             jacobian = np.empty((mh, self.nq))
-            given.write(jacobian, t, p, v)
-            self._write_rows(jacobian, arrays)
-        derive_xi = want & BIT["xi"] and "xi" not in self.functions
-        derive_c = want & BIT["C"] and not given
-        if not (derive_c or derive_xi or want & BIT["Phi_t"]):
-            return
-        jets = self.functions["constraints"].jets((mh,), *self._along(t, arrays, gradients=bool(derive_c or want & BIT["Phi_t"])), v)
-        if derive_c or want & BIT["Phi_t"]:
-            gradient = _jets.part(jets, "gradient", self.nq + 1)
-            if derive_c:
-                self._write_rows(gradient[:, :-1], arrays)
-            if want & BIT["Phi_t"]:
-                arrays["Phi_t"][:mh] = gradient[:, -1]
-                arrays["Phi_t"][mh:] = 0.0
-        if derive_xi:
-            arrays["xi"][:mh] = -_jets.part(jets, "second")                 # (6)
-
-    def _write_rows(self, jacobian: np.ndarray, arrays: dict[str, np.ndarray]) -> None:
-        arrays["C"][: self.mh] = jacobian @ arrays["A"] if "A" in arrays else jacobian      # (5)
-
-    def _write_nonholonomic(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
-        p, v, mh = arrays["p"], arrays["v"], self.mh
-        rows = self.functions["nonholonomic"]
-        if want & BIT["C"]:
-            rows.write(arrays["C"][mh:], t, p, v)
-        if want & BIT["xi"] and "xi" not in self.functions:
-            jets = rows.jets((self.mn, self.nv), *self._along(t, arrays, gradients=False), v)
+            self.functions["jacobian"].write(jacobian, t, p, v)
+            arrays["C_H"][...] = jacobian @ arrays["A"]                     # (5)
+            derived = derived - {"C_H"}
+        if derived - {"xi_NH"}:
+            self._differentiate(derived, t, arrays)
+        if "xi_NH" in derived:
+            jets = self.functions["nonholonomic"].jets((self.mn, self.nv), *self._along(t, arrays, gradients=False), v)
             arrays["xi"][mh:] = -_jets.part(jets, "first") @ v              # (6): xi = -Cdot v
+
+    def _differentiate(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
+        """Derivatives of the holonomic constraints, all that are wanted in one pass."""
+        gradients = not derived.isdisjoint({"C_H", "Phi_t"})
+        jets = self.functions["constraints"].jets((self.mh,), *self._along(t, arrays, gradients=gradients), arrays["v"])
+        gradient = _jets.part(jets, "gradient", self.nq + 1) if gradients else None
+        if "C_H" in derived:
+            rows = gradient[:, :-1]
+            arrays["C_H"][...] = rows @ arrays["A"] if "A" in arrays else rows      # (5)
+        if "Phi_t" in derived:
+            arrays["Phi_t"][: self.mh] = gradient[:, -1]
+            arrays["Phi_t"][self.mh :] = 0.0
+        if "xi_H" in derived:
+            arrays["xi"][: self.mh] = -_jets.part(jets, "second")           # (6)
 
     def _along(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
         """(t, p) as jets: along the motion with vdot = 0, there pddot = Adot v, and with gradients in (p, t) if wanted."""

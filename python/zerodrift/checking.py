@@ -1,0 +1,213 @@
+"""`check`: compare everything a system supplies against derivatives and balances, and say in words what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _check
+from ._system import BaseSystem, Terms
+from .errors import ZerodriftError
+from .operations import acceleration, project
+from .settings import Projection
+
+STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, in units of what is varied
+AGREE = 1e-5                            # relative: far above the 1e-10 a difference leaves, far below any mistake
+SPREAD = 0.1                            # of the sampled states about the start
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What `check` found: true where nothing is wrong.
+
+    Attributes
+    ----------
+    system : str
+        Name of the system.
+    states : int
+        How many states were looked at.
+    checks : tuple of str
+        What was compared.
+    problems : tuple of str
+        What is wrong, a sentence each.
+    """
+
+    system: str
+    states: int
+    checks: tuple[str, ...]
+    problems: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return not self.problems
+
+    def __repr__(self) -> str:
+        head = f"{self.system}: {', '.join(self.checks)} compared at {self.states} states: "
+        return head + ("nothing wrong" if self else "\n".join(["", *(f"  * {problem}" for problem in self.problems)]))
+
+
+def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, samples: int = 5, seed: int = 0) -> Report:
+    """Compare what a system supplies against derivatives, symmetry, definiteness and the balance of power.
+
+    Derivatives are central differences, so that nothing is shared with what they are compared to.
+
+    Parameters
+    ----------
+    system : system
+    p, v : array_like (nq,), (nv,), optional
+        A state to look at; left out: the system's start.
+    t : float
+        Time in s.
+    samples : int
+        How many further states about it are looked at; they are drawn at random and put onto the constraints.
+    seed : int
+        Of the random states.
+
+    Returns
+    -------
+    Report
+        True where nothing is wrong; printed, it says what is.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> bool(zd.check(zd.systems.four_bar()))
+    True
+    """
+    p, v = system._start(p, v, "p", "v")
+    t, problems, names, states = _check.number("t", t), {}, {}, 0
+    for p_now, v_now in [(p, v), *_samples(system, p, v, t, _check.count("samples", samples, least=0), seed)]:
+        states += 1
+        for compare in COMPARISONS:
+            for name, problem in compare(_State(system, t, p_now, v_now)):
+                names[name] = True
+                if problem:
+                    problems.setdefault(name, f"{name}: {problem}")
+    return Report(system.name, states, tuple(names), tuple(problems.values()))
+
+
+class _State:
+    """A state, its terms, and derivatives there by central differences."""
+
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> None:
+        self.system, self.t, self.p, self.v = system, t, p, v
+        self.terms: Terms = system.evaluate(p, v, t)
+        self.pdot = self.rate(v)
+
+    def rate(self, v: np.ndarray) -> np.ndarray:
+        """A v, (1)."""
+        return v if self.terms.A is None else self.terms.A @ v
+
+    def along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, vdot: Any = 0.0, tdot: float = 0.0) -> Any:
+        """The derivative of quantity(terms, v) in the direction (tdot, pdot, vdot)."""
+        size = max(np.abs(pdot).max(initial=0.0), np.abs(vdot).max(initial=0.0), abs(tdot), 1e-300)
+        h = STEP / size * max(1.0, np.abs(self.p).max(initial=0.0))
+        ends = []
+        for s in (h, -h):
+            v = self.v + s * vdot
+            ends.append(np.array(quantity(self.system.evaluate(self.p + s * pdot, v, self.t + s * tdot), v)))
+        return (ends[0] - ends[1]) / (2 * h)
+
+
+def _samples(system: BaseSystem, p: np.ndarray, v: np.ndarray, t: float, samples: int, seed: int) -> Iterator[tuple[Any, Any]]:
+    random = np.random.default_rng(seed)
+    for _ in range(samples):
+        guess = p + SPREAD * random.standard_normal(system.nq) * max(np.abs(p).max(initial=0.0), 1e-3)
+        rates = v + random.standard_normal(system.nv) * max(np.abs(v).max(initial=0.0), 1.0)
+        try:
+            yield project(system, guess, rates, t, projection=Projection(tol=1e-9, max_iterations=50))
+        except ZerodriftError:      # too far away, or a wrong Jacobian: the state itself will do
+            yield guess, rates
+
+
+def _disagreement(given: Any, derived: Any, what: str) -> str:
+    """A sentence where the two differ, else nothing."""
+    given, derived = np.atleast_1d(given), np.atleast_1d(derived)
+    size = max(np.abs(given).max(initial=0.0), np.abs(derived).max(initial=0.0), 1e-3)
+    worst = np.abs(given - derived).max(initial=0.0)
+    if worst <= AGREE * size:
+        return ""
+    where = np.unravel_index(np.abs(given - derived).argmax(), given.shape)
+    place = f"entry {tuple(map(int, where))}" if given.size > 1 else "it"
+    sentence = f"{what}: {place} is {given[where]:.6g} and should be {derived[where]:.6g}"
+    return sentence + (" (the sign is wrong)" if np.abs(given + derived).max() <= AGREE * size else "")
+
+
+# ---- the comparisons: each yields (name, problem or nothing) ----
+
+
+def _mass(state: _State) -> Iterator[tuple[str, str]]:
+    M = state.terms.M
+    yield "symmetry of mass", _disagreement(M, M.T, "M is not its own transpose") if M.size else ""
+    lowest = np.linalg.eigvalsh((M + M.T) / 2).min(initial=1.0)
+    yield "definiteness of mass", "" if lowest > 0 else f"M is not positive definite, its lowest eigenvalue is {lowest:.3g}"
+
+
+def _consistency(state: _State) -> Iterator[tuple[str, str]]:
+    C = state.terms.C
+    if C is None:
+        return
+    rank = np.linalg.matrix_rank(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300))
+    yield "rank of constraints", "" if rank == len(C) else f"of {len(C)} constraints only {rank} are independent"
+
+
+def _jacobian(state: _State) -> Iterator[tuple[str, str]]:
+    terms, mh = state.terms, state.system.mh
+    if not mh:
+        return
+    columns = [state.along(lambda at, v: at.Phi, pdot=state.rate(unit)) for unit in np.eye(state.system.nv)]
+    yield "jacobian", _disagreement(terms.C[:mh], np.stack(columns, axis=1), "C is not dPhi/dp A")
+    Phi_t = state.along(lambda at, v: at.Phi, tdot=1.0)
+    given = np.zeros(mh) if terms.Phi_t is None else terms.Phi_t[:mh]
+    yield "time derivative of constraints", _disagreement(given, Phi_t, "Phi_t is not dPhi/dt")
+
+
+def _xi(state: _State) -> Iterator[tuple[str, str]]:
+    if state.terms.xi is None:
+        return
+    Psi_rate = state.along(_velocity_violation, pdot=state.pdot, tdot=1.0)
+    yield "xi", _disagreement(state.terms.xi, -Psi_rate, "xi is not what C vdot has to be")
+
+
+def _velocity_violation(terms: Terms, v: np.ndarray) -> np.ndarray:
+    return terms.C @ v + (0.0 if terms.Phi_t is None else terms.Phi_t)
+
+
+def _complement(state: _State) -> Iterator[tuple[str, str]]:
+    terms = state.terms
+    if terms.D is None:
+        return
+    yield "complement", _disagreement(terms.C @ terms.D, np.zeros((state.system.m, terms.D.shape[1])), "C D is not zero")
+    yield "gamma", _disagreement(terms.C @ terms.gamma, terms.xi, "C gamma is not xi")
+
+
+def _power(state: _State) -> Iterator[tuple[str, str]]:
+    """The balance of power along the motion; where it does not close, its halves say where to look."""
+    terms, v = state.terms, state.v
+    if terms.V is None:
+        return
+    try:
+        vdot, multipliers = acceleration(state.system, state.p, v, state.t)
+    except ZerodriftError:
+        return      # said elsewhere: the mass or the constraints are at fault
+    zero = np.zeros(state.system.nv)
+    f, d = (zero if x is None else x for x in (terms.f, terms.d))
+    given = 0.0 if terms.power is None else float(terms.power)
+    moving = 0.0 if terms.Phi_t is None else float(multipliers @ terms.Phi_t)
+    reaction = float(-multipliers @ (terms.C @ v)) if terms.C is not None else 0.0      # as v may be off the constraints
+    rate = float(state.along(lambda at, v: 0.5 * v @ at.M @ v + at.V, pdot=state.pdot, vdot=vdot, tdot=1.0))
+    scale = max(abs(float(v @ f)), abs(float(v @ d)), abs(given), abs(moving), abs(reaction), 1e-3)
+    if abs(rate - given - reaction) <= AGREE * scale:
+        yield "balance of power", ""
+        return
+    V_rate = float(state.along(lambda at, v: at.V, pdot=state.pdot, tdot=1.0))
+    T_rate = 0.5 * float(state.along(lambda at, v: v @ at.M @ v, pdot=state.pdot, tdot=1.0))
+    halves = [_disagreement(v @ f, given - V_rate, "v . force is not power - dV/dt"),
+              _disagreement(v @ d, T_rate, "v . bias is not the rate of v . M v / 2 at fixed v")]
+    yield "balance of power", "; ".join(half for half in halves if half) or (
+        f"T + V changes at {rate:.6g} W, and {given + reaction:.6g} W come in")
+
+
+COMPARISONS = (_mass, _consistency, _jacobian, _xi, _complement, _power)
