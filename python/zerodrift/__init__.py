@@ -31,9 +31,10 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted",
-    "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System", "UnreachableTolerance", "ZerodriftError",
-    "acceleration", "assemble", "check", "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
+    "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
+    "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
+    "UnreachableTolerance", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
+    "integrators", "load", "plot", "project", "simulate", "systems",
 ]
 
 

@@ -248,7 +248,7 @@ def _over(pointer: Any, shape: Any) -> np.ndarray:
 
 
 @ffi.def_extern()
-def zd_evaluate_in_python(data, want, t, p, v, terms):  # noqa: D103
+def zd_evaluate_in_python(data, want, t, p, v, terms):
     return ffi.from_handle(ffi.cast("void *", data)).evaluate(want, t, p, v, terms)
 
 

@@ -56,6 +56,7 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     Parameters
     ----------
     system : system
+        One of `zerodrift.systems`, or a `zerodrift.System`.
     p, v : array_like (nq,), (nv,), optional
         A state to look at; left out: the system's start.
     t : float

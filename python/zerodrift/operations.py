@@ -21,6 +21,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     Parameters
     ----------
     system : system
+        One of `zerodrift.systems`, or a `zerodrift.System`.
     p : array_like (nq,)
         Guess of the coordinates.
     v : array_like (nv,), optional
@@ -69,6 +70,7 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
     Parameters
     ----------
     system : system
+        One of `zerodrift.systems`, or a `zerodrift.System`.
     p, v : array_like (nq,), (nv,)
         The state to be corrected; it is not changed.
     t : float
@@ -110,6 +112,7 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     Parameters
     ----------
     system : system
+        One of `zerodrift.systems`, or a `zerodrift.System`.
     p, v : array_like (nq,), (nv,)
         The state. It need not satisfy the constraints.
     t : float
