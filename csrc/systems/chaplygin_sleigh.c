@@ -45,6 +45,8 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     }
     if (want & ZD_C) memcpy(out->C, (double[]){-h->s, h->c, 0}, N * sizeof(double));           /* (5) */
     if (want & ZD_XI) *out->xi = v[PHI] * (h->c * v[X] + h->s * v[Y]);                         /* (6) */
+    if (want & ZD_COMPLEMENT) zd_skate_complement(h->s, h->c, out->D);
+    if (want & ZD_GAMMA) zd_skate_gamma(h->s, h->c, v, out->gamma);
     if (want & ZD_POTENTIAL) *out->V = 0;
     return ZD_DONE;
 }
@@ -87,7 +89,7 @@ const zd_kind zd_chaplygin_sleigh = {
              "Bloch, section 1.7", 0},
     .system = {
         .nq = N, .nv = N, .mn = 1,
-        .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },

@@ -37,6 +37,8 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     if (want & ZD_FORCE) memcpy(out->f, (double[]){k->weight, 0, 0}, N * sizeof(double));
     if (want & ZD_C) memcpy(out->C, (double[]){a->s, -a->c, 0}, N * sizeof(double));           /* (5) */
     if (want & ZD_XI) *out->xi = -v[PHI] * (a->c * v[X] + a->s * v[Y]);                        /* (6) */
+    if (want & ZD_COMPLEMENT) zd_skate_complement(a->s, a->c, out->D);
+    if (want & ZD_GAMMA) zd_skate_gamma(a->s, a->c, v, out->gamma);
     if (want & ZD_POTENTIAL) *out->V = -k->weight * p[X];
     return ZD_DONE;
 }
@@ -82,7 +84,7 @@ const zd_kind zd_knife_edge = {
     .card = {"knife_edge", "Knife edge on an inclined plane: one nonholonomic constraint.", "Bloch, section 1.6", 0},
     .system = {
         .nq = N, .nv = N, .mn = 1,
-        .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },

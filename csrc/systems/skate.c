@@ -13,6 +13,24 @@ void zd_skate_start(const zd_skate_launch *launch, double *p, double *v)
     v[ZD_SKATE_PHI] = launch->turn_rate;
 }
 
+void zd_skate_complement(double sine, double cosine, double *D)
+{
+    const double rows[] = {
+        cosine, 0,
+        sine, 0,
+        0, 1,
+    };
+    memcpy(D, rows, sizeof rows);                                       /* (14) */
+}
+
+void zd_skate_gamma(double sine, double cosine, const double *v, double *gamma)
+{
+    double along = cosine * v[ZD_SKATE_X] + sine * v[ZD_SKATE_Y], turn = v[ZD_SKATE_PHI];
+    gamma[ZD_SKATE_X] = -along * turn * sine;                           /* (15): Ddot u */
+    gamma[ZD_SKATE_Y] = along * turn * cosine;
+    gamma[ZD_SKATE_PHI] = 0;
+}
+
 void zd_skate_draw(int n, const double (*outline)[2], const double *p, double *points)
 {
     double s = sin(p[ZD_SKATE_PHI]), c = cos(p[ZD_SKATE_PHI]);

@@ -14,6 +14,9 @@ typedef struct zd_skate_launch {
 
 extern const zd_variable zd_skate_coordinate[], zd_skate_velocity[], zd_skate_constraint[];
 
+/* Of speeds u = [along the edge, turn rate]: D (3, 2) of (14) and gamma (3,) of (15). */
+void zd_skate_complement(double sine, double cosine, double *D);
+void zd_skate_gamma(double sine, double cosine, const double *v, double *gamma);
 /* A consistent start from the origin. */
 void zd_skate_start(const zd_skate_launch *launch, double *p, double *v);
 /* Puts an outline given along and across the edge, in m, where the edge is. */
