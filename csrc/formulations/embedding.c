@@ -111,6 +111,11 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)
 {
     const zd_system *system = point->system;
+    if (self->k == self->nq) {                                          /* no constraint on p: q is all of it */
+        for (int k = 0; k < self->k; k++) self->p[self->index[k]] = q[k];
+        zd_point_move(point, t, self->p, point->v);
+        return ZD_DONE;
+    }
     if (!system->embed) return place_numerically(self, point, t, q);
     memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
     int status = system->embed(system->data, t, q, self->p);            /* (18) */

@@ -1,0 +1,259 @@
+"""Systems written in NumPy: the same motion as their counterparts in C, exact derivatives, and errors that say what is wrong."""
+
+import pickle
+import signal
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import FORMULATIONS, SYSTEMS, assert_close
+
+ANGLES = ["alpha1", "alpha2", "alpha3"]
+GIVEN = {"l0": 1.0, "l": np.array([0.3, 1.0, 0.6]), "m": np.array([1.5, 5.0, 3.0]), "g": 9.81}
+AHEAD = np.array([[0.5, 1, 1], [0, 0.5, 1], [0, 0, 0.5]])     # where along link i the weight of link j pulls
+
+
+def mass(p, l, m):      # noqa: E741
+    """Sum of m_j J_j^T J_j over the link midpoints, with slender links."""
+    M = np.diag(m * l**2 / 12)
+    for j in range(3):
+        arms = AHEAD[:, j] * l
+        M = M + m[j] * np.outer(arms, arms) * np.cos(p[:, None] - p)
+    return M
+
+
+def bias(p, v, l, m):   # noqa: E741
+    d = np.zeros(3)
+    for j in range(3):
+        arms = AHEAD[:, j] * l
+        d += m[j] * arms * (np.sin(p[:, None] - p) @ (arms * v**2))
+    return d
+
+
+def force(p, l, m, g):  # noqa: E741
+    return -g * (AHEAD @ m) * l * np.cos(p)
+
+
+def constraints(p, l0, l):      # noqa: E741
+    return np.array([l @ np.cos(p) - l0, l @ np.sin(p)])
+
+
+def jacobian(p, l):     # noqa: E741
+    return np.array([-l * np.sin(p), l * np.cos(p)])
+
+
+def xi(p, v, l):        # noqa: E741
+    return np.array([(l * v**2) @ np.cos(p), (l * v**2) @ np.sin(p)])
+
+
+def potential(p, l, m, g):      # noqa: E741
+    return g * (AHEAD @ m) * l @ np.sin(p)
+
+
+def four_bar(**changes):
+    bar = SYSTEMS["four_bar"]
+    terms = {"mass": mass, "bias": bias, "force": force, "constraints": constraints, "jacobian": jacobian, "xi": xi,
+             "potential": potential, "parameters": GIVEN, "p0": bar.p0, "v0": bar.v0}
+    return zd.System(ANGLES, **{key: value for key, value in (terms | changes).items() if value is not None})
+
+
+DERIVED = {"jacobian": None, "xi": None}
+
+
+def raising(error):
+    """A force that raises on its two hundredth call."""
+    calls = []
+
+    def force_until(p, l, m, g):    # noqa: E741
+        calls.append(1)
+        if len(calls) == 200:
+            raise error
+        return force(p, l, m, g)
+
+    return force_until
+
+
+# ---- the same motion ----
+
+
+@pytest.mark.parametrize("changes", [{}, DERIVED, {"xi": None}], ids=["given", "derived", "xi derived"])
+def test_same_trajectory_as_in_c(formulation, changes):
+    options = {"step": 0.01, "formulation": formulation, "energy": True}
+    mine, core = zd.simulate(four_bar(**changes), 0.5, **options), zd.simulate(SYSTEMS["four_bar"], 0.5, **options)
+    assert_close(mine.p, core.p, 1e-13)
+    assert_close(mine.multipliers, core.multipliers, 1e-11)
+
+
+def test_terms_derived_are_those_given():
+    state = [1.0, 0.4, -1.3], [1.0, -2.0, 0.5]
+    derived, given = four_bar(**DERIVED).evaluate(*state), four_bar().evaluate(*state)
+    assert_close(derived.C, given.C, 1e-15)
+    assert_close(derived.xi, given.xi, 1e-15)
+
+
+def test_kinematics_enter_the_derived_terms():
+    """A pendulum in polar quasi-velocities: p = (x, y), v = (radial, tangential), so that A turns with p."""
+    def kinematics(p):
+        r = np.sqrt(p @ p)
+        return np.array([[p[0], -p[1]], [p[1], p[0]]]) / r
+
+    plain = zd.System(2, mass=np.eye(2), force=[0.0, -9.81], constraints=lambda p: np.array([p @ p - 1.0]) / 2,
+                      potential=lambda p: 9.81 * p[1], p0=[1.0, 0.0])
+    turning = zd.System(
+        2, mass=np.eye(2), kinematics=kinematics, constraints=lambda p: np.array([p @ p - 1.0]) / 2,
+        force=lambda p: kinematics(p).T @ np.array([0.0, -9.81]),
+        bias=lambda p, v: np.array([-v[1] ** 2, v[0] * v[1]]) / np.sqrt(p @ p),
+        potential=lambda p: 9.81 * p[1], p0=[1.0, 0.0])
+    assert zd.check(turning)
+    for formulation in FORMULATIONS:
+        a, b = (zd.simulate(system, 1.0, step=0.001, formulation=formulation, save_every=100) for system in (plain, turning))
+        assert_close(a.p, b.p, 1e-8)
+        assert_close(a.multipliers, b.multipliers, 1e-6)
+
+
+def test_time_dependent_constraint_is_derived_and_does_work():
+    """A bead on a rod that turns at a prescribed angle: r grows as cosh, the drive does the work."""
+    system = zd.System(
+        ["x", "y"], mass=np.eye(2), potential=lambda p: 0.0,
+        constraints=lambda t, p, w: np.array([p[1] * np.cos(w * t) - p[0] * np.sin(w * t)]),
+        parameters={"w": 2.0}, p0=[1.0, 0.0], v0=[0.0, 2.0])
+    assert zd.check(system, [1.0, 0.0], [0.0, 2.0])
+    for formulation in FORMULATIONS:
+        sol = zd.simulate(system, 1.0, step=0.002, formulation=formulation)
+        r = np.cosh(2.0 * sol.t)
+        assert_close(sol.p, np.stack([r * np.cos(2 * sol.t), r * np.sin(2 * sol.t)], axis=1), 1e-9)
+        assert np.abs(sol.energy_violation).max() < 1e-8
+        assert sol.energy_input[-1] > 1.0
+    kept = zd.simulate(system, 1.0, step=0.05, energy=True)
+    assert np.abs(kept.energy_violation).max() < 1e-13
+    assert np.abs(kept.velocity_violation).max() < 1e-13
+
+
+def test_nonholonomic_xi_is_derived():
+    sleigh = SYSTEMS["chaplygin_sleigh"]
+    mine = zd.System(
+        ["x", "y", "phi"], mass=lambda p: sleigh.evaluate(p).M, bias=lambda p, v: sleigh.evaluate(p, v).d,
+        nonholonomic=lambda p: np.array([[-np.sin(p[2]), np.cos(p[2]), 0.0]]), potential=0.0, p0=sleigh.p0, v0=sleigh.v0)
+    for formulation in FORMULATIONS:
+        a, b = (zd.simulate(system, 0.5, step=0.01, formulation=formulation, stabilization=None) for system in (mine, sleigh))
+        if formulation not in ("mixed", "independent"):     # there the sleigh brings its own D and has other variables
+            assert_close(a.p, b.p, 1e-13)
+        assert_close(a.p, b.p, 1e-7)
+
+
+def test_callables_take_parameters_by_name_and_parameters_can_be_changed():
+    short = four_bar().with_parameters(g=0.0)
+    assert short.evaluate().f == pytest.approx(0.0)
+    with pytest.raises(ValueError, match="'l0', 'l', 'm', 'g'"):
+        four_bar().with_parameters(gravity=1.0)
+
+
+def test_pickled_systems_are_the_same():
+    again = pickle.loads(pickle.dumps(four_bar()))
+    assert (again.evaluate().M == four_bar().evaluate().M).all()
+
+
+def test_saved_solutions_of_custom_systems_keep_the_description(tmp_path):
+    sol = zd.simulate(four_bar(), 0.1, step=0.01)
+    again = zd.load(sol.save(tmp_path / "motion"))
+    assert [c.name for c in again.system.coordinates] == ANGLES
+    assert "four" not in repr(again) and "system" in repr(again)
+
+
+# ---- what goes wrong ----
+
+
+def test_an_exception_in_a_callable_surfaces_as_itself_with_the_partial_solution():
+    error = ZeroDivisionError("on purpose")
+    with pytest.raises(ZeroDivisionError, match="on purpose") as caught:
+        zd.simulate(four_bar(force=raising(error)), 8.0, step=0.01)
+    assert caught.value is error
+    assert 10 < len(error.solution.t) < 100
+    assert "t = " in error.__notes__[0]
+    partial = zd.simulate(four_bar(force=raising(ZeroDivisionError("again"))), 8.0, step=0.01, on_failure="return")
+    assert not partial.success and "again" in partial.message
+
+
+def test_ctrl_c_inside_a_callable_is_an_interruption():
+    def interrupted(p, l, m, g):    # noqa: E741
+        if p[0] < 1.0:
+            signal.raise_signal(signal.SIGINT)
+        return force(p, l, m, g)
+
+    with pytest.raises(zd.Interrupted) as caught:
+        zd.simulate(four_bar(force=interrupted, v0=-SYSTEMS["four_bar"].v0), 8.0, step=0.01)
+    assert len(caught.value.solution.t) > 1
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"mass": lambda p: np.eye(2)}, "mass is for 2 velocities and there are 3 coordinates"),
+    ({"mass": np.ones(3)}, r"mass must return shape \(nv, nv\), not \(3,\)"),
+    ({"force": lambda p: np.zeros(2)}, r"force must return shape \(3,\), not \(2,\)"),
+    ({"jacobian": lambda p: np.zeros((3, 2))}, r"jacobian must return shape \(2, 3\), not \(3, 2\)"),
+    ({"xi": lambda p: np.zeros(3)}, r"xi must return shape \(2,\)"),
+    ({"constraints": lambda p: 0.0, "jacobian": None, "xi": None}, r"constraints must return shape \(mh\)"),
+    ({"constraints": None, "xi": None}, "jacobian is given without constraints"),
+    ({"potential": None, "power": 0.0}, "power is given without potential"),
+    ({"nonholonomic": np.ones((4, 3))}, "6 constraints are too many for 3 velocities"),
+    ({"p0": [0.0, 1.0]}, r"p0 must have shape \(3,\)"),
+    ({"p0": [0.0, np.nan, 1.0]}, "p0 must be finite"),
+])
+def test_wrong_shapes_name_the_callable(changes, message):
+    with pytest.raises(ValueError, match=message):
+        four_bar(**changes)
+
+
+def test_an_unknown_argument_of_a_callable_is_named():
+    with pytest.raises(TypeError, match="force asks for 'q'; there is t, p, v, l0, l, m, g"):
+        four_bar(force=lambda q: q)
+
+
+@pytest.mark.parametrize("coordinates", [0, [], ["x", "x", "y"], "x x", [1, 2, 3]])
+def test_coordinates_are_a_number_or_names(coordinates):
+    with pytest.raises((ValueError, TypeError), match="coordinates"):
+        zd.System(coordinates, mass=np.eye(3))
+
+
+@pytest.mark.parametrize(("term", "value"), [("force", lambda t, p: np.full(3, np.nan if t > 0.1 else 0.0)),
+                                             ("mass", lambda t: np.full((3, 3), np.inf) if t > 0.1 else np.eye(3))])
+def test_a_value_that_is_not_finite_names_callable_and_time(term, value):
+    with pytest.raises(ValueError, match=rf"{term} is not finite at t = 0.1") as caught:
+        zd.simulate(four_bar(**{term: value}), 1.0, step=0.01)
+    assert len(caught.value.solution.t) > 5
+
+
+def test_a_shape_that_changes_on_the_way_is_caught():
+    with pytest.raises(ValueError, match=r"force must return shape \(3,\), not \(4,\) \(at t = 0.1"):
+        zd.simulate(four_bar(force=lambda t: np.zeros(3 if t < 0.1 else 4)), 1.0, step=0.01)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"mass": lambda p: -np.eye(3)}, "not positive definite"),
+    ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "not symmetric"),
+    ({"constraints": lambda p, l: np.array([l @ np.sin(p), 2 * l @ np.sin(p)]), **DERIVED}, "dependent"),
+])
+def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, message):
+    with pytest.raises(zd.SingularSystem, match=message) as caught:
+        zd.simulate(four_bar(**changes), 1.0, step=0.01, formulation=formulation)
+    assert caught.value.solution is None
+
+
+def test_energy_correction_without_potential_is_refused():
+    with pytest.raises(ValueError, match="needs a potential energy"):
+        zd.simulate(four_bar(potential=None), 1.0, step=0.01, energy=True)
+
+
+def test_a_system_without_start_asks_for_one():
+    with pytest.raises(ValueError, match="p0 is needed"):
+        zd.simulate(zd.System(1, mass=[[1.0]]), 1.0, step=0.1)
+
+
+def test_filling_an_array_with_derivatives_explains_itself():
+    def filled(p):
+        out = np.zeros(1)
+        out[0] = p[0] ** 2 + p[1] ** 2 - 1
+        return out
+
+    with pytest.raises(TypeError, match="build arrays with np.array"):
+        zd.System(2, mass=np.eye(2), constraints=filled, p0=[1.0, 0.0]).evaluate()

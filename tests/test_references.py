@@ -1,0 +1,169 @@
+"""Motions against solutions from elsewhere: closed forms and files in tests/references/, whose README says where from."""
+
+import csv
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+import zerodrift as zd
+from support import assert_close
+
+FOLDER = Path(__file__).parent / "references"
+ROUND_OFF = 1e-10   # what the finest step leaves: truncation has fallen to the round-off of some 1e4 steps
+
+
+def definition(name):
+    return json.loads((FOLDER / f"{name}.json").read_text())
+
+
+def table(name):
+    with open(FOLDER / f"{name}_ref.csv") as file:
+        rows = list(csv.DictReader(file))
+    return {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+
+
+def number(text):
+    return np.array(text, dtype=float)
+
+
+def falls_at_order_four(steps, errors):
+    """Errors at falling steps: overall at order four until they are at round-off, and always falling."""
+    clear = [(h, error) for h, error in zip(steps, errors, strict=True) if error > ROUND_OFF]
+    (first, coarse), (last, fine) = clear[0], clear[-1]
+    assert np.log(coarse / fine) / np.log(first / last) > 3.5, errors
+    assert all(fine < max(coarse, ROUND_OFF) for coarse, fine in pairwise(errors)), errors
+    assert errors[-1] < ROUND_OFF, errors
+
+
+def end(system, t_end, step, **options):
+    return zd.simulate(system, t_end, step=step, save_every=10**6, **options)
+
+
+# ---- knife edge ----
+
+
+def test_knife_edge_against_its_closed_form(formulation):
+    given = definition("knife_edge")
+    x, y, phi = (float(given["ref_t6"][name]) for name in ("x", "y", "phi"))
+    steps = (0.05, 0.025, 0.0125, 0.00625, 0.002)
+    falls_at_order_four(steps, [
+        np.abs(end(zd.systems.knife_edge(), 6.0, step, formulation=formulation).p[-1] - (x, y, phi)).max() for step in steps])
+
+
+def test_knife_edge_reaction_is_that_of_the_closed_form():
+    given = definition("knife_edge")
+    sol = zd.simulate(zd.systems.knife_edge(), 6.0, step=0.002, save_every=50)
+    size = 2 * given["m"] * given["g"] * np.sin(np.pi / 4)
+    assert_close(sol.multipliers[:, 0], size * np.sin(np.pi / 3 * sol.t), 1e-9)
+
+
+# ---- Chaplygin sleigh ----
+
+
+def test_chaplygin_sleigh_against_its_closed_form(formulation):
+    x, y, phi, _, omega = map(float, definition("chaplygin_sleigh")["ref"]["10"])
+    steps = (0.05, 0.025, 0.0125, 0.00625, 0.00125)
+    runs = [end(zd.systems.chaplygin_sleigh(), 10.0, step, formulation=formulation) for step in steps]
+    falls_at_order_four(steps, [max(np.abs(run.p[-1] - (x, y, phi)).max(), abs(run.v[-1, 2] - omega)) for run in runs])
+
+
+def test_chaplygin_sleigh_along_the_way():
+    reference = table("chaplygin_sleigh")
+    sol = zd.simulate(zd.systems.chaplygin_sleigh(), 10.0, step=0.00125, save_every=80)
+    assert_close(sol.t, reference["t"], 1e-12)
+    assert_close(sol.p, np.stack([reference[name] for name in ("x_blade", "y_blade", "phi")], axis=1), 1e-9)
+    assert_close(sol.multipliers[:, 0], reference["lam"], 1e-9)
+
+
+# ---- rolling disc ----
+
+
+def test_rolling_disc_in_general_motion(formulation):
+    reference = table("rolling_disc")
+    centre = np.stack([reference[name] for name in "xyz"], axis=1)
+    steps = (0.01, 0.005, 0.001)
+    runs = [zd.simulate(zd.systems.rolling_disc(), 5.0, step=step, save_every=round(0.01 / step), formulation=formulation)
+            for step in steps]
+    falls_at_order_four(steps, [np.abs(run.p[:, :3] - centre).max() for run in runs])
+    lambdas = np.stack([reference[name] for name in ("lam_N", "lam_x", "lam_y")], axis=1)
+    assert_close(runs[-1].multipliers, lambdas, 1e-8)
+    assert_close(runs[-1].kinetic_energy + runs[-1].potential_energy, reference["E"], 1e-10)
+
+
+def test_rolling_disc_keeps_its_steady_lean():
+    given = definition("rolling_disc")["steady"]
+    lean = np.pi / 9
+    disc = zd.systems.rolling_disc(lean=lean, yaw_rate=given["precession"], spin_rate=float(given["axle_spin"]))
+    sol = zd.simulate(disc, 10.0, step=0.002, save_every=100)
+    assert_close(sol.p[:, 4], np.full(len(sol.t), lean), 1e-10)
+    turn = zd.simulate(disc, 2 * np.pi / 1.5, step=2 * np.pi / 1.5 / 2000)
+    circle = turn.p[:-1, :2] - turn.p[:-1, :2].mean(axis=0)
+    assert_close(np.hypot(*circle.T), np.full(2000, float(given["centre_circle_radius"])), 1e-9)
+
+
+def test_disc_kept_upright_against_its_closed_form():
+    disc = zd.systems.vertical_disc(radius=1.0, axle_inertia=1.0, diameter_inertia=1.0, turn_rate=2.0, roll_rate=1.0)
+    sol = zd.simulate(disc, 5.0, step=0.005, save_every=100)
+    phi = disc.p0[2] + 2.0 * sol.t
+    expected = np.stack([(np.sin(phi) - np.sin(phi[0])) / 2, -(np.cos(phi) - np.cos(phi[0])) / 2], axis=1)
+    assert_close(sol.p[:, :2] - disc.p0[:2], expected, 1e-9)
+
+
+# ---- slider-crank ----
+
+
+def test_slider_crank_loses_energy_as_the_reference_does(formulation):
+    reference = table("sundials_slider_crank")
+    p = np.stack([reference[name] for name in ("q", "x", "p")], axis=1)
+    v = np.stack([reference[name] for name in ("q_d", "x_d", "p_d")], axis=1)
+    steps = (0.05, 0.025, 0.0125, 0.0025)
+    runs = [zd.simulate(zd.systems.slider_crank(), 10.0, step=step, save_every=round(0.25 / step), formulation=formulation)
+            for step in steps]
+    falls_at_order_four(steps, [max(np.abs(run.p - p).max(), np.abs(run.v - v).max()) for run in runs])
+    assert_close(runs[-1].multipliers, np.stack([reference["lam1"], reference["lam2"]], axis=1), 1e-9)
+    assert runs[-1].energy_input[-1] < -0.1
+    assert np.abs(runs[-1].energy_violation).max() < ROUND_OFF
+
+
+def test_energy_correction_of_a_system_that_loses_energy():
+    sol = zd.simulate(zd.systems.slider_crank(), 10.0, step=0.05, energy=True)
+    assert np.abs(sol.energy_violation).max() < 1e-14
+    assert sol.stats["energy_skipped"] == 0
+
+
+# ---- pendulum ----
+
+
+def test_pendulum_of_the_benchmark_library(formulation):
+    given = definition("A01_pendulum")
+    expected = number(given["reference_x0_plus1"]["10"])
+    pendulum = zd.systems.pendulum(angle=np.pi / 2)
+    steps = (0.005, 0.0025, 0.00125, 0.00025)
+    falls_at_order_four(steps, [
+        np.abs(end(pendulum, 10.0, step, formulation=formulation).p[-1] - expected).max() for step in steps])
+
+
+def test_pendulum_of_thirty_seconds_returns_to_its_start():
+    given = definition("sundials_cvPendulum")
+    pendulum = zd.systems.pendulum(angle=np.pi / 2, gravity=float(given["g"]))
+    sol = end(pendulum, 30.0, 0.001)
+    assert np.abs(np.hstack([sol.p[-1], sol.v[-1]]) - (1, 0, 0, 0)).max() < 3e-8      # fifteen periods, errors add up
+    assert np.abs(sol.position_violation).max() <= 1e-12
+
+
+# ---- driven four-bar ----
+
+
+def test_driven_crank_is_where_it_is_prescribed_to_be(formulation):
+    system = zd.systems.driven_four_bar(crank_rate=2.0, amplitude=0.3, frequency=5.0)
+    sol = zd.simulate(system, 2.0, step=0.005, formulation=formulation)
+    angle = system.p0[0] + 2.0 * sol.t + 0.3 * np.sin(5.0 * sol.t)
+    assert np.abs(sol.p[:, 0] - angle).max() < 1e-11
+
+
+def test_driven_crank_takes_in_the_energy_it_stores():
+    system = zd.systems.driven_four_bar(crank_rate=2.0, amplitude=0.3, frequency=5.0)
+    errors = [np.abs(zd.simulate(system, 2.0, step=step).energy_violation).max() for step in (0.02, 0.01, 0.005)]
+    assert np.log2(errors[0] / errors[2]) / 2 > 3.5
