@@ -1,0 +1,121 @@
+"""Coordinates and velocities by name, and how far a solution is from a reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _check
+from ._gateway import Variable
+from .solution import Solution
+
+SAME_TIME = 1e-9    # of the larger of the time itself and 1 s: far above round-off, far below any step
+
+
+def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tuple[np.ndarray, tuple[Variable, ...]]:
+    """Columns of p and v by name.
+
+    Parameters
+    ----------
+    solution : Solution
+        What is looked at.
+    names : str or sequence of str, optional
+        Of coordinates and velocities; left out: all coordinates.
+
+    Returns
+    -------
+    values : ndarray (k, n)
+    variables : tuple of Variable(name, unit)
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> from zerodrift.compare import signals
+    >>> values, variables = signals(zd.simulate(zd.systems.oscillator(), 1.0, step=0.1), "x_dot")
+    >>> values.shape, variables[0].unit
+    ((11, 1), 'm/s')
+    """
+    system = solution.system
+    variables = (*system.coordinates, *system.velocities)
+    known = [variable.name for variable in variables]
+    if names is None:
+        names = known[:len(system.coordinates)]
+    names = [names] if isinstance(names, str) else names
+    columns = [known.index(_check.choice("names", name, known)) for name in names]
+    return np.hstack([solution.p, solution.v])[:, columns], tuple(variables[column] for column in columns)
+
+
+def difference(solution: Solution, reference: Solution | Callable[[float], Any],
+               names: str | Sequence[str] | None = None) -> np.ndarray:
+    """Solution minus reference, at the times of the solution.
+
+    Parameters
+    ----------
+    solution : Solution
+        What is looked at.
+    reference : Solution or callable
+        A solution whose times contain those of `solution`, or a function of the time that returns p (nq,).
+    names : str or sequence of str, optional
+        Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
+
+    Returns
+    -------
+    ndarray (k, n)
+
+    Raises
+    ------
+    ValueError
+        If the reference does not have the times or the names.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> from zerodrift.compare import difference
+    >>> bar = zd.systems.four_bar()
+    >>> fine, coarse = zd.simulate(bar, 1.0, step=0.001), zd.simulate(bar, 1.0, step=0.01)
+    >>> difference(coarse, fine, "alpha1").shape
+    (101, 1)
+    """
+    values, variables = signals(solution, names)
+    if isinstance(reference, Solution):
+        return values - signals(reference, names)[0][_rows_at(reference.t, solution.t)]
+    if not callable(reference):
+        raise TypeError(f"reference must be a Solution or a callable t -> p, not {reference!r}")
+    coordinates = solution.system.coordinates
+    columns = [coordinates.index(variable) for variable in variables if variable in coordinates]
+    if len(columns) < len(variables):
+        raise ValueError("a callable reference gives coordinates only; names must be among "
+                         + ", ".join(repr(coordinate.name) for coordinate in coordinates))
+    return values - _called(reference, solution.t, len(coordinates))[:, columns]
+
+
+def _called(reference: Callable[[float], Any], times: np.ndarray, size: int) -> np.ndarray:
+    """What a callable says at each of the times, (k, size)."""
+    exact = np.empty((len(times), size))
+    for row, t in zip(exact, times, strict=True):
+        value = np.ravel(np.asarray(reference(float(t)), dtype=float))
+        if value.shape != (size,):
+            raise ValueError(f"reference(t) must return p of shape ({size},), not {value.shape}")
+        row[:] = value
+    return exact
+
+
+def nearest(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """The rows of `times` (ascending) that are nearest to the times wanted."""
+    after = np.searchsorted(times, wanted).clip(max=len(times) - 1)
+    before = (after - 1).clip(min=0)
+    return np.where(np.abs(times[before] - wanted) < np.abs(times[after] - wanted), before, after)
+
+
+def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """The rows of `times` that have the times wanted."""
+    if not len(times):
+        raise ValueError("the reference solution has no rows")
+    rows = nearest(times, wanted)
+    missing = np.abs(times[rows] - wanted) > SAME_TIME * np.maximum(1, np.abs(wanted))
+    if missing.any():
+        raise ValueError(f"the reference has no row at t = {wanted[missing][0]:g} s; "
+                         "its times must contain the solution's")
+    return rows

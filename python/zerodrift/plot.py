@@ -1,0 +1,306 @@
+"""Pictures of any solution and any system that can be drawn.
+
+Each function draws into `ax`, or into a new figure, and returns the axes. Nothing is shown until the caller says so,
+and no global setting of matplotlib is touched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ._drawing import animate, mechanism
+from ._gateway import Variable
+from .compare import difference, signals
+from .solution import Solution
+
+__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "violation"]
+
+# Okabe and Ito's colours, told apart with any colour vision; dark ones first.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
+
+
+def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
+    """Draw coordinates and velocities over time.
+
+    Parameters
+    ----------
+    sol : Solution
+        What to draw.
+    names : str or sequence of str, optional
+        Of coordinates and velocities; left out: all coordinates.
+    ax : Axes, optional
+        Left out: a new figure.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.four_bar(), 2.0, step=0.01)
+    >>> ax = zd.plot.motion(sol, ["alpha1", "alpha2"])
+    >>> ax.get_ylabel()
+    'rad'
+    """
+    values, variables = signals(sol, names)
+    ax = _axes(ax)
+    units = _units(variables)
+    for column, variable in zip(values.T, variables, strict=True):
+        ax.plot(sol.t, column, **{"label": variable.name if len(units) == 1 else _labelled(variable)} | style)
+    if len(variables) == 1 and "label" not in style:
+        return _finished(ax, _labelled(variables[0]), legend=False)
+    return _finished(ax, ", ".join(units))
+
+
+def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, velocities: bool = True,
+              **style: Any) -> Axes:
+    """Draw the largest position and velocity violation over time, on a logarithmic scale.
+
+    Exact zeros have no place on that scale; they are triangles on its lower edge.
+
+    Parameters
+    ----------
+    sol : Solution
+        What to draw.
+    ax : Axes, optional
+        Left out: a new figure.
+    positions, velocities : bool
+        Which of the two are drawn.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the system has no constraints, or none of what is asked for.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.four_bar(), 2.0, step=0.01, stabilization="baumgarte")
+    >>> zd.plot.violation(sol).get_yscale()
+    'log'
+    """
+    constraints, mh = sol.system.constraints, sol.position_violation.shape[1]
+    rates = [Variable(c.name, f"{c.unit}/s" if c.unit else "1/s") for c in constraints[:mh]] + list(constraints[mh:])
+    lines = []
+    if positions and mh:
+        lines.append((sol.position_violation, _with_unit("|Φ|", constraints[:mh])))
+    if velocities and constraints:
+        lines.append((sol.velocity_violation, _with_unit("|Ψ|", rates)))
+    if not lines:
+        raise ValueError(f"{sol.system.name} has no such constraints, so there is no violation to draw")
+    ax = _axes(ax)
+    for values, label in lines:
+        _log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
+    several = len(lines) > 1
+    return _finished(ax, "constraint violation" if several else lines[0][1], legend=several or "label" in style)
+
+
+def energy(sol: Solution, ax: Axes | None = None) -> Axes:
+    """Draw kinetic and potential energy, their sum, and the energy put in, if any was.
+
+    Parameters
+    ----------
+    sol : Solution
+        What to draw.
+    ax : Axes, optional
+        Left out: a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the system declares no potential.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> ax = zd.plot.energy(zd.simulate(zd.systems.four_bar(), 2.0, step=0.01))
+    >>> [line.get_label() for line in ax.lines]
+    ['T', 'V', 'E = T + V']
+    """
+    _require_energy(sol)
+    ax = _axes(ax)
+    ax.plot(sol.t, sol.kinetic_energy, label="T")
+    ax.plot(sol.t, sol.potential_energy, label="V")
+    ax.plot(sol.t, sol.kinetic_energy + sol.potential_energy, label="E = T + V")
+    if sol.energy_input.any():
+        ax.plot(sol.t, sol.energy_input, "--", label="energy input")
+    return _finished(ax, "energy [J]")
+
+
+def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
+    """Draw the violation of the energy balance, (28), over time.
+
+    Parameters
+    ----------
+    sol : Solution
+        What to draw.
+    ax : Axes, optional
+        Left out: a new figure.
+    log : bool
+        Whether to draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
+    **style
+        For ``ax.plot``; a label adds a legend.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the system declares no potential.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> ax = zd.plot.energy_violation(zd.simulate(zd.systems.oscillator(), 2.0, step=0.1))
+    >>> ax.get_ylabel()
+    'energy violation [J]'
+    """
+    _require_energy(sol)
+    ax = _axes(ax)
+    _line(ax, sol.t, sol.energy_violation, log, **style)
+    return _finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
+
+
+def error(sol: Solution, reference: Solution | Callable[[float], Any], names: str | Sequence[str] | None = None,
+          ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
+    """Draw solution minus reference over time.
+
+    Parameters
+    ----------
+    sol : Solution
+        What to draw.
+    reference : Solution or callable
+        A solution whose times contain those of `sol`, or a function of the time that returns p (nq,).
+    names : str or sequence of str, optional
+        Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
+    ax : Axes, optional
+        Left out: a new figure.
+    log : bool
+        Whether to draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If the reference does not have the times or the names.
+
+    Examples
+    --------
+    >>> import numpy as np, zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.oscillator(mass=1.0, stiffness=4.0, x0=0.1), 2.0, step=0.1)
+    >>> ax = zd.plot.error(sol, lambda t: 0.1 * np.cos(2 * t))
+    >>> ax.get_ylabel()
+    'error of x [m]'
+    """
+    values, variables = difference(sol, reference, names), signals(sol, names)[1]
+    ax = _axes(ax)
+    units = _units(variables)
+    for column, variable in zip(values.T, variables, strict=True):
+        _line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _labelled(variable)} | style)
+    of = f" of {_labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
+    return _finished(ax, ("|error|" if log else "error") + of, legend=len(variables) > 1 or "label" in style)
+
+
+# ---- what all share ----
+
+
+def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
+           **options: Any) -> tuple[Figure, np.ndarray]:
+    """A figure of its own, outside pyplot, and its axes (rows, columns), in the style of this module.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> figure, axes = zd.plot.panels(1, 2)
+    >>> ax = zd.plot.motion(zd.simulate(zd.systems.oscillator(), 2.0, step=0.1), ax=axes[0, 0])
+    """
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False, **options)
+    for ax in axes.flat:
+        _style(ax)
+    return figure, axes
+
+
+def _axes(ax: Axes | None) -> Axes:
+    return _style(plt.subplots(layout="constrained")[1]) if ax is None else ax
+
+
+def _style(ax: Axes) -> Axes:
+    ax.set_prop_cycle(color=COLOURS)
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.grid(True, alpha=0.3, linewidth=0.6)
+    return ax
+
+
+def _finished(ax: Axes, ylabel: str, *, legend: bool = True) -> Axes:
+    ax.set_xlabel("t [s]")
+    ax.set_ylabel(ylabel)
+    if legend:
+        ax.legend(frameon=False)
+    return ax
+
+
+def _line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -> None:
+    if log:
+        _log_line(ax, t, np.abs(values), **style)
+    else:
+        ax.plot(t, values, **style)
+
+
+def _log_line(ax: Axes, t: np.ndarray, magnitude: np.ndarray, **style: Any) -> None:
+    """A line on a logarithmic scale: zeros as triangles on the lower edge, values between two zeros as dots."""
+    ax.set_yscale("log")
+    there = np.isfinite(magnitude) & (magnitude > 0)
+    (line,) = ax.plot(t, np.where(there, magnitude, np.nan), **style)
+    beside = np.concatenate([[False], there[:-1]]) | np.concatenate([there[1:], [False]])
+    alone, zero = there & ~beside, magnitude == 0
+    ax.plot(t[alone], magnitude[alone], ".", color=line.get_color(), markersize=3)
+    if zero.any():
+        ax.plot(t[zero], np.zeros(zero.sum()), "v", transform=ax.get_xaxis_transform(), clip_on=False,
+                color=line.get_color(), markersize=4, markeredgewidth=0, zorder=3)
+    if not any(np.any(np.asarray(other.get_ydata()) > 0) for other in ax.lines):
+        ax.set_ylim(1e-17, 1)
+
+
+def _require_energy(sol: Solution) -> None:
+    if sol.potential_energy is None:
+        raise ValueError(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
+
+
+def _units(variables: Sequence[Variable]) -> list[str]:
+    """The different units, in order of appearance."""
+    return list(dict.fromkeys(variable.unit or "1" for variable in variables))
+
+
+def _labelled(variable: Variable) -> str:
+    return f"{variable.name} [{variable.unit}]" if variable.unit else variable.name
+
+
+def _with_unit(symbol: str, variables: Sequence[Variable]) -> str:
+    return f"{symbol} [{', '.join(_units(variables))}]"

@@ -1,0 +1,248 @@
+"""Every drawing function on every built-in system, and what each must say when it cannot draw."""
+
+import dataclasses
+
+import matplotlib
+import numpy as np
+import pytest
+import zerodrift as zd
+from zerodrift import compare, plot
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module", params=zd.systems.__all__)
+def sol(request):
+    return zd.simulate(getattr(zd.systems, request.param)(), 1.0, step=0.01)
+
+
+@pytest.fixture(scope="module")
+def bar():
+    return zd.simulate(zd.systems.four_bar(), 1.0, step=0.05)
+
+
+@pytest.fixture(scope="module")
+def oscillator():
+    return zd.simulate(zd.systems.oscillator(), 1.0, step=0.05)
+
+
+def altered(sol, **values):
+    return dataclasses.replace(sol, **values)
+
+
+def curves(ax):
+    """The labelled lines by label."""
+    return {line.get_label(): line for line in ax.lines if not line.get_label().startswith("_")}
+
+
+def drawn(ax):
+    """Whether drawing it raises anything, warnings included."""
+    ax.figure.canvas.draw()
+    return ax
+
+
+# ---- what every function does with any solution ----
+
+
+def test_every_function_draws_into_the_axes_it_is_given(sol):
+    drawings = [plot.motion, plot.energy, plot.energy_violation, lambda s, ax: plot.error(s, s, ax=ax), plot.mechanism]
+    drawings += [plot.violation] if sol.system.constraints else []
+    for draw in drawings:
+        spatial = draw is plot.mechanism and sol.system.points(sol.system.p0).shape[1] == 3
+        ax = plt.figure().add_subplot(projection="3d" if spatial else None)
+        figures = plt.get_fignums()
+        assert drawn(draw(sol, ax=ax)) is ax
+        assert ax.lines
+        assert plt.get_fignums() == figures
+
+
+def test_every_function_makes_axes_of_its_own(sol):
+    axes = [plot.motion(sol), plot.energy(sol), plot.energy_violation(sol, log=True), plot.error(sol, sol, log=True),
+            plot.mechanism(sol), plot.mechanism(sol.system)]
+    assert len({drawn(ax) for ax in axes}) == len(plt.get_fignums()) == len(axes)
+
+
+def test_nothing_global_is_touched_and_nothing_is_shown(sol, monkeypatch):
+    monkeypatch.setattr(plt, "show", lambda *_: pytest.fail("show was called"))
+    before = dict(matplotlib.rcParams)
+    plot.motion(sol), plot.energy(sol), plot.mechanism(sol)
+    assert dict(matplotlib.rcParams) == before
+
+
+# ---- motion ----
+
+
+def test_motion_takes_names_and_units_from_the_system(bar):
+    ax = plot.motion(bar, ["alpha2", "alpha1_dot"])
+    assert list(curves(ax)) == ["alpha2 [rad]", "alpha1_dot [rad/s]"]
+    assert ax.get_ylabel() == "rad, rad/s"
+    np.testing.assert_array_equal(ax.lines[1].get_ydata(), bar.v[:, 0])
+    assert plot.motion(bar, "alpha1").get_ylabel() == "alpha1 [rad]"
+
+
+def test_motion_says_which_names_there_are(bar):
+    with pytest.raises(ValueError, match=r"names must be one of 'alpha1'.*'alpha3_dot', not 'beta'"):
+        plot.motion(bar, "beta")
+
+
+# ---- violation ----
+
+
+def test_violation_draws_the_largest_component_on_a_logarithmic_scale(bar):
+    ax = drawn(plot.violation(bar))
+    assert ax.get_yscale() == "log"
+    phi = np.abs(bar.position_violation).max(axis=1)
+    shown = curves(ax)["|Φ| [m]"].get_ydata()
+    np.testing.assert_array_equal(shown[phi > 0], phi[phi > 0])
+    assert "|Ψ| [m/s]" in curves(ax)
+
+
+def test_exact_zeros_are_triangles_on_the_lower_edge(bar):
+    phi = np.zeros_like(bar.position_violation)
+    phi[3:5] = 1e-9
+    phi[7] = 1e-8
+    ax = drawn(plot.violation(altered(bar, position_violation=phi), velocities=False))
+    triangles = [line for line in ax.lines if line.get_marker() == "v"]
+    dots = [line for line in ax.lines if line.get_marker() == "."]
+    assert len(triangles[0].get_xdata()) == len(bar.t) - 3
+    np.testing.assert_array_equal(dots[0].get_xdata(), bar.t[[7]])
+    low = ax.transAxes.transform((0, 0))[1]
+    assert triangles[0].get_transform().transform((0.0, 0.0))[1] == low
+
+
+def test_a_violation_that_is_zero_throughout_can_be_drawn(bar):
+    ax = drawn(plot.violation(altered(bar, position_violation=0 * bar.position_violation,
+                                      velocity_violation=0 * bar.velocity_violation)))
+    assert ax.get_ylim() == (1e-17, 1)
+
+
+def test_violation_of_nonholonomic_constraints_only(bar):
+    rolling = altered(bar, position_violation=np.empty((len(bar.t), 0)))
+    assert list(curves(drawn(plot.violation(rolling)))) == ["|Ψ| [m]"]
+    assert plot.violation(rolling).get_ylabel() == "|Ψ| [m]"
+
+
+def test_a_run_that_blew_up_can_be_drawn():
+    sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.05, stabilization=None, on_failure="return")
+    assert not sol.success
+    for ax in plot.violation(sol), plot.energy_violation(sol, log=True), plot.mechanism(sol), plot.energy(sol):
+        drawn(ax)
+
+
+def test_violation_needs_constraints(oscillator):
+    with pytest.raises(ValueError, match="oscillator has no such constraints"):
+        plot.violation(oscillator)
+
+
+# ---- energy ----
+
+
+def test_energy_draws_the_input_only_where_there_is_one(oscillator):
+    assert list(curves(plot.energy(oscillator))) == ["T", "V", "E = T + V"]
+    driven = altered(oscillator, energy_input=np.linspace(0, 1, len(oscillator.t)))
+    assert list(curves(plot.energy(driven))) == ["T", "V", "E = T + V", "energy input"]
+
+
+@pytest.mark.parametrize("draw", [plot.energy, plot.energy_violation])
+def test_energy_needs_a_potential(oscillator, draw):
+    with pytest.raises(ValueError, match="oscillator declares no potential energy"):
+        draw(altered(oscillator, potential_energy=None, energy_input=None, energy_violation=None))
+
+
+# ---- error ----
+
+
+def test_error_against_a_finer_solution(bar):
+    fine = zd.simulate(bar.system, 1.0, step=0.005)
+    ax = drawn(plot.error(bar, fine, "alpha1"))
+    np.testing.assert_array_equal(ax.lines[0].get_ydata(), bar.p[:, 0] - fine.p[::10, 0])
+    assert ax.get_ylabel() == "error of alpha1 [rad]"
+
+
+def test_error_against_a_function(oscillator):
+    ax = drawn(plot.error(oscillator, lambda t: 0.1 * np.cos(np.sqrt(10) * t), log=True))
+    assert ax.get_ylabel() == "|error| of x [m]"
+
+
+@pytest.mark.parametrize(("reference", "names", "error", "message"), [
+    (lambda t: [1.0, 2.0], None, ValueError, r"must return p of shape \(3,\), not \(2,\)"),
+    (lambda t: [1.0, 2.0, 3.0], "alpha1_dot", ValueError, "coordinates only; names must be among 'alpha1'"),
+    (3.0, None, TypeError, "must be a Solution or a callable"),
+])
+def test_error_says_what_is_wrong_with_the_reference(bar, reference, names, error, message):
+    with pytest.raises(error, match=message):
+        plot.error(bar, reference, names)
+
+
+@pytest.mark.parametrize(("end", "step"), [(1.0, 0.03), (0.5, 0.05)])
+def test_error_needs_the_times(bar, end, step):
+    with pytest.raises(ValueError, match="the reference has no row at t = "):
+        plot.error(bar, zd.simulate(bar.system, end, step=step))
+
+
+def test_nearest_row():
+    times = np.array([0.0, 1.0, 2.0])
+    assert list(compare.nearest(times, np.array([-1.0, 0.4, 0.6, 1.2, 9.0]))) == [0, 0, 1, 1, 2]
+    assert list(compare.nearest(times[:1], np.array([5.0]))) == [0]
+
+
+# ---- drawings ----
+
+
+class Spatial:
+    """A triangle in space with a gap, as a system would give it."""
+
+    name, nq, p0 = "spatial", 1, np.zeros(1)
+
+    def points(self, p):
+        return np.array([[0, 0, 0], [1, p[0], 0], [np.nan] * 3, [0, 1, 1.0], [0, 0, 1]])
+
+
+def test_mechanism_in_space_gets_axes_in_space():
+    ax = drawn(plot.mechanism(Spatial(), [0.5]))
+    assert ax.name == "3d"
+    with pytest.raises(ValueError, match="3D axes"):
+        plot.mechanism(Spatial(), ax=plt.subplots()[1])
+
+
+def test_mechanism_joins_joints_and_marks_what_rests(bar):
+    ax = drawn(plot.mechanism(bar))
+    squares = [line for line in ax.lines if line.get_marker() == "s"]
+    np.testing.assert_allclose(squares[0].get_xydata(), [[0, 0], [1, 0]], atol=1e-12)
+    assert ax.get_aspect() == 1
+    assert len(ax.lines) > 5
+    assert len(plot.mechanism(bar, bar.p[4]).lines) == 1
+
+
+def test_mechanism_needs_a_drawing(bar):
+    class Bare(Spatial):
+        def points(self, p):
+            return None
+
+    with pytest.raises(ValueError, match="spatial has no drawing"):
+        plot.mechanism(Bare())
+
+
+def test_animation_is_in_real_time(bar):
+    film = plot.animate(bar, fps=5)
+    page = film.to_jshtml()
+    assert page.count("frames[") >= 6
+    assert film._interval == 200
+    slow = plot.animate(bar, fps=5, speed=0.5)
+    assert len(list(slow.new_frame_seq())) == 11
+    slow._draw_frame(10)
+    assert slow._fig.axes[0].get_title() == "t = 1.00 s"
+    slow._draw_was_started = True     # matplotlib warns of animations that were never shown
+
+
+@pytest.mark.parametrize("name", ["fps", "speed"])
+def test_animation_refuses_times_that_make_no_sense(bar, name):
+    with pytest.raises(ValueError, match=f"{name} must be greater than 0"):
+        plot.animate(bar, **{name: 0.0})
