@@ -12,9 +12,10 @@
 /* ---- a point: all that is known at one (t, p, v), computed when first wanted and never twice ---- */
 
 enum {                                  /* known beside the system's own terms */
-    ZD_FACTORED = 1 << 12,              /* the formulation's leading matrix, at this (t, p) */
-    ZD_ACCELERATED = 1 << 13,           /* vdot and lambda, at this (t, p, v) */
-    ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_ACCELERATED
+    ZD_FACTORED = 1 << 16,              /* the formulation's leading matrix, at this (t, p) */
+    ZD_ACCELERATED = 1 << 17,           /* vdot and lambda, at this (t, p, v) */
+    ZD_COMPLEMENTED = 1 << 18,          /* the complement D and what goes with it, at this (t, p) */
+    ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_GAMMA | ZD_ACCELERATED
 };
 
 typedef struct zd_point {
@@ -61,7 +62,9 @@ typedef struct zd_formulation {
     /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
-    void (*leave)(void *self, const zd_point *point, double *y);            /* (p, v) of the point -> state */
+    int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
+    /* Gives the point, after its p was corrected, the v that belongs to it; NULL where v is corrected by itself. */
+    int (*settle)(void *self, zd_point *point);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
 } zd_formulation;
 
@@ -110,6 +113,7 @@ struct zd_run {
     void *stepper;
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;
+    int violates;           /* what the projection has to correct: the formulation's, or outside a run, everything */
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_rate rate;
     zd_point *point;
@@ -135,7 +139,7 @@ int zd_run_correct(zd_run *run);            /* all corrections that are on, in t
 
 /* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
 zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
-void zd_run_place(zd_run *run, double t, const double *p, const double *v);
+int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 double zd_run_time(const zd_run *run, long step);
 
 /* recorder.c */

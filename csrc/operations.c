@@ -24,8 +24,8 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
     zd_settings settings = {.formulation = formulation};
     zd_run *run = zd_run_lay_out(system, &settings);
     if (!run) return no_memory(message, message_size);
-    zd_run_place(run, t, p, v);
-    int status = zd_run_accelerate(run);
+    int status = zd_run_place(run, t, p, v);
+    if (!status) status = zd_run_accelerate(run);
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
@@ -37,8 +37,9 @@ static int project_stage(const zd_system *system, const zd_settings *settings, d
 {
     zd_run *run = zd_run_lay_out(system, settings);
     if (!run) return no_memory(message, message_size);
-    zd_run_place(run, t, p, v);
-    int status = zd_run_correct(run);
+    run->violates = ZD_PHI | ZD_C;
+    int status = zd_run_place(run, t, p, v);
+    if (!status) status = zd_run_correct(run);
     memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
     if (iterations) *iterations = (int)run->statistics.position_iterations;

@@ -26,6 +26,8 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
             .xi = TAKE(ZD_XI, m),
             .V = TAKE(ZD_POTENTIAL, 1),
             .power = TAKE(ZD_POWER, 1),
+            .D = TAKE(ZD_COMPLEMENT, nv * (nv - m)),
+            .gamma = TAKE(ZD_GAMMA, nv),
             .scratch = zd_take_doubles(arena, (size_t)system->scratch),
         },
         .vdot = zd_take_doubles(arena, nv),

@@ -34,6 +34,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     };
     int size = run.formulation->state_size(system) + (zd_has_input(system) ? 1 : 0);
     if (zd_has_input(system)) run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
+    run.violates = run.formulation->violates;
     run.solver = run.formulation->take(arena, system);
     run.stepper = run.integrator->take(arena, run.integrator->table, size);
     enable_corrections(&run, arena);
@@ -64,10 +65,10 @@ void zd_run_free(zd_run *run)
 
 /* ---- the start ---- */
 
-void zd_run_place(zd_run *run, double t, const double *p, const double *v)
+int zd_run_place(zd_run *run, double t, const double *p, const double *v)
 {
     zd_point_move(run->point, t, p, v);
-    run->formulation->leave(run->solver, run->point, run->y);
+    return run->formulation->leave(run->solver, run->point, run->y);
 }
 
 /* Refuses a violation of the constraints beyond the tolerance. */
@@ -138,8 +139,8 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     *status = run ? ZD_DONE : ZD_NO_MEMORY;
     snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
     if (!run) return NULL;
-    zd_run_place(run, settings->t0, p0, v0);
-    int why = start(run);
+    int why = zd_run_place(run, settings->t0, p0, v0);
+    if (!why) why = start(run);
     return why ? refuse(run, why, status, message, message_size) : run;
 }
 

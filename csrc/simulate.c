@@ -24,8 +24,7 @@ static int take_step(zd_run *run)
 
     status = run->formulation->enter(run->solver, run->point, t1, run->y);
     if (!status) status = zd_run_correct(run);
-    run->formulation->leave(run->solver, run->point, run->y);
-    return status;
+    return status ? status : run->formulation->leave(run->solver, run->point, run->y);
 }
 
 static int is_saved(const zd_run *run)

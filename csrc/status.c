@@ -28,6 +28,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NO_STEP:
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
         break;
+    case ZD_NO_EMBEDDING:
+        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
+                 point->defect);
+        break;
     case ZD_CALLBACK: snprintf(to, size, "the system's own evaluation failed"); break;
     default: snprintf(to, size, "status %d", status); break;
     }

@@ -26,7 +26,8 @@ enum zd_status {
     ZD_BAD_ARGUMENT = -8,
     ZD_NO_MEMORY = -9,
     ZD_CALLBACK = -10,        /* a system's own evaluation failed */
-    ZD_UNREACHABLE = -11      /* the tolerance is below what doubles can reach */
+    ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
+    ZD_NO_EMBEDDING = -12     /* p = g(q) was not solved */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -42,7 +43,9 @@ enum zd_term {
     ZD_XI = 128,       /* (6), all that is not C vdot, also from Phi_t */
     ZD_POTENTIAL = 256,
     ZD_POWER = 512,    /* Edot of (28): power of the forces in f that V does not describe, and dV/dt at fixed p */
-    ZD_MOVED = 1024    /* said to the system, not asked of it: t or p differ from its last call with this scratch */
+    ZD_COMPLEMENT = 1024,   /* D of (14), C D = 0; a system need not have it: absent, it is found from C by (16) */
+    ZD_GAMMA = 2048,        /* what vdot has besides D udot, (15); goes with D */
+    ZD_MOVED = 4096    /* said to the system, not asked of it: t or p differ from its last call with this scratch */
 };
 
 typedef struct zd_terms {
@@ -56,11 +59,16 @@ typedef struct zd_terms {
     double *xi;         /* (m,) */
     double *V;          /* (1,) J */
     double *power;      /* (1,) W */
+    double *D;          /* (nv, nv - m) */
+    double *gamma;      /* (nv,) */
     double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
 } zd_terms;
 
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns 0, or ZD_CALLBACK. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
+
+/* p = g(q) of (18), on the branch that p is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
+typedef int zd_embed(const void *data, double t, const double *q, double *p);
 
 typedef struct zd_system {
     int nq, nv, mh, mn;
@@ -68,6 +76,8 @@ typedef struct zd_system {
     int scratch;        /* doubles it keeps per run */
     zd_evaluate *evaluate;
     const void *data;   /* its parameters, or whatever it wants to be handed */
+    zd_embed *embed;    /* may be NULL: then g is found numerically */
+    const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
 } zd_system;
 
 /* ---- the four tables ---- */
@@ -163,6 +173,8 @@ typedef struct zd_statistics {
     long energy_corrections;
     long energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
     long implicit_iterations;   /* Newton iterations of implicit integrators */
+    long embedding_iterations;  /* Newton iterations for p = g(q) */
+    long repartitions;          /* changes of the independent variables between steps */
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */

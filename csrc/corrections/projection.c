@@ -102,12 +102,12 @@ static int correct_velocities(projection *self, zd_run *run)
 static int after_step(void *memory, zd_run *run)
 {
     const zd_projection *settings = &run->settings.projection;
-    int violates = run->formulation->violates, status = ZD_DONE;
+    int status = ZD_DONE;
     if (run->step % settings->every && run->step != run->steps) return ZD_DONE;
-    if (settings->positions && (violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
-    if (!status && settings->velocities && (violates & ZD_C) && zd_constraints(&run->system))
-        status = correct_velocities(memory, run);
-    return status;
+    if (settings->positions && (run->violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
+    if (status || !zd_constraints(&run->system)) return status;
+    if (run->violates & ZD_C) return settings->velocities ? correct_velocities(memory, run) : ZD_DONE;
+    return run->formulation->settle ? run->formulation->settle(run->solver, run->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {

@@ -13,12 +13,13 @@ int zd_dependent_enter(void *self, zd_point *point, double t, const double *y)
     return ZD_DONE;
 }
 
-void zd_dependent_leave(void *self, const zd_point *point, double *y)
+int zd_dependent_leave(void *self, zd_point *point, double *y)
 {
     (void)self;
     size_t nq = (size_t)point->system->nq, nv = (size_t)point->system->nv;
     memcpy(y, point->p, nq * sizeof *y);
     memcpy(y + nq, point->v, nv * sizeof *y);
+    return ZD_DONE;
 }
 
 int zd_dependent_rate(void *self, zd_point *point, double *ydot)

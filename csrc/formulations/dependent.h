@@ -6,7 +6,7 @@
 
 int zd_dependent_state_size(const zd_system *system);
 int zd_dependent_enter(void *self, zd_point *point, double t, const double *y);
-void zd_dependent_leave(void *self, const zd_point *point, double *y);
+int zd_dependent_leave(void *self, zd_point *point, double *y);
 int zd_dependent_rate(void *self, zd_point *point, double *ydot);
 
 #define ZD_DEPENDENT_STATE                         \

@@ -11,25 +11,28 @@ static int largest_below(int n, const double *A, int column)
     return best;
 }
 
-static void swap_rows(int n, double *A, int a, int b)
+static void swap(double *a, double *b)
 {
-    for (int j = 0; j < n; j++) {
-        double x = A[a * n + j];
-        A[a * n + j] = A[b * n + j];
-        A[b * n + j] = x;
-    }
+    double x = *a;
+    *a = *b;
+    *b = x;
 }
 
-static double largest_entry(int n, const double *A)
+static void swap_rows(int n, double *A, int a, int b)
+{
+    for (int j = 0; j < n; j++) swap(A + a * n + j, A + b * n + j);
+}
+
+static double largest_entry(int count, const double *A)
 {
     double largest = 0;
-    for (int i = 0; i < n * n; i++) largest = fmax(largest, fabs(A[i]));
+    for (int i = 0; i < count; i++) largest = fmax(largest, fabs(A[i]));
     return largest;
 }
 
 int zd_lu_factor(int n, double *A, int *order)
 {
-    double negligible = n * 0x1p-52 * largest_entry(n, A);
+    double negligible = n * 0x1p-52 * largest_entry(n * n, A);
     for (int k = 0; k < n; k++) {
         int pivot_row = largest_below(n, A, k);
         order[k] = pivot_row;
@@ -47,15 +50,58 @@ int zd_lu_factor(int n, double *A, int *order)
 
 void zd_lu_solve(int n, const double *LU, const int *order, double *b)
 {
-    for (int k = 0; k < n; k++) {
-        double x = b[order[k]];
-        b[order[k]] = b[k];
-        b[k] = x;
-    }
+    for (int k = 0; k < n; k++) swap(b + k, b + order[k]);
     for (int i = 1; i < n; i++)
         for (int j = 0; j < i; j++) b[i] -= LU[i * n + j] * b[j];
     for (int i = n - 1; i >= 0; i--) {
         for (int j = i + 1; j < n; j++) b[i] -= LU[i * n + j] * b[j];
         b[i] /= LU[i * n + i];
     }
+}
+
+void zd_lu_solve_transposed(int n, const double *LU, const int *order, double *b)
+{
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < i; j++) b[i] -= LU[j * n + i] * b[j];
+        b[i] /= LU[i * n + i];
+    }
+    for (int i = n - 2; i >= 0; i--)
+        for (int j = i + 1; j < n; j++) b[i] -= LU[j * n + i] * b[j];
+    for (int k = n - 1; k >= 0; k--) swap(b + k, b + order[k]);
+}
+
+static void swap_columns(int rows, int columns, double *A, int a, int b)
+{
+    for (int i = 0; i < rows; i++) swap(A + i * columns + a, A + i * columns + b);
+}
+
+/* Brings the largest entry of what is left, in columns before `end`, to (k, k). */
+static void bring_pivot(int rows, int columns, int end, double *A, int *order, int k)
+{
+    int row = k, column = k;
+    for (int i = k; i < rows; i++)
+        for (int j = k; j < end; j++)
+            if (fabs(A[i * columns + j]) > fabs(A[row * columns + column])) row = i, column = j;
+    for (int j = 0; row != k && j < columns; j++) swap(A + row * columns + j, A + k * columns + j);
+    if (column == k) return;
+    swap_columns(rows, columns, A, column, k);
+    int chosen = order[column];
+    order[column] = order[k];
+    order[k] = chosen;
+}
+
+int zd_choose_columns(int rows, int columns, int leading, double *A, int *order)
+{
+    double negligible = columns * 0x1p-52 * largest_entry(rows * columns, A);
+    for (int j = 0; j < columns; j++) order[j] = j;
+    for (int k = 0; k < rows; k++) {
+        bring_pivot(rows, columns, k < leading ? leading : columns, A, order, k);
+        double pivot = A[k * columns + k];
+        if (!(fabs(pivot) > negligible)) return k;
+        for (int i = k + 1; i < rows; i++) {
+            double factor = A[i * columns + k] / pivot;
+            for (int j = k; j < columns; j++) A[i * columns + j] -= factor * A[k * columns + j];
+        }
+    }
+    return rows;
 }

@@ -22,6 +22,7 @@ ERRORS = {
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
     lib.ZD_NO_STEP: errors.StepFailed,
+    lib.ZD_NO_EMBEDDING: errors.StepFailed,
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_NO_MEMORY: MemoryError,
@@ -34,7 +35,7 @@ TERMS = {
     "A": (lib.ZD_A, ("nq", "nv")), "M": (lib.ZD_M, ("nv", "nv")), "d": (lib.ZD_BIAS, ("nv",)),
     "f": (lib.ZD_FORCE, ("nv",)), "Phi": (lib.ZD_PHI, ("mh",)), "C": (lib.ZD_C, ("m", "nv")),
     "Phi_t": (lib.ZD_PHI_T, ("m",)), "xi": (lib.ZD_XI, ("m",)), "V": (lib.ZD_POTENTIAL, ()),
-    "power": (lib.ZD_POWER, ()),
+    "power": (lib.ZD_POWER, ()), "D": (lib.ZD_COMPLEMENT, ("nv", "r")), "gamma": (lib.ZD_GAMMA, ("nv",)),
 }
 
 
@@ -161,6 +162,7 @@ class CoreSystem:
         self.c, self._data = system, data
         self.nq, self.nv, self.mh, self.mn = system.nq, system.nv, system.mh, system.mn
         self.m = self.mh + self.mn
+        self.r = self.nv - self.m
         self.provides = system.provides
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
 

@@ -29,6 +29,8 @@ class Terms:
         Potential energy in J.
     power : ndarray ()
         Energy input rate of (28) in W.
+    D, gamma : ndarray (nv, r), (nv,)
+        Complement of C, and what vdot has besides ``D @ udot``, (14) and (15); None: found from C.
     """
 
     __slots__ = tuple(_gateway.TERMS)

@@ -1,0 +1,229 @@
+/* Variable partitioning (16), or a system's own complement, behind one interface. */
+#include "complement.h"
+
+#include "../linalg/lu.h"
+#include "../linalg/small.h"
+
+/* Complete pivoting keeps the entries of W^-1 U near one; a partition is given up when they have grown to this. */
+static const double LARGEST_ENTRY = 8;
+
+zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), r = n - m;
+    int own = (system->provides & ZD_COMPLEMENT) != 0;
+    return (zd_complement){
+        .n = (int)n,
+        .m = (int)m,
+        .r = (int)r,
+        .own = own,
+        .order = zd_take(arena, n * sizeof(int)),
+        .pivots = zd_take(arena, n * sizeof(int)),
+        .D = zd_take_doubles(arena, n * r),
+        .K = zd_take_doubles(arena, own ? n * n : m * m),
+        .gram = zd_take_doubles(arena, own ? r * r : 0),
+        .work = zd_take_doubles(arena, n * n),
+    };
+}
+
+/* ---- by variable partitioning ---- */
+
+static int choose(zd_complement *self, zd_point *point)
+{
+    if (self->m) memcpy(self->work, point->terms.C, (size_t)(self->m * self->n) * sizeof(double));
+    int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
+    point->culprit = rank;
+    self->chosen = rank == self->m;
+    return self->chosen ? ZD_DONE : ZD_DEPENDENT;
+}
+
+void zd_complement_prefer(zd_complement *self, const int *independent)
+{
+    int dependents = 0;
+    for (int i = 0; i < self->n; i++) {
+        int wanted = 0;
+        for (int j = 0; j < self->r; j++) wanted |= independent[j] == i;
+        if (!wanted) self->order[dependents++] = i;
+    }
+    for (int j = 0; j < self->r; j++) self->order[self->m + j] = independent[j];
+    self->chosen = 1;
+}
+
+/* D = [I; -W^-1 U], rows in the order of v. (16) */
+static void fill_partitioned(zd_complement *self, const double *C)
+{
+    int n = self->n, m = self->m, r = self->r;
+    self->largest = 0;
+    memset(self->D, 0, (size_t)(n * r) * sizeof(double));
+    for (int j = 0; j < r; j++) {
+        int column = self->order[m + j];
+        for (int k = 0; k < m; k++) self->work[k] = -C[k * n + column];
+        zd_lu_solve(m, self->K, self->pivots, self->work);
+        for (int k = 0; k < m; k++) self->D[self->order[k] * r + j] = self->work[k];
+        self->D[column * r + j] = 1;
+        self->largest = fmax(self->largest, zd_max_abs(m, self->work));
+    }
+}
+
+static int partition(zd_complement *self, zd_point *point)
+{
+    int n = self->n, m = self->m;
+    const double *C = point->terms.C;
+    if (!self->chosen) {
+        int status = choose(self, point);
+        if (status) return status;
+    }
+    for (int k = 0; k < m; k++)
+        for (int j = 0; j < m; j++) self->K[k * m + j] = C[k * n + self->order[j]];
+    point->culprit = zd_lu_factor(m, self->K, self->pivots);
+    if (point->culprit < m) return ZD_DEPENDENT;
+    fill_partitioned(self, C);
+    return ZD_DONE;
+}
+
+/* ---- brought by the system ---- */
+
+static int adopt(zd_complement *self, zd_point *point)
+{
+    int n = self->n, m = self->m, r = self->r;
+    memcpy(self->D, point->terms.D, (size_t)(n * r) * sizeof(double));
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) self->K[i * n + j] = i < m ? point->terms.C[i * n + j] : self->D[j * r + i - m];
+    point->culprit = zd_lu_factor(n, self->K, self->pivots);
+    if (point->culprit < n) return ZD_DEPENDENT;
+    for (int a = 0; a < r; a++)
+        for (int b = 0; b < r; b++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++) sum += self->D[i * r + a] * self->D[i * r + b];
+            self->gram[a * r + b] = sum;
+        }
+    return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT;
+}
+
+int zd_complement_at(zd_complement *self, zd_point *point)
+{
+    if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C | ZD_COMPLEMENT);
+    if (!status) status = self->own ? adopt(self, point) : partition(self, point);
+    if (!status) point->known |= ZD_COMPLEMENTED;
+    return status;
+}
+
+int zd_complement_review(zd_complement *self, zd_point *point)
+{
+    int was_chosen = self->chosen, status = zd_complement_at(self, point);
+    if (self->own || !was_chosen || (!status && self->largest <= LARGEST_ENTRY)) return status;
+    point->statistics->repartitions++;
+    self->chosen = 0;
+    point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);
+    return zd_complement_at(self, point);
+}
+
+void zd_complement_particular(const zd_complement *self, const double *rhs, double *x)
+{
+    int n = self->n, m = self->m;
+    memset(x, 0, (size_t)n * sizeof *x);
+    if (self->own) {
+        for (int k = 0; k < m; k++) x[k] = rhs[k];
+        zd_lu_solve(n, self->K, self->pivots, x);
+        return;
+    }
+    double *w = self->work;
+    for (int k = 0; k < m; k++) w[k] = rhs[k];
+    zd_lu_solve(m, self->K, self->pivots, w);
+    for (int k = 0; k < m; k++) x[self->order[k]] = w[k];
+}
+
+void zd_complement_multipliers(const zd_complement *self, const double *reaction, double *lambda)
+{
+    int size = self->own ? self->n : self->m;
+    double *b = self->work;
+    for (int i = 0; i < size; i++) b[i] = reaction[self->own ? i : self->order[i]];
+    zd_lu_solve_transposed(size, self->K, self->pivots, b);
+    for (int k = 0; k < self->m; k++) lambda[k] = b[k];
+}
+
+int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u, double *v)
+{
+    int status = zd_complement_at(self, point);
+    if (!status) status = zd_point_need(point, ZD_PHI_T);
+    if (status) return status;
+    memset(v, 0, (size_t)self->n * sizeof *v);
+    if (point->terms.Phi_t) {
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        zd_complement_particular(self, point->rhs, v);
+    }
+    zd_complement_add(self, u, v);                                      /* (14) */
+    return ZD_DONE;
+}
+
+/* u with D u = x, in the sense of least squares; x is destroyed */
+static void invert(const zd_complement *self, double *x, double *u)
+{
+    zd_complement_project(self, x, u);
+    zd_forward(self->r, self->r, self->gram, u);
+    zd_backward(self->r, self->r, self->gram, u);
+}
+
+void zd_complement_speeds(const zd_complement *self, const zd_point *point, double *u)
+{
+    const double *v = point->v;
+    if (!self->own) {
+        for (int j = 0; j < self->r; j++) u[j] = v[self->order[self->m + j]];
+        return;
+    }
+    double *x = self->work + self->n;
+    memset(x, 0, (size_t)self->n * sizeof *x);
+    if (point->terms.Phi_t) {
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        zd_complement_particular(self, point->rhs, x);
+    }
+    for (int i = 0; i < self->n; i++) x[i] = v[i] - x[i];
+    invert(self, x, u);
+}
+
+int zd_complement_rate(zd_complement *self, zd_point *point, double *udot)
+{
+    if (!self->own) {
+        for (int j = 0; j < self->r; j++) udot[j] = point->vdot[self->order[self->m + j]];
+        return ZD_DONE;
+    }
+    int status = zd_point_need(point, ZD_GAMMA);
+    if (status) return status;
+    double *x = self->work + self->n;
+    for (int i = 0; i < self->n; i++) x[i] = point->vdot[i] - point->terms.gamma[i];
+    invert(self, x, udot);                                              /* (15) */
+    return ZD_DONE;
+}
+
+void zd_complement_project(const zd_complement *self, const double *b, double *projected)
+{
+    int n = self->n, r = self->r;
+    for (int j = 0; j < r; j++) projected[j] = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < r; j++) projected[j] += self->D[i * r + j] * b[i];
+}
+
+void zd_complement_add(const zd_complement *self, const double *u, double *x)
+{
+    int n = self->n, r = self->r;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < r; j++) x[i] += self->D[i * r + j] * u[j];
+}
+
+void zd_complement_mass(const zd_complement *self, const double *M, double *Mu)
+{
+    int n = self->n, r = self->r;
+    double *column = self->work;
+    for (int b = 0; b < r; b++) {
+        for (int i = 0; i < n; i++) {
+            double sum = 0;
+            for (int j = 0; j < n; j++) sum += M[i * n + j] * self->D[j * r + b];
+            column[i] = sum;
+        }
+        for (int a = 0; a < r; a++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++) sum += self->D[i * r + a] * column[i];
+            Mu[a * r + b] = sum;
+        }
+    }
+}

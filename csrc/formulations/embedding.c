@@ -1,0 +1,163 @@
+/* q are k = nv - mh entries of p. The others follow from Phi(p) = 0 by Newton's iteration in the velocities' directions,
+ *
+ *     [C_H] delta = [-Phi          ],        p <- p + A delta,
+ *     [A_q]         [q - p at index]
+ *
+ * so that A need not be square, nor the identity. It starts from the point before, whose branch it therefore stays on.
+ */
+#include "embedding.h"
+
+#include "../linalg/lu.h"
+#include "../newton.h"
+
+enum { MAX_ITERATIONS = 20 };
+static const double WORSE = 8;      /* so much larger than at its choice may the response of p to q grow */
+
+zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
+{
+    size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh, k = nv - mh;
+    return (zd_embedding){
+        .nq = (int)nq,
+        .nv = (int)nv,
+        .mh = (int)mh,
+        .k = (int)k,
+        .index = zd_take(arena, k * sizeof(int)),
+        .order = zd_take(arena, (mh + nq) * sizeof(int)),
+        .K = zd_take_doubles(arena, nv * nv),
+        .pivots = zd_take(arena, nv * sizeof(int)),
+        .work = zd_take_doubles(arena, nv * (mh + nq)),
+        .delta = zd_take_doubles(arena, nv),
+        .p = zd_take_doubles(arena, nq),
+    };
+}
+
+static double kinematic(const zd_point *point, int i, int j)
+{
+    return point->terms.A ? point->terms.A[i * point->system->nv + j] : i == j;
+}
+
+/* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there. */
+static int factor(zd_embedding *self, zd_point *point)
+{
+    int nv = self->nv;
+    int status = zd_point_need(point, ZD_C | ZD_A);
+    if (status) return status;
+    double gradient = 0;
+    for (int k = 0; k < self->mh; k++) {
+        double sum = 0;
+        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->terms.C[k * nv + j]);
+        gradient = fmax(gradient, sum);
+    }
+    for (int k = 0; k < self->k; k++)
+        for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
+    self->rounding = 16 * 0x1p-52 * gradient * zd_max_abs(self->nq, point->p);
+    point->culprit = zd_lu_factor(nv, self->K, self->pivots);
+    return point->culprit < nv ? ZD_SINGULAR : ZD_DONE;
+}
+
+/* ---- Newton's iteration ---- */
+
+typedef struct problem {
+    zd_embedding *self;
+    zd_point *point;
+    const double *q;
+} problem;
+
+/* In units of rounding; at least 2 as long as q is not what it should be. */
+static int residual(void *context, double *size)
+{
+    problem *it = context;
+    zd_point *point = it->point;
+    int status = zd_point_need(point, ZD_PHI);
+    if (status) return status;
+    double Phi = it->self->mh ? zd_max_abs(it->self->mh, point->terms.Phi) : 0;
+    *size = Phi > 0 ? Phi / it->self->rounding : 0;
+    for (int k = 0; k < it->self->k; k++)
+        if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
+    return ZD_DONE;
+}
+
+static int improve(void *context)
+{
+    problem *it = context;
+    zd_embedding *self = it->self;
+    zd_point *point = it->point;
+    int status = factor(self, point);
+    if (status) return status;
+    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[k];
+    for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
+    zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
+    zd_point_rate(point, self->delta, self->p);
+    for (int i = 0; i < self->nq; i++) self->p[i] += point->p[i];
+    for (int k = 0; k < self->k; k++) self->p[self->index[k]] = it->q[k];
+    zd_point_move(point, point->t, self->p, point->v);
+    return ZD_DONE;
+}
+
+static int place_numerically(zd_embedding *self, zd_point *point, double t, const double *q)
+{
+    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS};
+    problem it = {self, point, q};
+    int iterations;
+    double left;
+    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
+    zd_point_move(point, t, self->p, point->v);
+    int status = zd_newton_solve(&newton, &it, &iterations, &left);
+    point->statistics->embedding_iterations += iterations;
+    point->defect = left * self->rounding;
+    return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
+}
+
+int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)
+{
+    const zd_system *system = point->system;
+    if (!system->embed) return place_numerically(self, point, t, q);
+    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
+    int status = system->embed(system->data, t, q, self->p);            /* (18) */
+    if (!status) zd_point_move(point, t, self->p, point->v);
+    return status;
+}
+
+/* ---- the choice of q ---- */
+
+/* Largest entry of the response of the velocities to the rates of q: grows beyond bounds where q ceases to determine p. */
+static double response(zd_embedding *self)
+{
+    double largest = 0;
+    for (int k = 0; k < self->k; k++) {
+        memset(self->delta, 0, (size_t)self->nv * sizeof(double));
+        self->delta[self->mh + k] = 1;
+        zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
+        largest = fmax(largest, zd_max_abs(self->nv, self->delta));
+    }
+    return largest;
+}
+
+/* Rows of A that complete those of C_H, by pivoting. */
+static int choose(zd_embedding *self, zd_point *point)
+{
+    int nv = self->nv, mh = self->mh, columns = mh + self->nq;
+    for (int j = 0; j < nv; j++)
+        for (int i = 0; i < columns; i++)
+            self->work[j * columns + i] = i < mh ? point->terms.C[i * nv + j] : kinematic(point, i - mh, j);
+    point->culprit = zd_choose_columns(nv, columns, mh, self->work, self->order);
+    if (point->culprit < nv) return ZD_DEPENDENT;
+    for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;
+    return ZD_DONE;
+}
+
+int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
+{
+    const zd_system *system = point->system;
+    *changed = 0;
+    if (self->chosen && (system->embed || !self->mh || response(self) <= WORSE * self->reference)) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C | ZD_A);
+    if (system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
+    else if (!status) status = choose(self, point);
+    if (!status) status = factor(self, point);
+    if (status) return status;
+    if (self->chosen) point->statistics->repartitions++;
+    self->reference = response(self);
+    self->chosen = *changed = 1;
+    return ZD_DONE;
+}

@@ -1,0 +1,27 @@
+/* p = g(q), (18): all coordinates from independent ones. The system's own function, or numerically. */
+#ifndef ZD_EMBEDDING_H
+#define ZD_EMBEDDING_H
+
+#include "../core.h"
+
+typedef struct zd_embedding {
+    int nq, nv, mh, k;
+    int chosen;             /* whether q has been */
+    double reference;       /* how well q was conditioned when it was */
+    double rounding;        /* of Phi */
+    int *index;             /* (k,): which entries of p are q */
+    int *order;             /* (mh + nq,) */
+    double *K;              /* (nv, nv): [C_H; A_q], factored */
+    int *pivots;            /* (nv,) */
+    double *work;           /* (nv, mh + nq) */
+    double *delta;          /* (nv,) */
+    double *p;              /* (nq,) */
+} zd_embedding;
+
+zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system);
+/* Moves the point to p = g(q) at time t, starting from where it is. */
+int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q);
+/* Chooses q anew where the present choice is badly conditioned at the point; *changed tells. */
+int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed);
+
+#endif

@@ -1,0 +1,71 @@
+/* (19) and (22): independent coordinates q and independent velocities. Nothing can be violated.
+ *
+ * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22).
+ */
+#include "embedding.h"
+#include "minimal.h"
+
+typedef struct independent {
+    zd_minimal minimal;         /* first: its factor() and solve() are this one's */
+    zd_embedding embedding;
+    double *pdot;               /* (nq,) */
+} independent;
+
+static void *take(zd_arena *arena, const zd_system *system)
+{
+    independent self = {
+        .minimal = zd_minimal_take(arena, system),
+        .embedding = zd_embedding_take(arena, system),
+        .pdot = zd_take_doubles(arena, (size_t)system->nq),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int state_size(const zd_system *system)
+{
+    return (system->nv - system->mh) + (system->nv - zd_constraints(system));
+}
+
+static int enter(void *memory, zd_point *point, double t, const double *y)
+{
+    independent *self = memory;
+    int status = zd_embedding_place(&self->embedding, point, t, y);
+    return status ? status : zd_minimal_enter(&self->minimal, point, y + self->embedding.k);
+}
+
+static int leave(void *memory, zd_point *point, double *y)
+{
+    independent *self = memory;
+    const zd_embedding *embedding = &self->embedding;
+    int changed, status = zd_embedding_review(&self->embedding, point, &changed);
+    if (status) return status;
+    if (changed && !point->system->mn && !point->terms.A) {     /* (19): u is qdot */
+        zd_complement_prefer(&self->minimal.complement, embedding->index);
+        point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);
+    }
+    for (int k = 0; k < embedding->k; k++) y[k] = point->p[embedding->index[k]];
+    return zd_minimal_leave(&self->minimal, point, y + embedding->k);
+}
+
+static int rate(void *memory, zd_point *point, double *ydot)
+{
+    independent *self = memory;
+    const zd_embedding *embedding = &self->embedding;
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
+    zd_point_rate(point, point->v, self->pdot);
+    for (int k = 0; k < embedding->k; k++) ydot[k] = self->pdot[embedding->index[k]];      /* (21) */
+    return zd_complement_rate(&self->minimal.complement, point, ydot + embedding->k);      /* (19), (22) */
+}
+
+const zd_formulation zd_independent = {
+    .card = {"independent", "Independent coordinates and velocities: no constraint can be violated.", "(19), (22)", 0},
+    .violates = 0,
+    .state_size = state_size,
+    .take = take,
+    .factor = zd_minimal_factor,
+    .solve = zd_minimal_solve,
+    .enter = enter,
+    .leave = leave,
+    .rate = rate,
+};

@@ -1,0 +1,25 @@
+/* What the formulations in independent velocities, (17), (19) and (22), share: the matrix D^T M D, and v = D u. */
+#ifndef ZD_MINIMAL_H
+#define ZD_MINIMAL_H
+
+#include "complement.h"
+
+typedef struct zd_minimal {
+    zd_complement complement;
+    const double *M;    /* (n, n): the point's */
+    double *Mu;         /* (r, r): Cholesky factor of D^T M D */
+    double *u;          /* (r,): that of the state */
+    double *b;          /* (n,) */
+    double *du;         /* (r,) */
+} zd_minimal;
+
+zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system);
+int zd_minimal_factor(void *self, zd_point *point);
+void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
+/* Remembers u, and gives the point the v that belongs to it. */
+int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
+/* The point's u, in terms of independent velocities that are reviewed first. */
+int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
+int zd_minimal_settle(void *self, zd_point *point);
+
+#endif

@@ -1,0 +1,47 @@
+/* (17): dependent coordinates p and independent velocities u. The velocities satisfy (5) by v = D u; only (3) is violated. */
+#include "minimal.h"
+
+static void *take(zd_arena *arena, const zd_system *system)
+{
+    zd_minimal self = zd_minimal_take(arena, system);
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int state_size(const zd_system *system)
+{
+    return system->nq + system->nv - zd_constraints(system);
+}
+
+static int enter(void *self, zd_point *point, double t, const double *y)
+{
+    zd_point_move(point, t, y, point->v);
+    return zd_minimal_enter(self, point, y + point->system->nq);
+}
+
+static int leave(void *self, zd_point *point, double *y)
+{
+    memcpy(y, point->p, (size_t)point->system->nq * sizeof *y);
+    return zd_minimal_leave(self, point, y + point->system->nq);
+}
+
+static int rate(void *memory, zd_point *point, double *ydot)
+{
+    zd_minimal *self = memory;
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
+    zd_point_rate(point, point->v, ydot);                               /* (17): pdot = A D u */
+    return zd_complement_rate(&self->complement, point, ydot + point->system->nq);
+}
+
+const zd_formulation zd_mixed = {
+    .card = {"mixed", "Dependent coordinates and independent velocities: only position constraints can be violated.", "(17)", 0},
+    .violates = ZD_PHI,
+    .state_size = state_size,
+    .take = take,
+    .factor = zd_minimal_factor,
+    .solve = zd_minimal_solve,
+    .enter = enter,
+    .leave = leave,
+    .settle = zd_minimal_settle,
+    .rate = rate,
+};

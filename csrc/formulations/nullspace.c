@@ -1,0 +1,97 @@
+/* (9): the equations of motion along the free directions D, and the constraints, in one n x n matrix
+ *
+ *     H = [D^T M]         H vdot = [D^T (f - d); xi]
+ *         [C    ]
+ *
+ * The multipliers follow from C^T lambda = f - d - M vdot: D^T of that is zero, so that [0; lambda] is what solves
+ * H^T [.; lambda] = f - d - M vdot.
+ */
+#include "dependent.h"
+#include "complement.h"
+
+#include "../linalg/lu.h"
+
+typedef struct nullspace {
+    zd_complement complement;
+    const double *M;    /* (n, n): the point's */
+    double *H;          /* (n, n): rows scaled, then factored */
+    double *scale;      /* (n,): of the rows; powers of two */
+    int *order;         /* (n,) */
+    double *b;          /* (n,) */
+} nullspace;
+
+static void *take(zd_arena *arena, const zd_system *system)
+{
+    size_t n = (size_t)system->nv;
+    nullspace self = {
+        .complement = zd_complement_take(arena, system),
+        .H = zd_take_doubles(arena, n * n),
+        .scale = zd_take_doubles(arena, n),
+        .order = zd_take(arena, n * sizeof(int)),
+        .b = zd_take_doubles(arena, n),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* Rows of different units are made comparable before pivots are. */
+static void scale_row(int n, double *row, double *scale)
+{
+    int exponent = 0;
+    double largest = zd_max_abs(n, row);
+    if (largest > 0 && largest < INFINITY) (void)frexp(largest, &exponent);
+    *scale = ldexp(1, -exponent);
+    for (int i = 0; i < n; i++) row[i] *= *scale;
+}
+
+static void fill(nullspace *self, const double *M, const double *C)
+{
+    const zd_complement *complement = &self->complement;
+    int n = complement->n, r = complement->r;
+    for (int a = 0; a < r; a++)
+        for (int j = 0; j < n; j++) {
+            double sum = 0;
+            for (int i = 0; i < n; i++) sum += complement->D[i * r + a] * M[i * n + j];
+            self->H[a * n + j] = sum;
+        }
+    if (complement->m) memcpy(self->H + r * n, C, (size_t)(complement->m * n) * sizeof *C);
+    for (int i = 0; i < n; i++) scale_row(n, self->H + i * n, self->scale + i);
+}
+
+static int factor(void *memory, zd_point *point)
+{
+    nullspace *self = memory;
+    int n = self->complement.n;
+    int status = zd_complement_review(&self->complement, point);
+    if (status) return status;
+    self->M = point->terms.M;
+    fill(self, self->M, point->terms.C);                                /* (9) */
+    point->culprit = zd_lu_factor(n, self->H, self->order);
+    return point->culprit < n ? ZD_SINGULAR : ZD_DONE;
+}
+
+static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
+{
+    nullspace *self = memory;
+    int n = self->complement.n, m = self->complement.m, r = self->complement.r;
+    if (force) zd_complement_project(&self->complement, force, x);
+    for (int a = 0; !force && a < r; a++) x[a] = 0;
+    for (int k = 0; k < m; k++) x[r + k] = rhs[k];
+    for (int i = 0; i < n; i++) x[i] *= self->scale[i];
+    zd_lu_solve(n, self->H, self->order, x);                            /* (9), (26) */
+    if (!lambda) return;
+    double *b = self->b;
+    for (int i = 0; i < n; i++) {
+        b[i] = force ? force[i] : 0;
+        for (int j = 0; j < n; j++) b[i] -= self->M[i * n + j] * x[j];
+    }
+    zd_lu_solve_transposed(n, self->H, self->order, b);
+    for (int k = 0; k < m; k++) lambda[k] = self->scale[r + k] * b[r + k];
+}
+
+const zd_formulation zd_nullspace = {
+    .card = {"nullspace", "Dependent variables; motion along the free directions beside the constraints, in one matrix.", "(9), (26)", 0},
+    ZD_DEPENDENT_STATE,
+    .take = take,
+    .factor = factor,
+    .solve = solve,
+};
