@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _check, _gateway, settings
-from ._system import BaseSystem
+from ._system import BaseSystem, core_of
 from .errors import CorrectionWarning, Interrupted
 from .solution import Solution
 
@@ -83,10 +83,9 @@ def simulate(
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
     """
-    span = _check.span(t_span)
+    core, span = core_of(system), _check.span(t_span)
     chosen = _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every)
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    core = system._core
     p0 = system.p0 if p0 is None else _check.vector("p0", p0, core.nq)
     v0 = system.v0 if v0 is None else _check.vector("v0", v0, core.nv)
     run = _gateway.Run(core, _core_settings(span, chosen), p0, v0)
@@ -96,8 +95,6 @@ def simulate(
 
 def _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every) -> dict[str, Any]:
     """The settings, checked: what `Solution.settings` will say."""
-    if not isinstance(system, BaseSystem):
-        raise TypeError(f"system must be one of zd.systems, not {system!r}")
     if step is None:
         raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size")
     step = _check.number("step", step, above=0)
