@@ -88,10 +88,13 @@ typedef struct zd_integrator {
 typedef struct zd_correction {
     zd_card card;
     int (*enabled)(const zd_settings *settings);
-    int needs;              /* terms for `stabilize` */
-    void *(*take)(zd_arena *arena, const zd_system *system);    /* may be NULL */
-    void (*stabilize)(void *self, const zd_settings *settings, const zd_point *point, double *rhs);   /* xi -> xi_stab */
+    int needs;              /* terms for `stabilize` and `extra_rate` */
+    void *(*take)(zd_arena *arena, const zd_system *system, const zd_settings *settings);
     int (*after_step)(void *self, zd_run *run);
+    /* xi -> xi_stab, with what the correction has integrated along with the state, if it does */
+    void (*stabilize)(void *self, const zd_settings *settings, const zd_point *point, const double *extra, double *rhs);
+    int (*extra_size)(const zd_system *system, const zd_settings *settings);
+    void (*extra_rate)(const zd_point *point, double *rate);
 } zd_correction;
 
 /* ---- the run ---- */
@@ -101,6 +104,8 @@ enum { ZD_CORRECTIONS_MAX = 8, ZD_MESSAGE = 320 };
 typedef struct zd_active {
     const zd_correction *row;
     void *self;
+    int extra;              /* where in the state that stands which it integrates along */
+    int extra_size;
 } zd_active;
 
 struct zd_run {
@@ -117,9 +122,12 @@ struct zd_run {
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_rate rate;
     zd_point *point;
-    double *y;              /* the integrated state; last, if it has one, the energy input (28) */
-    double *input;          /* points to it, or to 0 */
+    double *y;              /* the integrated state: the formulation's, what corrections add, the energy input (28) */
+    const double *state;    /* that of the point: y, or a stage of the integrator */
+    int extras;             /* numbers in the state that corrections add */
+    double *input;          /* the last of y where the system has energy input, else 0 */
     double *Psi;            /* (m,) */
+    double *factor;         /* (nv, nv): of M at the start, to see whether it is positive definite */
     double no_input;
     double energy0;         /* E0 of (28) */
     long step, steps;       /* done, to do */

@@ -27,7 +27,8 @@ static void stabilize(zd_run *run)
 {
     for (int i = 0; i < run->corrections; i++) {
         const zd_active *active = &run->active[i];
-        if (active->row->stabilize) active->row->stabilize(active->self, &run->settings, run->point, run->point->rhs);
+        if (active->row->stabilize)
+            active->row->stabilize(active->self, &run->settings, run->point, run->state + active->extra, run->point->rhs);
     }
 }
 
@@ -57,14 +58,26 @@ static double power(const zd_point *point)
     return sum;
 }
 
+static void extra_rates(const zd_run *run, double *ydot)
+{
+    for (int i = 0; i < run->corrections; i++) {
+        const zd_active *active = &run->active[i];
+        if (active->extra_size) active->row->extra_rate(run->point, ydot + active->extra);
+    }
+}
+
 int zd_run_rate(void *context, double t, const double *y, double *ydot)
 {
     zd_run *run = context;
     int status = run->formulation->enter(run->solver, run->point, t, y);
+    run->state = y;
+    if (run->extras) run->point->known &= ~ZD_ACCELERATED;     /* vdot depends on them, too */
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = run->formulation->rate(run->solver, run->point, ydot);
-    if (!status && zd_has_input(&run->system)) ydot[run->rate.size - 1] = power(run->point);
-    return status;
+    if (status) return status;
+    extra_rates(run, ydot);
+    if (zd_has_input(&run->system)) ydot[run->rate.size - 1] = power(run->point);
+    return ZD_DONE;
 }
 
 int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic)

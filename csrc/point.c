@@ -135,3 +135,8 @@ double zd_max_abs(int n, const double *x)
     }
     return largest;
 }
+
+int zd_all_finite(const double *x, int count)
+{
+    return isfinite(zd_max_abs(count, x));
+}

@@ -2,21 +2,26 @@
 #include <stdio.h>
 
 #include "core.h"
+#include "linalg/small.h"
 #include "registry.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
+static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
 
 /* ---- memory ---- */
 
-static void enable_corrections(zd_run *run, zd_arena *arena)
+static int enable_corrections(zd_run *run, zd_arena *arena, int size)
 {
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
         const zd_correction *correction = zd_correction_of(row);
         if (!correction->enabled(&run->settings)) continue;
-        void *self = correction->take ? correction->take(arena, &run->system) : NULL;
-        run->active[run->corrections++] = (zd_active){correction, self};
+        int extra = correction->extra_size ? correction->extra_size(&run->system, &run->settings) : 0;
+        void *self = correction->take(arena, &run->system, &run->settings);
+        run->active[run->corrections++] = (zd_active){correction, self, size, extra};
         run->acceleration_needs |= correction->needs;
+        size += extra;
     }
+    return size;
 }
 
 /* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
@@ -32,15 +37,19 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
         .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
-    int size = run.formulation->state_size(system) + (zd_has_input(system) ? 1 : 0);
-    if (zd_has_input(system)) run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
+    int own_size = run.formulation->state_size(system), size = enable_corrections(&run, arena, own_size);
+    run.extras = size - own_size;
+    if (zd_has_input(system)) {
+        run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
+        size++;
+    }
     run.violates = run.formulation->violates;
     run.solver = run.formulation->take(arena, system);
     run.stepper = run.integrator->take(arena, run.integrator->table, size);
-    enable_corrections(&run, arena);
     run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
-    run.y = zd_take_doubles(arena, (size_t)size);
+    run.state = run.y = zd_take_doubles(arena, (size_t)size);
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
+    run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
     if (here) {
         *here = run;
@@ -108,6 +117,23 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
+/* Formulations need not notice: some read half of M, some only parts of it. */
+static int check_mass(zd_run *run)
+{
+    zd_point *point = run->point;
+    int n = run->system.nv, status = zd_point_need(point, ZD_M);
+    if (status) return status;
+    const double *M = point->terms.M;
+    double largest = zd_max_abs(n * n, M);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            point->culprit = i;
+            if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
+        }
+    point->culprit = zd_cholesky(n, M, run->factor);
+    return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
+}
+
 static int start_energy(zd_run *run)
 {
     double kinetic;
@@ -118,6 +144,7 @@ static int start_energy(zd_run *run)
 static int start(zd_run *run)
 {
     int status = check_constraints(run);
+    if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = start_energy(run);

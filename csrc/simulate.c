@@ -22,6 +22,8 @@ static int take_step(zd_run *run)
     run->statistics.steps++;
     if (!isfinite(zd_max_abs(run->rate.size, run->y))) return ZD_NOT_FINITE;
 
+    run->state = run->y;
+    if (run->extras) run->point->known &= ~ZD_ACCELERATED;
     status = run->formulation->enter(run->solver, run->point, t1, run->y);
     if (!status) status = zd_run_correct(run);
     return status ? status : run->formulation->leave(run->solver, run->point, run->y);

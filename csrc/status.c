@@ -7,6 +7,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->point;
     const zd_projection *projection = &run->settings.projection;
+    const char *failure = run->system.failure;
     int culprit = point->culprit;
     switch (status) {
     case ZD_NOT_FINITE:
@@ -15,6 +16,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)", culprit);
         break;
+    case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", culprit); break;
     case ZD_DEPENDENT:
         snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", culprit);
         break;
@@ -32,7 +34,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
                  point->defect);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "the system's own evaluation failed"); break;
+    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }

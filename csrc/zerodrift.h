@@ -27,7 +27,8 @@ enum zd_status {
     ZD_NO_MEMORY = -9,
     ZD_CALLBACK = -10,        /* a system's own evaluation failed */
     ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
-    ZD_NO_EMBEDDING = -12     /* p = g(q) was not solved */
+    ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
+    ZD_NOT_SYMMETRIC = -13    /* M is not */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -64,6 +65,9 @@ typedef struct zd_terms {
     double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
 } zd_terms;
 
+/* Whether all are finite: for systems that check what they are given. */
+int zd_all_finite(const double *x, int count);
+
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns 0, or ZD_CALLBACK. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
@@ -78,6 +82,7 @@ typedef struct zd_system {
     const void *data;   /* its parameters, or whatever it wants to be handed */
     zd_embed *embed;    /* may be NULL: then g is found numerically */
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
+    const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
 
 /* ---- the four tables ---- */
@@ -144,7 +149,8 @@ typedef struct zd_projection {      /* (25)-(27) */
 
 typedef struct zd_baumgarte {       /* (23) */
     int on;
-    double alpha, beta;             /* 1/s, 1/s^2 */
+    double alpha, beta;             /* 1/s, 1/s^2: of Psi and Phi */
+    double integral;                /* 1/s^3: of the time integral of Phi; 0: not integrated */
 } zd_baumgarte;
 
 typedef struct zd_energy {          /* (28), (29) */

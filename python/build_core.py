@@ -30,8 +30,14 @@ def fingerprint() -> str:
 def declarations() -> str:
     """The public header without the preprocessor's lines."""
     header = (ROOT / "csrc" / "zerodrift.h").read_text()
-    return re.sub(r"^#.*$", "", header, flags=re.MULTILINE) + "\nextern const char *const zd_fingerprint;\n"
+    return re.sub(r"^#.*$", "", header, flags=re.MULTILINE) + IN_PYTHON
 
+
+# Beside the core's own interface: what it was built from, and the evaluation of systems written in Python.
+IN_PYTHON = """
+extern const char *const zd_fingerprint;
+extern "Python" int zd_evaluate_in_python(const void *, int, double, const double *, const double *, const zd_terms *);
+"""
 
 ffibuilder = FFI()
 ffibuilder.cdef(declarations())

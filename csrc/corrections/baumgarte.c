@@ -1,29 +1,52 @@
-/* Baumgarte's stabilization: the violations are fed back into the right side of (6). */
+/* Baumgarte's stabilization: the violations are fed back into the right side of (6), and so, if asked for, is the time integral
+ * of the position violation, as the paper's reference [16] proposes. The integral is part of the integrated state.
+ */
 #include "../core.h"
+
+typedef struct baumgarte {
+    double *Psi;        /* (m,) */
+} baumgarte;
 
 static int enabled(const zd_settings *settings)
 {
     return settings->baumgarte.on;
 }
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
-    return zd_take_doubles(arena, (size_t)zd_constraints(system));
+    (void)settings;
+    baumgarte self = {zd_take_doubles(arena, (size_t)zd_constraints(system))};
+    return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void stabilize(void *memory, const zd_settings *settings, const zd_point *point, double *rhs)
+static void stabilize(void *memory, const zd_settings *settings, const zd_point *point, const double *integral, double *rhs)
 {
-    double *Psi = memory;
+    const zd_baumgarte *gain = &settings->baumgarte;
     const zd_system *system = point->system;
+    double *Psi = ((baumgarte *)memory)->Psi;
     zd_point_velocity_violation(point, Psi);
-    for (int k = 0; k < zd_constraints(system); k++) rhs[k] -= settings->baumgarte.alpha * Psi[k];      /* (23) */
-    for (int k = 0; k < system->mh; k++) rhs[k] -= settings->baumgarte.beta * point->terms.Phi[k];      /* (23) */
+    for (int k = 0; k < zd_constraints(system); k++) rhs[k] -= gain->alpha * Psi[k];            /* (23) */
+    for (int k = 0; k < system->mh; k++) rhs[k] -= gain->beta * point->terms.Phi[k];            /* (23) */
+    if (gain->integral > 0)
+        for (int k = 0; k < system->mh; k++) rhs[k] -= gain->integral * integral[k];
+}
+
+static int extra_size(const zd_system *system, const zd_settings *settings)
+{
+    return settings->baumgarte.integral > 0 ? system->mh : 0;
+}
+
+static void extra_rate(const zd_point *point, double *rate)
+{
+    for (int k = 0; k < point->system->mh; k++) rate[k] = point->terms.Phi[k];
 }
 
 const zd_correction zd_baumgarte_row = {
-    .card = {"baumgarte", "Violations are fed back into the acceleration constraints, with gains alpha and beta.", "(23)", 0},
+    .card = {"baumgarte", "Violations are fed back into the acceleration constraints, with gains alpha, beta and integral.", "(23)", 0},
     .enabled = enabled,
     .needs = ZD_PHI | ZD_C | ZD_PHI_T,
     .take = take,
     .stabilize = stabilize,
+    .extra_size = extra_size,
+    .extra_rate = extra_rate,
 };

@@ -4,7 +4,7 @@
  *     v <- v + solve(0, -Psi)             (25b), (26b), (27b)
  *
  * `solve` is the formulation's own, whose metric is the mass matrix: the correction is M-orthogonal to the manifold and leaves
- * the motion along it alone.
+ * the motion along it alone. For comparison there is the identity metric of the paper's reference [20], (13) with M = I.
  */
 #include "../core.h"
 #include "../newton.h"
@@ -12,7 +12,11 @@
 typedef struct projection {
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
     double *rhs, *x;    /* (m,), (nv,) */
+    double *identity;   /* (nv, nv), in that metric */
+    void *plain;        /* (13) with it */
 } projection;
+
+extern const zd_formulation zd_schur;
 
 typedef struct position_problem {   /* what Newton's loop is handed */
     projection *self;
@@ -24,15 +28,19 @@ static int enabled(const zd_settings *settings)
     return settings->projection.every > 0;
 }
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    int identity = settings->projection.metric == ZD_IDENTITY_METRIC;
     projection self = {
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_take_doubles(arena, nv),
+        .identity = identity ? zd_take_doubles(arena, nv * nv) : NULL,
+        .plain = identity ? zd_schur.take(arena, system) : NULL,
     };
+    for (size_t i = 0; self.identity && i < nv; i++) self.identity[i * nv + i] = 1;
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -44,13 +52,27 @@ static int position_residual(void *context, double *size)
     return status;
 }
 
-static int solve(zd_run *run, const double *rhs, double *x)
+static int solve_with_identity(projection *self, zd_run *run, const double *rhs, double *x)
 {
-    int status = zd_run_factor(run);
+    int status = zd_point_need(run->point, ZD_C);
     if (status) return status;
+    zd_point unit = *run->point;
+    unit.terms.M = self->identity;
+    run->statistics.factorizations++;
+    status = zd_schur.factor(self->plain, &unit);
+    run->point->culprit = unit.culprit;
+    if (!status) zd_schur.solve(self->plain, NULL, rhs, x, NULL);
+    return status;
+}
+
+/* x with C x = rhs, orthogonal to the manifold in the chosen metric */
+static int solve(projection *self, zd_run *run, const double *rhs, double *x)
+{
     run->statistics.solves++;
-    run->formulation->solve(run->solver, NULL, rhs, x, NULL);
-    return ZD_DONE;
+    if (self->plain) return solve_with_identity(self, run, rhs, x);
+    int status = zd_run_factor(run);
+    if (!status) run->formulation->solve(run->solver, NULL, rhs, x, NULL);
+    return status;
 }
 
 static int improve_position(void *context)
@@ -62,7 +84,7 @@ static int improve_position(void *context)
     int status = zd_point_need(point, ZD_PHI | ZD_A);
     if (status) return status;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? -point->terms.Phi[k] : 0;
-    status = solve(problem->run, self->rhs, self->x);
+    status = solve(self, problem->run, self->rhs, self->x);
     if (status) return status;
     zd_point_rate(point, self->x, self->p);
     for (int i = 0; i < system->nq; i++) self->p[i] += point->p[i];         /* (25a), (26a), (27a) */
@@ -91,7 +113,7 @@ static int correct_velocities(projection *self, zd_run *run)
     if (status) return status;
     zd_point_velocity_violation(point, self->rhs);
     for (int k = 0; k < zd_constraints(point->system); k++) self->rhs[k] = -self->rhs[k];
-    status = solve(run, self->rhs, self->x);
+    status = solve(self, run, self->rhs, self->x);
     if (status) return status;
     for (int i = 0; i < point->system->nv; i++) self->v[i] = point->v[i] + self->x[i];  /* (25b), (26b), (27b) */
     zd_point_move_velocity(point, self->v);

@@ -4,8 +4,9 @@
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
 
-/* Complete pivoting keeps the entries of W^-1 U near one; a partition is given up when they have grown to this. */
-static const double LARGEST_ENTRY = 8;
+/* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up when they have grown so much: early, because
+ * the motion is the harder to integrate the steeper w depends on u. */
+static const double WORSE = 2;
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
 {
@@ -33,6 +34,7 @@ static int choose(zd_complement *self, zd_point *point)
     int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
     point->culprit = rank;
     self->chosen = rank == self->m;
+    self->reference = 0;
     return self->chosen ? ZD_DONE : ZD_DEPENDENT;
 }
 
@@ -46,6 +48,7 @@ void zd_complement_prefer(zd_complement *self, const int *independent)
     }
     for (int j = 0; j < self->r; j++) self->order[self->m + j] = independent[j];
     self->chosen = 1;
+    self->reference = 0;
 }
 
 /* D = [I; -W^-1 U], rows in the order of v. (16) */
@@ -62,6 +65,7 @@ static void fill_partitioned(zd_complement *self, const double *C)
         self->D[column * r + j] = 1;
         self->largest = fmax(self->largest, zd_max_abs(m, self->work));
     }
+    if (self->reference == 0) self->reference = fmax(1, self->largest);
 }
 
 static int partition(zd_complement *self, zd_point *point)
@@ -111,7 +115,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
 int zd_complement_review(zd_complement *self, zd_point *point)
 {
     int was_chosen = self->chosen, status = zd_complement_at(self, point);
-    if (self->own || !was_chosen || (!status && self->largest <= LARGEST_ENTRY)) return status;
+    if (self->own || !was_chosen || (!status && self->largest <= WORSE * self->reference)) return status;
     point->statistics->repartitions++;
     self->chosen = 0;
     point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);

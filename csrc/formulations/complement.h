@@ -22,6 +22,7 @@ typedef struct zd_complement {
     double *gram;       /* (r, r): Cholesky factor of D^T D, for an own D */
     double *work;       /* (n, n) */
     double largest;     /* entry of W^-1 U: how well the partition is conditioned here */
+    double reference;   /* the same where it was chosen; 0: just chosen */
 } zd_complement;
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system);

@@ -6,32 +6,22 @@
  *    / alpha_1      alpha_3 \
  *   o                        o  (l0, 0)
  */
-#include "../core.h"
+#include "four_bar.h"
+
 #include "../linalg/small.h"
 
-enum { ALPHA_1, ALPHA_2, ALPHA_3, N = 3 };
+static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
-/* parameters, in the order of the table at the end */
-typedef struct given {
-    double l[4];        /* m: l0 ... l3 */
-    double m[3];        /* kg */
-    double J[3];        /* kg m^2 */
-    double g;           /* m/s^2 */
-    double crossed;
-    double angle, rate; /* alpha_1(0), rad; its rate, rad/s */
-} given;
+enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
 
-/* what evaluate() needs of them */
-typedef struct constants {
-    double l0, l[N];
-    double diagonal[N];         /* M_ii, kg m^2 */
-    double k12, k13, k23;       /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
-    double weight[N];           /* -f_i / cos(alpha_i), N m */
-} constants;
+typedef zd_four_bar_given given;
+typedef zd_four_bar_constants constants;
 
 typedef struct sines {          /* kept while p stays */
     double s[N], c[N];
 } sines;
+
+_Static_assert(sizeof(sines) == ZD_FOUR_BAR_SCRATCH * sizeof(double), "the header tells other systems the size of the scratch");
 
 static void write_mass(const constants *k, const sines *a, double *M)
 {
@@ -70,7 +60,7 @@ static void write_closure_bias(const constants *k, const sines *a, const double 
     }
 }
 
-static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     (void)t;
     const constants *k = data;
@@ -95,20 +85,32 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return ZD_DONE;
 }
 
-/* ---- the start: alpha_2, alpha_3 and their rates from alpha_1 ---- */
+/* ---- alpha_2 and alpha_3 from alpha_1 ---- */
 
-/* Both angles close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
-static int close_loop(const given *q, double *p)
+/* alpha_2, alpha_3 in (-pi, pi] close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
+static int close_loop(double l0, const double *l, double side, double *p)
 {
-    double x = q->l[0] - q->l[1] * cos(q->angle), y = -q->l[1] * sin(q->angle), diagonal = hypot(x, y);
-    double cosine = (q->l[2] * q->l[2] + diagonal * diagonal - q->l[3] * q->l[3]) / (2 * q->l[2] * diagonal);
+    double x = l0 - l[0] * cos(p[ALPHA_1]), y = -l[0] * sin(p[ALPHA_1]), diagonal = hypot(x, y);
+    double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
     if (!(fabs(cosine) <= 1)) return 0;
-    double side = q->crossed ? -1 : 1;
-    p[ALPHA_1] = q->angle;
     p[ALPHA_2] = atan2(y, x) + side * acos(cosine);
-    p[ALPHA_3] = atan2(y - q->l[2] * sin(p[ALPHA_2]), x - q->l[2] * cos(p[ALPHA_2]));
+    p[ALPHA_3] = atan2(y - l[1] * sin(p[ALPHA_2]), x - l[1] * cos(p[ALPHA_2]));
     return 1;
 }
+
+/* (18), q = alpha_1: angles continue the turns they have made. */
+static int embed(const void *data, double t, const double *q, double *p)
+{
+    (void)t;
+    const constants *k = data;
+    double before[N] = {p[0], p[1], p[2]};
+    p[ALPHA_1] = q[0];
+    if (!close_loop(k->l0, k->l, k->side, p)) return ZD_NO_EMBEDDING;
+    for (int i = ALPHA_2; i < N; i++) p[i] += TURN * round((before[i] - p[i]) / TURN);
+    return ZD_DONE;
+}
+
+/* ---- the start ---- */
 
 static void close_rates(const given *q, const double *p, double *v)
 {
@@ -118,39 +120,37 @@ static void close_rates(const given *q, const double *p, double *v)
     v[ALPHA_3] = q->rate * q->l[1] / q->l[3] * sin(p[ALPHA_2] - p[ALPHA_1]) / sine;
 }
 
-static void start(const double *parameters, double *p, double *v)
+void zd_four_bar_start(const given *q, double *p, double *v)
 {
-    given q;
-    memcpy(&q, parameters, sizeof q);
-    close_loop(&q, p);
-    close_rates(&q, p, v);
+    p[ALPHA_1] = q->angle;
+    close_loop(q->l[0], q->l + 1, q->crossed ? -1 : 1, p);
+    close_rates(q, p, v);
 }
 
-static const char *prepare(const double *parameters, double *to)
+const char *zd_four_bar_prepare(const given *q, constants *to)
 {
-    given q;
-    memcpy(&q, parameters, sizeof q);
-    double p[N];
-    if (!close_loop(&q, p)) return "links of these lengths cannot close the loop at this crank_angle";
+    double p[N] = {q->angle};
+    if (!close_loop(q->l[0], q->l + 1, q->crossed ? -1 : 1, p))
+        return "links of these lengths cannot close the loop at this crank_angle";
     if (!(fabs(sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
     double J[N];
-    for (int i = 0; i < N; i++) J[i] = isnan(q.J[i]) ? q.m[i] * q.l[i + 1] * q.l[i + 1] / 12 : q.J[i];
-    double l1 = q.l[1], l2 = q.l[2], l3 = q.l[3], m1 = q.m[0], m2 = q.m[1], m3 = q.m[2];
-    constants k = {
-        .l0 = q.l[0],
+    for (int i = 0; i < N; i++) J[i] = isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];
+    double l1 = q->l[1], l2 = q->l[2], l3 = q->l[3], m1 = q->m[0], m2 = q->m[1], m3 = q->m[2];
+    *to = (constants){
+        .l0 = q->l[0],
         .l = {l1, l2, l3},
+        .side = q->crossed ? -1 : 1,
         .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
         .k12 = (0.5 * m2 + m3) * l1 * l2,
         .k13 = 0.5 * m3 * l1 * l3,
         .k23 = 0.5 * m3 * l2 * l3,
-        .weight = {(0.5 * m1 + m2 + m3) * q.g * l1, (0.5 * m2 + m3) * q.g * l2, 0.5 * m3 * q.g * l3},
+        .weight = {(0.5 * m1 + m2 + m3) * q->g * l1, (0.5 * m2 + m3) * q->g * l2, 0.5 * m3 * q->g * l3},
     };
-    memcpy(to, &k, sizeof k);
     return NULL;
 }
 
-static void draw(const double *data, const double *p, double *points)
+void zd_four_bar_draw(const double *data, const double *p, double *points)
 {
     const constants *k = (const constants *)data;
     points[0] = points[1] = 0;
@@ -160,40 +160,48 @@ static void draw(const double *data, const double *p, double *points)
     }
 }
 
-static const double lengths[] = {1, 0.3, 1, 0.6}, masses[] = {1.5, 5, 3}, gravity[] = {9.81}, open[] = {0},
-                    angle[] = {0x1.921fb54442d18p+0}, rate[] = {1};
+const zd_variable zd_four_bar_coordinate[] = {{"alpha1", "rad"}, {"alpha2", "rad"}, {"alpha3", "rad"}};
+const zd_variable zd_four_bar_velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_dot", "rad/s"}, {"alpha3_dot", "rad/s"}};
+
+/* ---- the row of the table: the crank is free ---- */
+
+static const char *prepare(const double *parameters, double *to)
+{
+    return zd_four_bar_prepare((const given *)parameters, (constants *)to);
+}
+
+static void start(const double *parameters, double *p, double *v)
+{
+    zd_four_bar_start((const given *)parameters, p, v);
+}
 
 static const zd_parameter parameter[] = {
-    {"lengths", "m", "ground l0 and links l1, l2, l3", 4, ZD_POSITIVE, lengths},
-    {"masses", "kg", "of links 1, 2, 3", 3, ZD_POSITIVE, masses},
-    {"inertias", "kg m^2", "about the link midpoints; left out: slender rods, m l^2 / 12", 3, ZD_NOT_NEGATIVE, NULL},
-    {"gravity", "m/s^2", "downwards, along -y", 1, ZD_ANY, gravity},
-    {"assembly", "", "open crossed", 1, ZD_CHOICE, open},
-    {"crank_angle", "rad", "alpha1 at the start", 1, ZD_ANY, angle},
-    {"crank_rate", "rad/s", "its rate at the start", 1, ZD_ANY, rate},
+    ZD_FOUR_BAR_PARAMETERS,
+    {"crank_rate", "rad/s", "its rate at the start", 1, ZD_ANY, (const double[]){1}},
 };
 
-static const zd_variable coordinate[] = {{"alpha1", "rad"}, {"alpha2", "rad"}, {"alpha3", "rad"}};
-static const zd_variable velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_dot", "rad/s"}, {"alpha3_dot", "rad/s"}};
 static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
 
 const zd_kind zd_four_bar = {
-    .card = {"four_bar", "Four-bar mechanism under gravity, cut open at its last joint: the paper's example 1.", "section 4.1", 0},
+    .card = {"four_bar", "Four-bar mechanism under gravity, cut open at its last joint: the paper's example 1.",
+             "section 4.1", 0},
     .system = {
         .nq = N, .nv = N, .mh = 2,
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
-        .scratch = sizeof(sines) / sizeof(double),
-        .evaluate = evaluate,
+        .scratch = ZD_FOUR_BAR_SCRATCH,
+        .evaluate = zd_four_bar_evaluate,
+        .embed = embed,
+        .independent = (const int[]){ALPHA_1},
     },
     .parameters = sizeof parameter / sizeof parameter[0],
     .constants = sizeof(constants) / sizeof(double),
     .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
+    .coordinate = zd_four_bar_coordinate,
+    .velocity = zd_four_bar_velocity,
     .constraint = constraint,
     .prepare = prepare,
     .start = start,
     .points = N + 1,
     .dimension = 2,
-    .draw = draw,
+    .draw = zd_four_bar_draw,
 };

@@ -10,6 +10,7 @@ import importlib
 from typing import Any
 
 from . import systems
+from .custom import System
 from .errors import (
     CorrectionFailed,
     CorrectionWarning,
@@ -30,7 +31,7 @@ from .solution import Solution, load
 __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted",
-    "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "UnreachableTolerance", "ZerodriftError",
+    "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System", "UnreachableTolerance", "ZerodriftError",
     "acceleration", "assemble", "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
 ]
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,6 +20,7 @@ MESSAGE_SIZE = 512
 ERRORS = {
     lib.ZD_NOT_FINITE: errors.Diverged,
     lib.ZD_NOT_DEFINITE: errors.SingularSystem,
+    lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
     lib.ZD_DEPENDENT: errors.SingularSystem,
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
@@ -27,7 +30,7 @@ ERRORS = {
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_NO_MEMORY: MemoryError,
 }
-DONE, PAUSED = lib.ZD_DONE, lib.ZD_PAUSED
+DONE, PAUSED, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
 # The terms a system may have: bit, shape in terms of its sizes.
@@ -102,8 +105,9 @@ def cards(table: str) -> tuple[Card, ...]:
     return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order) for row in rows)
 
 
-def _raise(status: int, message: str) -> None:
-    raise ERRORS.get(status, errors.ZerodriftError)(message)
+def error_of(status: int, message: str) -> Exception:
+    """The exception that stands for a failed status."""
+    return ERRORS.get(status, errors.ZerodriftError)(message)
 
 
 # ---- built-in systems ----
@@ -166,8 +170,15 @@ class CoreSystem:
         self.provides = system.provides
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
 
+    error: BaseException | None = None      # what a system written in Python raised
+
+    def for_run(self) -> CoreSystem:
+        """The system for one run; one written in Python needs memory of its own for each."""
+        return self
+
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v)."""
+        core = self.for_run()
         terms = ffi.new("zd_terms *")
         scratch = ffi.new("double[]", max(1, self.c.scratch))
         terms.scratch = scratch
@@ -177,10 +188,91 @@ class CoreSystem:
                 continue
             arrays[name] = array = np.zeros([getattr(self, size) for size in shape])
             setattr(terms, name, doubles(array, array.size, writable=True))
-        status = self.c.evaluate(self.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
+        status = core.c.evaluate(core.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
         if status:
-            _raise(status, "the system's evaluation failed")
+            raise core.error or error_of(status, "the system's evaluation failed")
         return arrays
+
+
+# ---- systems written in Python ----
+
+
+class Evaluator:
+    """Between the core's evaluation of one run and the callables of a system.
+
+    The core hands the same memory to each call of a run, so the arrays over it are made once. `write` is handed the
+    wanted terms' names, t, p, v and these arrays; what it raises is kept, and the run stops.
+    """
+
+    def __init__(self, core: PythonCore) -> None:
+        self.core, self.error = core, None
+        self._known, self._arrays = None, None
+
+    def arrays(self, p: Any, v: Any, terms: Any) -> dict[str, np.ndarray]:
+        """Arrays over the memory of (p, v) and of the terms."""
+        if self._known == (p, v, terms):
+            return self._arrays
+        core = self.core
+        arrays = {"p": _over(p, (core.nq,)), "v": _over(v, (core.nv,))}
+        arrays["p"].flags.writeable = arrays["v"].flags.writeable = False
+        for name, (bit, shape) in TERMS.items():
+            if core.provides & bit:
+                arrays[name] = _over(getattr(terms, name), [getattr(core, size) for size in shape])
+        self._known, self._arrays = (p, v, terms), arrays
+        return arrays
+
+    def evaluate(self, want: int, t: float, p: Any, v: Any, terms: Any) -> int:
+        """What the core calls."""
+        try:
+            self.core.write(want, t, self.arrays(p, v, terms))
+        except BaseException as error:      # noqa: BLE001 - it surfaces where the run was started
+            self.error = error
+            return lib.ZD_CALLBACK
+        return lib.ZD_DONE
+
+
+def _over(pointer: Any, shape: Any) -> np.ndarray:
+    size = int(np.prod(shape))
+    if size == 0:
+        return np.empty(shape)
+    return np.frombuffer(ffi.buffer(pointer, size * 8), dtype=np.float64).reshape(shape)
+
+
+@ffi.def_extern()
+def zd_evaluate_in_python(data, want, t, p, v, terms):  # noqa: D103
+    return ffi.from_handle(ffi.cast("void *", data)).evaluate(want, t, p, v, terms)
+
+
+class PythonCore(CoreSystem):
+    """A system whose terms `write` computes: write(want, t, arrays), where `want` is a mask of the bits of TERMS."""
+
+    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None]) -> None:
+        system = ffi.new("zd_system *")
+        system.nq, system.nv, system.mh, system.mn = sizes
+        for name in names:
+            system.provides |= TERMS[name][0]
+        system.evaluate = lib.zd_evaluate_in_python
+        super().__init__(system, None)
+        self.write, self.evaluator = write, None
+
+    def for_run(self) -> PythonCore:
+        """The same system with an evaluator of its own, so that runs do not share memory."""
+        mine = copy.copy(self)
+        mine.evaluator = Evaluator(mine)
+        mine.c = ffi.new("zd_system *", self.c[0])
+        mine._data = ffi.new_handle(mine.evaluator)
+        mine.c.data = mine._data
+        return mine
+
+    @property
+    def error(self) -> BaseException | None:
+        """What a callable raised."""
+        return self.evaluator.error if self.evaluator else None
+
+
+def all_finite(array: np.ndarray) -> bool:
+    """Whether a contiguous array has only finite entries."""
+    return bool(lib.zd_all_finite(ffi.from_buffer("double[]", array), array.size))
 
 
 # ---- runs ----
@@ -235,15 +327,20 @@ class Run:
     """A run of the core."""
 
     def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray) -> None:
+        core = core.for_run()
         status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
-            _raise(status[0], text(message))
+            raise core.error or error_of(status[0], text(message))
         self._run, self._core = ffi.gc(run, lib.zd_run_free), core
 
     def advance(self, record: Record, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
         return lib.zd_run_advance(self._run, record.c, seconds)
+
+    def error(self, status: int) -> BaseException:
+        """The exception that stands for a failed status: what a system written in Python raised, or our own."""
+        return self._core.error or error_of(status, self.message)
 
     @property
     def progress(self) -> float:
@@ -262,31 +359,28 @@ class Run:
         return {name: getattr(c, name) for name in STATISTICS}
 
 
-def error_of(status: int, message: str) -> Exception:
-    """The exception that stands for a failed status."""
-    return ERRORS.get(status, errors.ZerodriftError)(message)
-
-
 def acceleration(core: CoreSystem, formulation: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`zd_acceleration`: vdot (nv,) and multipliers (m,)."""
+    core = core.for_run()
     vdot, multipliers, message = np.empty(core.nv), np.empty(core.m), ffi.new("char[]", MESSAGE_SIZE)
     status = lib.zd_acceleration(core.c, formulation, t, doubles(p, core.nq), doubles(v, core.nv),
                                  doubles(vdot, core.nv, writable=True), doubles(multipliers, core.m, writable=True),
                                  message, MESSAGE_SIZE)
     if status:
-        _raise(status, text(message))
+        raise core.error or error_of(status, text(message))
     return vdot, multipliers
 
 
 def project(core: CoreSystem, options: Any, t: float, p: np.ndarray, v: np.ndarray,
             hold_p: list[int] | None = None, hold_v: list[int] | None = None) -> int:
     """`zd_project`: corrects p and v in place; the number of iterations."""
+    core = core.for_run()
     iterations, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
     held = [ffi.NULL if hold is None else ffi.new("int[]", hold) for hold in (hold_p, hold_v)]
     status = lib.zd_project(core.c, options, t, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True),
                             *held, iterations, message, MESSAGE_SIZE)
     if status:
-        _raise(status, text(message))
+        raise core.error or error_of(status, text(message))
     return iterations[0]
 
 

@@ -53,15 +53,15 @@ class BaseSystem:
     coordinates, velocities, constraints : tuple of Variable(name, unit)
         What the entries of p, of v and of the multipliers are.
     p0, v0 : ndarray (nq,), (nv,)
-        Where `zerodrift.simulate` starts unless told otherwise.
+        Where `zerodrift.simulate` starts unless told otherwise; None: it has to be told.
     """
 
     name: str
     coordinates: tuple[Variable, ...]
     velocities: tuple[Variable, ...]
     constraints: tuple[Variable, ...]
-    p0: np.ndarray
-    v0: np.ndarray
+    p0: np.ndarray | None
+    v0: np.ndarray | None
     _core: _gateway.CoreSystem
 
     nq = property(lambda self: self._core.nq, doc="Number of coordinates, the entries of p.")
@@ -80,9 +80,17 @@ class BaseSystem:
         >>> zd.systems.oscillator(mass=2.0).evaluate().M
         array([[2.]])
         """
-        p = self.p0 if p is None else _check.vector("p", p, self.nq)
-        v = self.v0 if v is None else _check.vector("v", v, self.nv)
+        p, v = self._start(p, v, "p", "v")
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
+
+    def _start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0") -> tuple[np.ndarray, np.ndarray]:
+        """The state given, or the system's own start for what is left out."""
+        if p is None and self.p0 is None:
+            raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
+        p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
+        if v is None:
+            v = np.zeros(self.nv) if self.v0 is None else self.v0
+        return p, _check.vector(v_name, v, self.nv)
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
@@ -98,5 +106,5 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     """What the core knows a system by; refuses what is no system, and what is only the description of one."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
-        raise TypeError(f"system must be one of zd.systems, not {system!r}")
+        raise TypeError(f"system must be one of zd.systems or a zd.System, not {system!r}")
     return core

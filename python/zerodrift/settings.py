@@ -70,6 +70,9 @@ class Baumgarte:
     ----------
     alpha, beta : float
         Gains of the velocity and the position violation, in 1/s and 1/s^2. ``beta = alpha**2 / 4`` damps critically.
+    integral : float
+        Gain of the time integral of the position violation in 1/s^3, after the paper's reference [16]; it must be less
+        than ``alpha * beta``, or the feedback itself is unstable.
 
     Examples
     --------
@@ -79,12 +82,15 @@ class Baumgarte:
 
     alpha: float = 10.0
     beta: float = 25.0
+    integral: float = 0.0
 
     def __post_init__(self) -> None:
-        _keep(self, alpha=_check.number("alpha", self.alpha, least=0), beta=_check.number("beta", self.beta, least=0))
+        _keep(self, **{name: _check.number(name, getattr(self, name), least=0) for name in ("alpha", "beta", "integral")})
+        if self.integral and not self.integral < self.alpha * self.beta:
+            raise ValueError(f"integral must be less than alpha * beta = {self.alpha * self.beta:g}, not {self.integral:g}")
 
     def _core(self) -> dict[str, Any]:
-        return {"baumgarte": {"on": 1, "alpha": self.alpha, "beta": self.beta}}
+        return {"baumgarte": {"on": 1, "alpha": self.alpha, "beta": self.beta, "integral": self.integral}}
 
 
 @dataclass(frozen=True, slots=True)

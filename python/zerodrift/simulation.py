@@ -86,8 +86,7 @@ def simulate(
     core, span = core_of(system), _check.span(t_span)
     chosen = _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every)
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    p0 = system.p0 if p0 is None else _check.vector("p0", p0, core.nq)
-    v0 = system.v0 if v0 is None else _check.vector("v0", v0, core.nv)
+    p0, v0 = system._start(p0, v0)
     run = _gateway.Run(core, _core_settings(span, chosen), p0, v0)
     record = _gateway.Record(core, _rows(span, chosen))
     return _finish(system, span, chosen, run, record, on_failure, *_drive(run, record, progress))
@@ -132,30 +131,49 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any) -> tuple[i
         status = _gateway.INTERRUPTED
     finally:
         close()
+    if status == _gateway.CALLBACK and isinstance(run.error(status), KeyboardInterrupt):
+        status = _gateway.INTERRUPTED
     return status, time.perf_counter() - start
+
+
+def _message(run: _gateway.Run, status: int) -> str:
+    match status:
+        case _gateway.DONE:
+            return "done"
+        case _gateway.INTERRUPTED:
+            return "interrupted from the keyboard"
+        case _gateway.CALLBACK:
+            return f"{run.message}: {run.error(status)!r}"
+        case _:
+            return run.message
 
 
 def _finish(system, span, chosen, run, record, on_failure, status, seconds) -> Solution:
     """The solution, or the error that carries it."""
     arrays = record.arrays()
-    stats = run.statistics | {"seconds": seconds}
-    message = {_gateway.DONE: "done", _gateway.INTERRUPTED: "interrupted from the keyboard"}.get(status) or run.message
     solution = Solution(
         t=arrays["t"], p=arrays["p"], v=arrays["v"], multipliers=arrays["multipliers"],
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
-        energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"], stats=stats, status=status,
-        success=status == _gateway.DONE, message=message, settings=chosen, system=system, t_span=span)
-    if on_failure == "raise" and status == _gateway.INTERRUPTED:
-        raise Interrupted(message, solution)
-    if on_failure == "raise" and status != _gateway.DONE:
-        error = _gateway.error_of(status, message)
-        error.solution = solution
-        raise error
-    if skipped := stats["energy_skipped"]:
-        warnings.warn(f"{skipped} of {stats['steps']} energy corrections were left out: near a turning point the kinetic "
+        energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
+        stats=run.statistics | {"seconds": seconds}, status=status, success=status == _gateway.DONE,
+        message=_message(run, status), settings=chosen, system=system, t_span=span)
+    if on_failure == "raise" and not solution.success:
+        _raise(run, status, solution)
+    if skipped := solution.stats["energy_skipped"]:
+        warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the kinetic "
                       "energy is too small for them", CorrectionWarning, stacklevel=3)
     return solution
+
+
+def _raise(run: _gateway.Run, status: int, solution: Solution) -> None:
+    if status == _gateway.INTERRUPTED:
+        raise Interrupted(solution.message, solution) from None
+    error = run.error(status)
+    error.solution = solution
+    if status == _gateway.CALLBACK:
+        error.add_note(run.message)
+    raise error
 
 
 def _rows(span: tuple[float, float], chosen: dict[str, Any]) -> int:

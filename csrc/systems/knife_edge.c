@@ -1,0 +1,100 @@
+/* A knife edge, or skate, on an inclined plane: it slides along itself and turns, but does not slip sideways.
+ *
+ *     o------------> x  down the slope        p = [x, y, phi], u = xdot, v = ydot
+ *     |  \ phi
+ *     |    \                                  u sin phi - v cos phi = 0
+ *     y     edge
+ *
+ * Left alone at the top with some spin it does not run down: it drifts sideways on a cycloid. Bloch, Nonholonomic Mechanics and
+ * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
+ */
+#include "skate.h"
+
+enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
+
+typedef struct given {
+    double m, I;            /* kg, kg m^2 */
+    double g, incline;      /* m/s^2, rad */
+    zd_skate_launch launch;
+} given;
+
+typedef struct constants {
+    double m, I;
+    double weight;          /* N, what of it pulls down the slope */
+} constants;
+
+typedef struct sines {      /* of phi, kept while p stays */
+    double s, c;
+} sines;
+
+static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+{
+    (void)t;
+    const constants *k = data;
+    sines *a = (sines *)out->scratch;
+    if (want & ZD_MOVED) *a = (sines){sin(p[PHI]), cos(p[PHI])};
+    if (want & ZD_M) memcpy(out->M, (double[]){k->m, 0, 0, 0, k->m, 0, 0, 0, k->I}, N * N * sizeof(double));
+    if (want & ZD_FORCE) memcpy(out->f, (double[]){k->weight, 0, 0}, N * sizeof(double));
+    if (want & ZD_C) memcpy(out->C, (double[]){a->s, -a->c, 0}, N * sizeof(double));           /* (5) */
+    if (want & ZD_XI) *out->xi = -v[PHI] * (a->c * v[X] + a->s * v[Y]);                        /* (6) */
+    if (want & ZD_POTENTIAL) *out->V = -k->weight * p[X];
+    return ZD_DONE;
+}
+
+static const char *prepare(const double *parameters, double *to)
+{
+    const given *q = (const given *)parameters;
+    const constants k = {q->m, q->I, q->m * q->g * sin(q->incline)};
+    memcpy(to, &k, sizeof k);
+    return NULL;
+}
+
+static void start(const double *parameters, double *p, double *v)
+{
+    zd_skate_start(&((const given *)parameters)->launch, p, v);
+}
+
+enum { POINTS = 5 };
+
+/* An arrow as long as the slender rod of this mass and inertia. */
+static void draw(const double *data, const double *p, double *points)
+{
+    const constants *k = (const constants *)data;
+    double l = sqrt(12 * k->I / k->m), tip = 0.5 * l, back = 0.3 * l, wide = 0.08 * l;
+    const double arrow[POINTS][2] = {{-tip, 0}, {tip, 0}, {back, wide}, {back, -wide}, {tip, 0}};
+    zd_skate_draw(POINTS, arrow, p, points);
+}
+
+static const double mass[] = {1.25}, inertia[] = {0.13}, gravity[] = {9.81}, eighth[] = {0x1.921fb54442d18p-1}, zero[] = {0},
+                    sixth[] = {0x1.0c152382d7366p+0};
+
+static const zd_parameter parameter[] = {
+    {"mass", "kg", "", 1, ZD_POSITIVE, mass},
+    {"inertia", "kg m^2", "about the normal of the plane", 1, ZD_POSITIVE, inertia},
+    {"gravity", "m/s^2", "", 1, ZD_ANY, gravity},
+    {"incline", "rad", "of the plane, downwards along +x", 1, ZD_ANY, eighth},
+    {"heading", "rad", "at the start, from the x axis", 1, ZD_ANY, zero},
+    {"speed", "m/s", "along the edge at the start", 1, ZD_ANY, zero},
+    {"turn_rate", "rad/s", "at the start; it stays", 1, ZD_ANY, sixth},
+};
+
+const zd_kind zd_knife_edge = {
+    .card = {"knife_edge", "Knife edge on an inclined plane: one nonholonomic constraint.", "Bloch, section 1.6", 0},
+    .system = {
+        .nq = N, .nv = N, .mn = 1,
+        .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .scratch = sizeof(sines) / sizeof(double),
+        .evaluate = evaluate,
+    },
+    .parameters = sizeof parameter / sizeof parameter[0],
+    .constants = sizeof(constants) / sizeof(double),
+    .parameter = parameter,
+    .coordinate = zd_skate_coordinate,
+    .velocity = zd_skate_velocity,
+    .constraint = zd_skate_constraint,
+    .prepare = prepare,
+    .start = start,
+    .points = POINTS,
+    .dimension = 2,
+    .draw = draw,
+};

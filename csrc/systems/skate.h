@@ -1,0 +1,22 @@
+/* What the knife edge and the Chaplygin sleigh share: an edge at (x, y) that points along phi and moves along itself only. */
+#ifndef ZD_SKATE_H
+#define ZD_SKATE_H
+
+#include "../core.h"
+
+enum { ZD_SKATE_X, ZD_SKATE_Y, ZD_SKATE_PHI, ZD_SKATE_N };
+
+typedef struct zd_skate_launch {
+    double heading;     /* rad */
+    double speed;       /* m/s, along the edge */
+    double turn_rate;   /* rad/s */
+} zd_skate_launch;
+
+extern const zd_variable zd_skate_coordinate[], zd_skate_velocity[], zd_skate_constraint[];
+
+/* A consistent start from the origin. */
+void zd_skate_start(const zd_skate_launch *launch, double *p, double *v);
+/* Puts an outline given along and across the edge, in m, where the edge is. */
+void zd_skate_draw(int n, const double (*outline)[2], const double *p, double *points);
+
+#endif

@@ -1,0 +1,209 @@
+"""Numbers that carry derivatives, for exact Jacobians and accelerations of constraints written in NumPy.
+
+A `Jet` holds a value, its gradient, and its first and second derivative along a curve. NumPy lets arrays of such objects
+through its functions: it calls the method of the function's name on each entry. One pass through the constraints so gives
+Phi, dPhi/dp, dPhi/dt and, along the motion, the right side of (6).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+
+class Jet:
+    """x with gradient dx/dy (k,), and x', x'' along a curve."""
+
+    __slots__ = ("first", "gradient", "second", "value")
+
+    def __init__(self, value: float, gradient: Any = 0.0, first: float = 0.0, second: float = 0.0) -> None:
+        self.value, self.gradient, self.first, self.second = value, gradient, first, second
+
+    def _chain(self, value: float, slope: float, curvature: float) -> Jet:
+        """phi(x) from phi, phi', phi'' at x."""
+        return Jet(value, slope * self.gradient, slope * self.first, curvature * self.first**2 + slope * self.second)
+
+    def __add__(self, other: Any) -> Jet:
+        if isinstance(other, np.ndarray):
+            return NotImplemented       # entry by entry, which the array does
+        if isinstance(other, Jet):
+            return Jet(self.value + other.value, self.gradient + other.gradient, self.first + other.first,
+                       self.second + other.second)
+        return Jet(self.value + other, self.gradient, self.first, self.second)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Jet:
+        return Jet(-self.value, -self.gradient, -self.first, -self.second)
+
+    def __pos__(self) -> Jet:
+        return self
+
+    def __sub__(self, other: Any) -> Jet:
+        return NotImplemented if isinstance(other, np.ndarray) else self + -other
+
+    def __rsub__(self, other: Any) -> Jet:
+        return -self + other
+
+    def __mul__(self, other: Any) -> Jet:
+        if isinstance(other, np.ndarray):
+            return NotImplemented       # entry by entry, which the array does
+        if isinstance(other, Jet):
+            return Jet(self.value * other.value, self.gradient * other.value + self.value * other.gradient,
+                       self.first * other.value + self.value * other.first,
+                       self.second * other.value + 2 * self.first * other.first + self.value * other.second)
+        return Jet(self.value * other, self.gradient * other, self.first * other, self.second * other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Jet:
+        if isinstance(other, np.ndarray):
+            return NotImplemented       # entry by entry, which the array does
+        return self * (other.reciprocal() if isinstance(other, Jet) else 1 / other)
+
+    def __rtruediv__(self, other: Any) -> Jet:
+        return self.reciprocal() * other
+
+    def reciprocal(self) -> Jet:
+        r = 1 / self.value
+        return self._chain(r, -r * r, 2 * r**3)
+
+    def __pow__(self, n: Any) -> Jet:
+        if isinstance(n, np.ndarray):
+            return NotImplemented       # entry by entry, which the array does
+        if isinstance(n, Jet):
+            return (self.log() * n).exp()
+        if n == 0:
+            return Jet(1.0, 0.0 * self.gradient)
+        if n == 1:
+            return self
+        x = self.value
+        curvature = n * (n - 1) * (x ** (n - 2) if n != 2 else 1.0)
+        return self._chain(x**n, n * x ** (n - 1), curvature)
+
+    def __rpow__(self, base: float) -> Jet:
+        return (self * math.log(base)).exp()
+
+    def __abs__(self) -> Jet:
+        return self if self.value >= 0 else -self
+
+    def arctan2(self, x: Any) -> Jet:
+        """The angle of the point (x, self)."""
+        x = x if isinstance(x, Jet) else Jet(x)
+        ratio = (self / x).arctan() if abs(x.value) >= abs(self.value) else -(x / self).arctan()
+        return Jet(math.atan2(self.value, x.value), ratio.gradient, ratio.first, ratio.second)
+
+    def hypot(self, other: Any) -> Jet:
+        return (self * self + other * other).sqrt()
+
+    def conjugate(self) -> Jet:
+        return self
+
+    def __float__(self) -> float:
+        raise TypeError("here a number is expected, but derivatives are being taken: build arrays with np.array or np.stack "
+                        "instead of filling one, use NumPy's functions instead of math's; or supply jacobian and xi")
+
+    # Comparisons look at the value, so that branches work.
+    def __lt__(self, other: Any) -> bool:
+        return self.value < value(other)
+
+    def __le__(self, other: Any) -> bool:
+        return self.value <= value(other)
+
+    def __gt__(self, other: Any) -> bool:
+        return self.value > value(other)
+
+    def __ge__(self, other: Any) -> bool:
+        return self.value >= value(other)
+
+    def __eq__(self, other: Any) -> bool:
+        return self.value == value(other)
+
+    def __ne__(self, other: Any) -> bool:
+        return self.value != value(other)
+
+    __hash__ = None
+
+    def __repr__(self) -> str:
+        return f"Jet({self.value}, {self.gradient}, {self.first}, {self.second})"
+
+
+def _unary(phi: Callable[[float], tuple[float, float, float]]) -> Callable[[Jet], Jet]:
+    return lambda self: self._chain(*phi(self.value))
+
+
+def _sqrt(x: float) -> tuple[float, float, float]:
+    r = math.sqrt(x)
+    return r, 0.5 / r, -0.25 / (r * x)
+
+
+def _tan(x: float) -> tuple[float, float, float]:
+    t = math.tan(x)
+    return t, 1 + t * t, 2 * t * (1 + t * t)
+
+
+def _tanh(x: float) -> tuple[float, float, float]:
+    t = math.tanh(x)
+    return t, 1 - t * t, -2 * t * (1 - t * t)
+
+
+# phi, phi', phi'' by the name NumPy calls
+FUNCTIONS: dict[str, Callable[[float], tuple[float, float, float]]] = {
+    "sin": lambda x: (math.sin(x), math.cos(x), -math.sin(x)),
+    "cos": lambda x: (math.cos(x), -math.sin(x), -math.cos(x)),
+    "tan": _tan,
+    "arcsin": lambda x: (math.asin(x), (1 - x * x) ** -0.5, x * (1 - x * x) ** -1.5),
+    "arccos": lambda x: (math.acos(x), -((1 - x * x) ** -0.5), -x * (1 - x * x) ** -1.5),
+    "arctan": lambda x: (math.atan(x), 1 / (1 + x * x), -2 * x / (1 + x * x) ** 2),
+    "sinh": lambda x: (math.sinh(x), math.cosh(x), math.sinh(x)),
+    "cosh": lambda x: (math.cosh(x), math.sinh(x), math.cosh(x)),
+    "tanh": _tanh,
+    "arcsinh": lambda x: (math.asinh(x), (1 + x * x) ** -0.5, -x * (1 + x * x) ** -1.5),
+    "arccosh": lambda x: (math.acosh(x), (x * x - 1) ** -0.5, -x * (x * x - 1) ** -1.5),
+    "arctanh": lambda x: (math.atanh(x), 1 / (1 - x * x), 2 * x / (1 - x * x) ** 2),
+    "exp": lambda x: (math.exp(x), math.exp(x), math.exp(x)),
+    "expm1": lambda x: (math.expm1(x), math.exp(x), math.exp(x)),
+    "log": lambda x: (math.log(x), 1 / x, -1 / (x * x)),
+    "log1p": lambda x: (math.log1p(x), 1 / (1 + x), -1 / (1 + x) ** 2),
+    "log2": lambda x: (math.log2(x), 1 / (x * math.log(2)), -1 / (x * x * math.log(2))),
+    "log10": lambda x: (math.log10(x), 1 / (x * math.log(10)), -1 / (x * x * math.log(10))),
+    "sqrt": _sqrt,
+    "cbrt": lambda x: (math.cbrt(x), math.cbrt(x) / (3 * x), -2 * math.cbrt(x) / (9 * x * x)),
+    "deg2rad": lambda x: (math.radians(x), math.pi / 180, 0.0),
+    "radians": lambda x: (math.radians(x), math.pi / 180, 0.0),
+    "rad2deg": lambda x: (math.degrees(x), 180 / math.pi, 0.0),
+    "degrees": lambda x: (math.degrees(x), 180 / math.pi, 0.0),
+}
+for _name, _phi in FUNCTIONS.items():
+    setattr(Jet, _name, _unary(_phi))
+
+
+def value(x: Any) -> Any:
+    """The number itself."""
+    return x.value if isinstance(x, Jet) else x
+
+
+def seeds(values: Any, first: Any = None, second: Any = None, gradient: Any = None) -> np.ndarray:
+    """An array (n,) of jets; `gradient` (n, k) are their gradients."""
+    n = len(values)
+    first = np.zeros(n) if first is None else first
+    second = np.zeros(n) if second is None else second
+    jets = np.empty(n, dtype=object)
+    for i in range(n):
+        jets[i] = Jet(float(values[i]), 0.0 if gradient is None else gradient[i], float(first[i]), float(second[i]))
+    return jets
+
+
+def part(array: Any, name: str, size: int | None = None) -> np.ndarray:
+    """One part of every jet of an array: (...,), or for the gradient (..., size). Plain numbers have no derivatives."""
+    array = np.asarray(array, dtype=object)
+    out = np.zeros(array.shape if size is None else (*array.shape, size))
+    for index in np.ndindex(array.shape):
+        if isinstance(array[index], Jet):
+            out[index] = getattr(array[index], name)
+        elif name == "value":
+            out[index] = array[index]
+    return out

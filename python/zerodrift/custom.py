@@ -1,0 +1,319 @@
+"""`System`: a mechanism of one's own, written in NumPy."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from . import _check, _gateway, _jets
+from ._gateway import TERMS, Variable
+from ._system import BaseSystem
+
+BIT = {name: bit for name, (bit, _) in TERMS.items()}
+
+
+class System(BaseSystem):
+    """A multibody system from functions of NumPy arrays.
+
+    Each callable names the arguments it wants, out of ``t`` (float), ``p`` (nq,), ``v`` (nv,) and the keys of
+    `parameters`; p and v are read-only. What is left out is absent: no force, no constraint. A constant may stand in
+    place of a callable.
+
+    Parameters
+    ----------
+    coordinates : int or sequence of str
+        How many coordinates there are, or their names.
+    mass : callable or array_like -> (nv, nv)
+        M of (2): symmetric and positive definite. Its size says how many velocities there are.
+    force, bias : callable or array_like -> (nv,)
+        f and d of (2).
+    constraints : callable -> (mh,)
+        Phi of (3). It may depend on t.
+    jacobian : callable -> (mh, nq)
+        dPhi/dp. Left out: derived exactly from `constraints`.
+    nonholonomic : callable -> (mn, nv)
+        The rows C_NH of (4).
+    xi : callable -> (mh + mn,)
+        Right side of (6), ``C vdot = xi``. Left out: derived exactly from `constraints` and `nonholonomic`.
+    kinematics : callable -> (nq, nv)
+        A of (1), ``pdot = A v``. Left out: the identity.
+    potential : callable -> float
+        V in J. Without it there are no energies.
+    power : callable -> float
+        Energy input rate of (28) in W: what the forces that V does not describe do, and dV/dt at fixed p.
+    parameters : dict
+        Values the callables may ask for by name.
+    p0, v0 : array_like (nq,), (nv,)
+        The start, unless `simulate` is given another; `v0` left out: at rest.
+    name : str
+        For tables and plots.
+
+    Notes
+    -----
+    What is derived, is derived by passing numbers that carry derivatives through the callables: these must be written with
+    operators and NumPy's elementwise functions, and build their results with ``np.array``, ``np.stack`` and the like.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a callable asks for something there is not, or its result has the wrong shape.
+
+    Examples
+    --------
+    A pendulum of length L in Cartesian coordinates:
+
+    >>> import numpy as np, zerodrift as zd
+    >>> pendulum = zd.System(
+    ...     ["x", "y"],
+    ...     mass=lambda m: m * np.eye(2),
+    ...     force=lambda m, g: np.array([0.0, -m * g]),
+    ...     constraints=lambda p, L: np.array([p @ p - L**2]) / 2,
+    ...     potential=lambda p, m, g: m * g * p[1],
+    ...     parameters={"m": 1.0, "g": 9.81, "L": 1.0},
+    ...     p0=[1.0, 0.0],
+    ... )
+    >>> sol = zd.simulate(pendulum, 1.0, step=0.01)
+    >>> sol.p[-1].round(5)
+    array([-0.98629, -0.16501])
+    """
+
+    def __init__(
+        self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
+        jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None, potential: Any = None,
+        power: Any = None, parameters: dict[str, Any] | None = None, p0: Any = None, v0: Any = None, name: str | None = None,
+    ) -> None:
+        self._given = {key: value for key, value in locals().items() if key not in ("self", "__class__")}
+        self.name = name or "system"
+        self.parameters = dict(parameters or {})
+        names = _names(coordinates)
+        self.p0 = None if p0 is None else _check.vector("p0", p0, len(names))
+        functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
+        if "jacobian" in functions and "constraints" not in functions:
+            raise ValueError("jacobian is given without constraints")
+        sizes = _sizes(len(names), functions, self.p0)
+        writer = _Writer(functions, *sizes)
+        self._core = _gateway.PythonCore(sizes, writer.provides, writer)
+        rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(self.nv)]
+        self.coordinates, self.velocities = _variables(names), _variables(rates)
+        self.constraints = _variables([f"constraint{i}" for i in range(self.m)])
+        self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
+
+    def with_parameters(self, **changed: Any) -> System:
+        """The same system with some parameters changed.
+
+        Raises
+        ------
+        ValueError
+            If the system has no parameter of that name.
+        """
+        for key in changed:
+            _check.choice("parameter", key, self.parameters)
+        return System(**(self._given | {"parameters": self.parameters | changed}))
+
+    def __repr__(self) -> str:
+        return (f"<zd.System {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
+                f"{self.mn} nonholonomic constraints>")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (self._given,)
+
+
+def _rebuild(given: dict[str, Any]) -> System:
+    return System(**given)
+
+
+def _variables(names: Sequence[str]) -> tuple[Variable, ...]:
+    return tuple(Variable(name, "") for name in names)
+
+
+def _names(coordinates: int | Sequence[str]) -> list[str]:
+    if isinstance(coordinates, str):
+        coordinates = coordinates.replace(",", " ").split()
+    if isinstance(coordinates, Sequence):
+        names = list(coordinates)
+        if not names or not all(isinstance(name, str) and name for name in names) or len(set(names)) != len(names):
+            raise ValueError(f"coordinates must be a number or different names, not {coordinates!r}")
+        return names
+    return [f"p{i}" for i in range(_check.count("coordinates", coordinates))]
+
+
+# ---- the callables ----
+
+# Shape of what each returns; a size that no other callable fixes is fixed by the first that has it.
+SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints": ("mh",), "jacobian": ("mh", "nq"),
+          "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
+
+
+# How a callable is called that wants these of t, p, v, by name; its parameters are bound beforehand.
+_CALLS: dict[frozenset[str], Callable[..., Any]] = {
+    frozenset(""): lambda f, t, p, v: f(),
+    frozenset("t"): lambda f, t, p, v: f(t=t),
+    frozenset("p"): lambda f, t, p, v: f(p=p),
+    frozenset("v"): lambda f, t, p, v: f(v=v),
+    frozenset("tp"): lambda f, t, p, v: f(t=t, p=p),
+    frozenset("tv"): lambda f, t, p, v: f(t=t, v=v),
+    frozenset("pv"): lambda f, t, p, v: f(p=p, v=v),
+    frozenset("tpv"): lambda f, t, p, v: f(t=t, p=p, v=v),
+}
+
+
+class _Function:
+    """A callable with the arguments it names, or a constant."""
+
+    def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
+        self.name = name
+        if callable(given):
+            names = _arguments(name, given, ["t", "p", "v", *parameters])
+            bound = {key: parameters[key] for key in names if key in parameters}
+            self.wants = frozenset(names) - frozenset(bound)
+            self._function = functools.partial(given, **bound) if bound else given
+        else:
+            value = np.array(given, dtype=float)
+            value.flags.writeable = False
+            self.wants, self._function = frozenset(), lambda: value
+        self._call = _CALLS[self.wants]
+
+    def __call__(self, t: Any, p: Any, v: Any) -> Any:
+        """What the user's function returns, whatever it is."""
+        return self._call(self._function, t, p, v)
+
+    def write(self, out: np.ndarray, t: float, p: np.ndarray, v: np.ndarray) -> None:
+        """Its value, checked, into an array of the core."""
+        value = self._call(self._function, t, p, v)
+        if type(value) is not np.ndarray:
+            value = np.asarray(value)
+        if value.shape != out.shape:
+            raise ValueError(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
+        out[...] = value
+        if not _gateway.all_finite(out):
+            raise ValueError(f"{self.name} is not finite at t = {t:g}: {value}")
+
+    def jets(self, shape: tuple[int, ...], t: Any, p: Any, v: Any) -> Any:
+        """Its value with derivatives."""
+        result = np.asarray(self(t, p, v), dtype=object)
+        if result.shape != shape:
+            raise ValueError(f"{self.name} must return shape {shape}, not {result.shape}")
+        return result
+
+
+def _arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
+    wants = []
+    for argument in inspect.signature(given).parameters.values():
+        if argument.name in allowed:
+            wants.append(argument.name)
+        elif argument.default is argument.empty:
+            raise TypeError(f"{name} asks for {argument.name!r}; there is {', '.join(allowed)}")
+    return wants
+
+
+def _sizes(nq: int, functions: dict[str, _Function], p0: np.ndarray | None) -> tuple[int, int, int, int]:
+    """(nq, nv, mh, mn), from what the callables return at the start."""
+    p = np.zeros(nq) if p0 is None else p0
+
+    def shape(name: str, dimensions: int) -> tuple[int, ...]:
+        if name not in functions:
+            return (0,) * dimensions
+        with np.errstate(all="ignore"):
+            found = np.shape(functions[name](0.0, p, np.zeros(nv)))
+        if len(found) != dimensions:
+            raise ValueError(f"{name} must return shape ({', '.join(SHAPES[name])}), not {found}")
+        return found
+
+    nv = nq     # for a mass that asks for v
+    nv = shape("mass", 2)[0]
+    if "kinematics" not in functions and nv != nq:
+        raise ValueError(f"mass is for {nv} velocities and there are {nq} coordinates: then kinematics is needed")
+    mh, mn = shape("constraints", 1)[0], shape("nonholonomic", 2)[0]
+    if mh + mn > nv:
+        raise ValueError(f"{mh + mn} constraints are too many for {nv} velocities")
+    if "power" in functions and "potential" not in functions:
+        raise ValueError("power is given without potential: without it there is no energy balance")
+    _check_shapes(functions, {"nq": nq, "nv": nv, "mh": mh, "mn": mn, "m": mh + mn}, p)
+    return nq, nv, mh, mn
+
+
+def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.ndarray) -> None:
+    for name, function in functions.items():
+        expected = tuple(sizes[size] for size in SHAPES[name])
+        with np.errstate(all="ignore"):
+            found = np.shape(function(0.0, p, np.zeros(sizes["nv"])))
+        if found != expected:
+            raise ValueError(f"{name} must return shape {expected}, not {found}")
+
+
+class _Writer:
+    """Writes the wanted terms into the core's arrays, (2)-(6), deriving what is not given."""
+
+    DIRECT: ClassVar = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential",
+                        "power": "power", "xi": "xi"}
+
+    def __init__(self, functions: dict[str, _Function], nq: int, nv: int, mh: int, mn: int) -> None:
+        self.functions, self.nq, self.nv, self.mh, self.mn = functions, nq, nv, mh, mn
+        moving = "constraints" in functions and "t" in functions["constraints"].wants
+        self.provides = [name for name, source in self.DIRECT.items() if source in functions]
+        self.provides += ["C", "xi"] * bool(mh + mn) + ["Phi_t"] * moving
+        self._direct = [(BIT[name], name, functions[source]) for name, source in self.DIRECT.items() if source in functions]
+        self._constrained = BIT["C"] | BIT["Phi_t"] | (0 if "xi" in functions else BIT["xi"])
+
+    def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+        p, v = arrays["p"], arrays["v"]
+        if "A" in arrays and want & self._constrained:
+            want |= BIT["A"]
+        for bit, name, function in self._direct:
+            if want & bit:
+                function.write(arrays[name], t, p, v)
+        if self.mh and want & self._constrained:
+            self._write_holonomic(want, t, arrays)
+        if self.mn and want & self._constrained:
+            self._write_nonholonomic(want, t, arrays)
+
+    def _write_holonomic(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+        p, v, mh = arrays["p"], arrays["v"], self.mh
+        given = self.functions.get("jacobian")
+        if want & BIT["C"] and given:
+            jacobian = np.empty((mh, self.nq))
+            given.write(jacobian, t, p, v)
+            self._write_rows(jacobian, arrays)
+        derive_xi = want & BIT["xi"] and "xi" not in self.functions
+        derive_c = want & BIT["C"] and not given
+        if not (derive_c or derive_xi or want & BIT["Phi_t"]):
+            return
+        jets = self.functions["constraints"].jets((mh,), *self._along(t, arrays, gradients=bool(derive_c or want & BIT["Phi_t"])), v)
+        if derive_c or want & BIT["Phi_t"]:
+            gradient = _jets.part(jets, "gradient", self.nq + 1)
+            if derive_c:
+                self._write_rows(gradient[:, :-1], arrays)
+            if want & BIT["Phi_t"]:
+                arrays["Phi_t"][:mh] = gradient[:, -1]
+                arrays["Phi_t"][mh:] = 0.0
+        if derive_xi:
+            arrays["xi"][:mh] = -_jets.part(jets, "second")                 # (6)
+
+    def _write_rows(self, jacobian: np.ndarray, arrays: dict[str, np.ndarray]) -> None:
+        arrays["C"][: self.mh] = jacobian @ arrays["A"] if "A" in arrays else jacobian      # (5)
+
+    def _write_nonholonomic(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+        p, v, mh = arrays["p"], arrays["v"], self.mh
+        rows = self.functions["nonholonomic"]
+        if want & BIT["C"]:
+            rows.write(arrays["C"][mh:], t, p, v)
+        if want & BIT["xi"] and "xi" not in self.functions:
+            jets = rows.jets((self.mn, self.nv), *self._along(t, arrays, gradients=False), v)
+            arrays["xi"][mh:] = -_jets.part(jets, "first") @ v              # (6): xi = -Cdot v
+
+    def _along(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
+        """(t, p) as jets: along the motion with vdot = 0, there pddot = Adot v, and with gradients in (p, t) if wanted."""
+        p, v, A = arrays["p"], arrays["v"], arrays.get("A")
+        velocity, curvature = (v, np.zeros(self.nq)) if A is None else (A @ v, self._curvature(t, p, v, A @ v))
+        identity = np.eye(self.nq + 1) if gradients else None
+        time = _jets.Jet(t, identity[-1] if gradients else 0.0, 1.0, 0.0)
+        return time, _jets.seeds(p, velocity, curvature, identity)
+
+    def _curvature(self, t: float, p: np.ndarray, v: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """Adot v along the motion."""
+        jets = self.functions["kinematics"].jets((self.nq, self.nv), _jets.Jet(t, 0.0, 1.0, 0.0), _jets.seeds(p, velocity), v)
+        return _jets.part(jets, "first") @ v
