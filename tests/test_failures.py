@@ -111,7 +111,7 @@ def test_too_much_is_held(bar):
 
 def test_constraints_that_are_dependent(bar, formulation):
     """All links along the x axis: none of them can move its end along x."""
-    with pytest.raises(zd.SingularSystem, match=r"^at t = 0 .*the constraints are dependent"):
+    with pytest.raises(zd.SingularSystem, match=r"^at t = 0 .*(the constraints are dependent|is singular)"):
         zd.acceleration(bar, [0, 0, 0], [0, 0, 0], formulation=formulation)
 
 
