@@ -225,7 +225,7 @@ class Evaluator:
         """What the core calls."""
         try:
             self.core.write(want, t, self.arrays(p, v, terms))
-        except BaseException as error:      # noqa: BLE001 - it surfaces where the run was started
+        except BaseException as error:      # it surfaces where the run was started
             self.error = error
             return lib.ZD_CALLBACK
         return lib.ZD_DONE
@@ -239,7 +239,7 @@ def _over(pointer: Any, shape: Any) -> np.ndarray:
 
 
 @ffi.def_extern()
-def zd_evaluate_in_python(data, want, t, p, v, terms):  # noqa: D103
+def zd_evaluate_in_python(data, want, t, p, v, terms):
     return ffi.from_handle(ffi.cast("void *", data)).evaluate(want, t, p, v, terms)
 
 

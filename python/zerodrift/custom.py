@@ -282,7 +282,8 @@ class _Writer:
         derive_c = want & BIT["C"] and not given
         if not (derive_c or derive_xi or want & BIT["Phi_t"]):
             return
-        jets = self.functions["constraints"].jets((mh,), *self._along(t, arrays, gradients=bool(derive_c or want & BIT["Phi_t"])), v)
+        along = self._along(t, arrays, gradients=bool(derive_c or want & BIT["Phi_t"]))
+        jets = self.functions["constraints"].jets((mh,), *along, v)
         if derive_c or want & BIT["Phi_t"]:
             gradient = _jets.part(jets, "gradient", self.nq + 1)
             if derive_c:

@@ -161,8 +161,8 @@ def _finish(system, span, chosen, run, record, on_failure, status, seconds) -> S
     if on_failure == "raise" and not solution.success:
         _raise(run, status, solution)
     if skipped := solution.stats["energy_skipped"]:
-        warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the kinetic "
-                      "energy is too small for them", CorrectionWarning, stacklevel=3)
+        warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the "
+                      "kinetic energy is too small for them", CorrectionWarning, stacklevel=3)
     return solution
 
 
