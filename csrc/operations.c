@@ -55,7 +55,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     message[0] = '\0';
     if (settings->projection.positions) {
         stage.projection.velocities = 0;
-        zd_system holding = zd_hold_positions(&held, system, hold_p, p);
+        zd_system holding = hold_p ? zd_hold_positions(&held, system, hold_p, p) : *system;     /* (25a) has all rows of C */
         status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
     }
     if (!status && settings->projection.velocities) {

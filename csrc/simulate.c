@@ -37,11 +37,12 @@ static int is_saved(const zd_run *run)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = now() + seconds;
+    long first = run->step;     /* no slice is so short that nothing happens in it */
     int status = run->status;
     if (!status && run->step == 0 && record->rows == 0) status = zd_record_row(run, record);
     while (!status && run->step < run->steps) {
         if (record->rows == record->capacity) return ZD_FULL;
-        if (run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
+        if (run->step > first && run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
         status = take_step(run);
         if (!status && is_saved(run)) status = zd_record_row(run, record);
     }

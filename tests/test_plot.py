@@ -5,6 +5,7 @@ import dataclasses
 import matplotlib
 import numpy as np
 import pytest
+
 import zerodrift as zd
 from zerodrift import compare, plot
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 import zerodrift as zd
 from zerodrift.compare import difference
 from zerodrift.paper import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, reference

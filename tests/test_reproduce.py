@@ -7,6 +7,7 @@ import sys
 import matplotlib
 import numpy as np
 import pytest
+
 from zerodrift import __main__, paper, simulate
 from zerodrift.paper import claims, figures, reproduce
 

@@ -14,7 +14,7 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
     """A finite real number, more than `above` or at least `least`."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
         raise TypeError(f"{name} must be a real number, not {value!r}")
-    value = float(value)
+    value = _double(value)
     if not math.isfinite(value):
         raise ValueError(f"{name} must be finite, not {value}")
     if above is not None and not value > above:
@@ -22,6 +22,13 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
     if least is not None and not value >= least:
         raise ValueError(f"{name} must be at least {least:g}, not {value:g}")
     return value
+
+
+def _double(value: Real) -> float:
+    try:
+        return float(value)
+    except OverflowError:       # whole numbers may be larger than doubles
+        return math.inf
 
 
 def count(name: str, value: Any, *, least: int = 1) -> int:
@@ -69,4 +76,5 @@ def span(value: Any) -> tuple[float, float]:
         t0, t1 = number("t_span[0]", t0), number("t_span[1]", t1)
     if not t1 > t0:
         raise ValueError(f"t_span must run forwards: {t1:g} is not after {t0:g}")
+    number("the length of t_span", t1 - t0)
     return t0, t1

@@ -324,12 +324,10 @@ class Record:
         self._memory = memory
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """The rows written so far, read-only."""
+        """The rows written so far."""
         rows = self.c.rows
         arrays = {name: array[:rows] for name, array in self._arrays.items()}
         arrays["iterations"] = self._iterations[:rows]
-        for array in arrays.values():
-            array.flags.writeable = False
         return arrays
 
 

@@ -100,3 +100,11 @@ class BaseSystem:
         """What a saved solution says of its system, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,
                 "constraints": self.constraints, "has_energy": self.has_energy}
+
+
+def core_of(system: Any) -> _gateway.CoreSystem:
+    """What the core knows a system by; refuses what is no system, and what is only the description of one."""
+    core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
+    if core is None:
+        raise TypeError(f"system must be one of zd.systems or a zd.System, not {system!r}")
+    return core

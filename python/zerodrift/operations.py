@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from . import _check, _gateway, settings
-from ._system import BaseSystem
+from ._system import BaseSystem, core_of
 
 
 def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = (), *, t: float = 0.0, tol: float = 1e-12,
@@ -54,6 +54,9 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     >>> float(p[0]), float(v[0])
     (1.2, 2.0)
     """
+    core_of(system)
+    if not isinstance(hold, Iterable):
+        raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
     hold = (hold,) if isinstance(hold, str) else tuple(hold)
     known = [variable.name for variable in (*system.coordinates, *system.velocities)]
     for name in hold:
@@ -96,13 +99,17 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
     >>> bool(abs(bar.evaluate(p, v).Phi).max() < 1e-12)
     True
     """
-    return _corrected(system, p, v, t, projection or settings.Projection(), formulation, (None, None))
+    projection = settings.Projection() if projection is None else projection
+    if not isinstance(projection, settings.Projection):
+        raise TypeError(f"projection must be zd.Projection(...), not {projection!r}")
+    return _corrected(system, p, v, t, projection, formulation, (None, None))
 
 
 def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
-    p, v = _check.vector("p", p, system.nq), _check.vector("v", v, system.nv)
+    core = core_of(system)
+    p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
     options = _gateway.settings({"formulation": settings.formulation_row(formulation), **projection._core()})
-    _gateway.project(system._core, options, _check.number("t", t), p, v, *holds)
+    _gateway.project(core, options, _check.number("t", t), p, v, *holds)
     return p, v
 
 
@@ -132,5 +139,6 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     >>> vdot
     array([-1.])
     """
-    return _gateway.acceleration(system._core, settings.formulation_row(formulation), _check.number("t", t),
-                                 _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))
+    core = core_of(system)
+    return _gateway.acceleration(core, settings.formulation_row(formulation), _check.number("t", t),
+                                 _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))

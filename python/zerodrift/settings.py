@@ -8,6 +8,12 @@ from typing import Any, ClassVar
 from . import _check, _gateway
 
 
+def _keep(settings: Any, **checked: float) -> None:
+    """Keep numbers of Python's own kinds, whatever kinds were given: equal settings then are saved alike."""
+    for name, value in checked.items():
+        object.__setattr__(settings, name, value)
+
+
 @dataclass(frozen=True, slots=True)
 class Projection:
     """Correct positions and velocities after the step, (25)-(27).
@@ -43,9 +49,8 @@ class Projection:
     velocities: bool = True
 
     def __post_init__(self) -> None:
-        _check.number("tol", self.tol, above=0)
-        _check.count("max_iterations", self.max_iterations)
-        _check.count("every", self.every)
+        _keep(self, tol=_check.number("tol", self.tol, above=0), every=_check.count("every", self.every),
+              max_iterations=_check.count("max_iterations", self.max_iterations))
         _check.choice("metric", self.metric, self.METRICS)
         for name in ("positions", "velocities"):
             if not isinstance(getattr(self, name), bool):
@@ -80,9 +85,7 @@ class Baumgarte:
     integral: float = 0.0
 
     def __post_init__(self) -> None:
-        _check.number("alpha", self.alpha, least=0)
-        _check.number("beta", self.beta, least=0)
-        _check.number("integral", self.integral, least=0)
+        _keep(self, **{name: _check.number(name, getattr(self, name), least=0) for name in ("alpha", "beta", "integral")})
         if self.integral and not self.integral < self.alpha * self.beta:
             raise ValueError(f"integral must be less than alpha * beta = {self.alpha * self.beta:g}, not {self.integral:g}")
 
@@ -103,7 +106,7 @@ class EnergyCorrection:
     every: int = 1
 
     def __post_init__(self) -> None:
-        _check.count("every", self.every)
+        _keep(self, every=_check.count("every", self.every))
 
     def _core(self) -> dict[str, Any]:
         return {"energy": {"every": self.every}}

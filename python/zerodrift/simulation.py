@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _check, _gateway, settings
-from ._system import BaseSystem
+from ._system import BaseSystem, core_of
 from .errors import CorrectionWarning, Interrupted
 from .solution import Solution
 
@@ -83,10 +83,9 @@ def simulate(
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
     """
-    span = _check.span(t_span)
+    core, span = core_of(system), _check.span(t_span)
     chosen = _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every)
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    core = system._core
     p0, v0 = system._start(p0, v0)
     run = _gateway.Run(core, _core_settings(span, chosen), p0, v0)
     record = _gateway.Record(core, _rows(span, chosen))
@@ -95,8 +94,6 @@ def simulate(
 
 def _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every) -> dict[str, Any]:
     """The settings, checked: what `Solution.settings` will say."""
-    if not isinstance(system, BaseSystem):
-        raise TypeError(f"system must be one of zd.systems or a zd.System, not {system!r}")
     if step is None:
         raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size")
     step = _check.number("step", step, above=0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,14 @@ class Solution:
     system: BaseSystem
     t_span: tuple[float, float]
 
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            if isinstance(array := getattr(self, field.name), np.ndarray):
+                array.flags.writeable = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Solution, tuple(getattr(self, field.name) for field in fields(self))     # copies are read-only, too
+
     def __repr__(self) -> str:
         s, stats = self.settings, self.stats
         steps = max(1, stats["steps"])
@@ -135,17 +144,23 @@ def load(path: str | Path) -> Solution:
     >>> bool((again.p == sol.p).all())
     True
     """
-    with np.load(path, allow_pickle=False) as file:
-        if "zerodrift" not in file:
-            raise ValueError(f"{path} is no solution saved by zerodrift")
-        rest = json.loads(str(file["zerodrift"]))
-        arrays = {name: file[name] for name in file.files if name != "zerodrift"}
-    for array in arrays.values():
-        array.flags.writeable = False
+    arrays = _arrays(path)
+    if "zerodrift" not in arrays:
+        raise ValueError(f"{path} is no solution saved by zerodrift")
+    rest = json.loads(str(arrays.pop("zerodrift")))
     rest["t_span"] = tuple(rest["t_span"])
     rest["system"] = _restored_system(rest["system"])
     rest["settings"] = {name: _restored(value) for name, value in rest["settings"].items()}
     return Solution(**arrays, **rest)
+
+
+def _arrays(path: str | Path) -> dict[str, np.ndarray]:
+    """What an NPZ file holds; nothing, if it is none."""
+    with open(path, "rb") as file:
+        if not zipfile.is_zipfile(file):
+            return {}
+    with np.load(path, allow_pickle=False) as file:
+        return dict(file)
 
 
 _SETTINGS = {cls.__name__: cls for cls in (*STABILIZATIONS.values(), EnergyCorrection)}

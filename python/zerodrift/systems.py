@@ -26,11 +26,11 @@ class BuiltIn(BaseSystem):
             known = ", ".join(parameter.name for parameter in row.parameters)
             raise TypeError(f"{kind} has no parameter {sorted(unknown)[0]!r}; it has {known}")
         self._kind = row
-        self._given = dict(parameters)
         values = [_values(parameter, parameters.get(parameter.name)) for parameter in row.parameters]
         self._core, self.p0, self.v0 = row.make(np.concatenate(values))
         self.p0.flags.writeable = self.v0.flags.writeable = False
         self.name, self.parameters = kind, {p.name: _shown(p, v) for p, v in zip(row.parameters, values, strict=True)}
+        self._given = {name: self.parameters[name] for name in parameters}     # as it is now: a caller's array may change
         self.coordinates, self.velocities, self.constraints = row.coordinates, row.velocities, row.constraints
 
     def points(self, p: Any) -> np.ndarray:
@@ -45,8 +45,7 @@ class BuiltIn(BaseSystem):
         return BuiltIn, (self.name, self._given)
 
     def _described(self) -> dict[str, Any]:
-        given = {name: np.asarray(value).tolist() for name, value in self._given.items()}
-        return {**super()._described(), "parameters": given}
+        return {**super()._described(), "parameters": self._given}
 
 
 def _values(parameter: _gateway.Parameter, given: Any) -> np.ndarray:

@@ -1,0 +1,71 @@
+/* Counts what the core allocates: every system, formulation, integrator and correction in turn, between creating a run and its end.
+ * Linked with --wrap, so that each call of the core itself arrives here. Prints "allocations <when creating> <when running> <label>".
+ */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "zerodrift.h"
+
+enum { LARGEST = 64, STEPS = 50 };
+
+static long allocations;
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+
+void *__wrap_malloc(size_t size) { return allocations++, __real_malloc(size); }
+void *__wrap_calloc(size_t count, size_t size) { return allocations++, __real_calloc(count, size); }
+void *__wrap_realloc(void *memory, size_t size) { return allocations++, __real_realloc(memory, size); }
+void *__wrap_aligned_alloc(size_t alignment, size_t size) { return allocations++, __real_aligned_alloc(alignment, size); }
+
+static void count(const zd_kind *kind, const zd_system *system, zd_settings settings, const double *p, const double *v)
+{
+    static double t[STEPS + 1], rows[10][LARGEST * (STEPS + 1)];
+    static int iterations[STEPS + 1];
+    zd_record record = {STEPS + 1, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], iterations};
+    int status;
+    char message[512];
+    allocations = 0;
+    zd_run *run = zd_run_create(system, &settings, p, v, &status, message, sizeof message);
+    long creating = allocations;
+    allocations = 0;
+    if (run) status = zd_run_advance(run, &record, 1e9);
+    printf("allocations %ld %ld %s, %s, %s, status %d, %ld rows\n", creating, allocations, kind->card.name,
+           zd_row(ZD_FORMULATIONS, settings.formulation)->name, zd_row(ZD_INTEGRATORS, settings.integrator)->name, status, record.rows);
+    zd_run_free(run);
+}
+
+static void count_with_settings(const zd_kind *kind, const zd_system *system, const double *p, const double *v)
+{
+    zd_settings settings = {.t1 = 0.5, .step = 0.5 / STEPS, .save_every = 1};
+    zd_projection projection = {1, 1e-12, 10, ZD_MASS_METRIC, 1, 1};
+    for (settings.formulation = 0; settings.formulation < zd_rows(ZD_FORMULATIONS); settings.formulation++)
+        for (settings.integrator = 0; settings.integrator < zd_rows(ZD_INTEGRATORS); settings.integrator++)
+            for (int all = 0; all < 2; all++) {
+                settings.projection.every = 0;
+                if (all) settings.projection = projection;
+                settings.baumgarte = (zd_baumgarte){.on = all, .alpha = 10, .beta = 25};
+                settings.energy.every = all && (system->provides & ZD_POTENTIAL);
+                count(kind, system, settings, p, v);
+            }
+}
+
+int main(void)
+{
+    for (int row = 0; row < zd_rows(ZD_SYSTEMS); row++) {
+        const zd_kind *kind = zd_kind_of(row);
+        double parameters[LARGEST], constants[LARGEST], p[LARGEST], v[LARGEST];
+        int n = 0;
+        for (int i = 0; i < kind->parameters; i++)
+            for (int j = 0; j < kind->parameter[i].size; j++)
+                parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : strtod("nan", NULL);
+        if (n > LARGEST || kind->constants > LARGEST || kind->prepare(parameters, constants)) return 1;
+        zd_system system = kind->system;
+        system.data = constants;
+        kind->start(parameters, p, v);
+        count_with_settings(kind, &system, p, v);
+    }
+    return 0;
+}

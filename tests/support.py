@@ -1,0 +1,155 @@
+"""What several tests need: the systems there are, consistent states of theirs, and the paper's equations in plain NumPy."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+import tolerances as tol
+import zerodrift as zd
+from zerodrift import _gateway
+
+FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators())
+
+
+def _instances():
+    """Every built-in system as it comes, and with every word its choices allow."""
+    for name, kind in _gateway.kinds().items():
+        yield name, getattr(zd.systems, name)()
+        for parameter in (p for p in kind.parameters if p.rule == "choice"):
+            for word in parameter.text.split()[1:]:
+                yield f"{name}-{word}", getattr(zd.systems, name)(**{parameter.name: word})
+
+
+SYSTEMS = dict(_instances())
+
+
+@dataclass
+class Numbers:
+    """The terms at one (t, p, v), with zeros and the identity where the system has none."""
+
+    A: np.ndarray
+    M: np.ndarray
+    force: np.ndarray   # f - d
+    Phi: np.ndarray
+    C: np.ndarray
+    Phi_t: np.ndarray
+    xi: np.ndarray
+    V: float
+    power: float
+
+
+def numbers(system, t, p, v):
+    """`system.evaluate`, filled up."""
+    e = system.evaluate(p, v, t)
+
+    def or_zeros(array, *shape):
+        return np.zeros(shape) if array is None else array
+
+    return Numbers(
+        A=np.eye(system.nq) if e.A is None else e.A, M=e.M, force=or_zeros(e.f, system.nv) - or_zeros(e.d, system.nv),
+        Phi=or_zeros(e.Phi, system.mh), C=or_zeros(e.C, system.m, system.nv), Phi_t=or_zeros(e.Phi_t, system.m),
+        xi=or_zeros(e.xi, system.m), V=float(or_zeros(e.V)), power=float(or_zeros(e.power)))
+
+
+# ---- states ----
+
+
+def flowed(system, t, p, w, steps=8):
+    """P after moving with the velocity w for a second: a displacement that respects (1), quaternions included."""
+    h, p = 1.0 / steps, np.array(p)
+
+    def rate(p):
+        return numbers(system, t, p, w).A @ w
+
+    for _ in range(steps):
+        k1 = rate(p)
+        k2 = rate(p + h / 2 * k1)
+        k3 = rate(p + h / 2 * k2)
+        p = p + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(p + h * k3))
+    return p
+
+
+def consistent_states(system, count=4, seed=2002):
+    """Random (t, p, v) that satisfy the constraints."""
+    rng, states = np.random.default_rng(seed), []
+    for _ in range(20 * count):
+        t = rng.uniform(0, 1)
+        guess = flowed(system, t, system.p0, 0.4 * rng.normal(size=system.nv))
+        try:
+            p, v = zd.assemble(system, guess, system.v0 + rng.normal(size=system.nv), t=t)
+        except zd.ZerodriftError:       # too far from any assembly
+            continue
+        states.append((t, p, v))
+        if len(states) == count:
+            return states
+    raise AssertionError(f"no consistent states of {system.name} were found")
+
+
+def violated_states(system, count=4, seed=2002):
+    """Random (t, p, v) that do not, by about 1e-3."""
+    rng = np.random.default_rng(seed)
+    return [(t, flowed(system, t, p, 1e-3 * rng.normal(size=system.nv)), v + 1e-3 * rng.normal(size=system.nv))
+            for t, p, v in consistent_states(system, count, seed)]
+
+
+# ---- the paper's equations ----
+
+
+def saddle_matrix(M, C):
+    """The leading matrix of (8)."""
+    m = len(C)
+    return np.block([[M, C.T], [C, np.zeros((m, m))]])
+
+
+def condition(M, C):
+    """Of (8) with C scaled to the size of M, as its units are arbitrary."""
+    scale = np.abs(M).max() / np.abs(C).max() if C.size else 1.0
+    return np.linalg.cond(saddle_matrix(M, scale * C))
+
+
+def solved(M, C, force, rhs):
+    """Solve (8): x with M x + C^T lambda = force, C x = rhs; and lambda, with the sign of (7)."""
+    both = np.linalg.solve(saddle_matrix(M, C), np.concatenate([force, rhs]))
+    return both[:len(M)], both[len(M):]
+
+
+def rate(system, t, y, alpha=0.0, beta=0.0):
+    """(1) and (8) for y = (p, v), with (23) where gains are given."""
+    p, v = np.split(y, [system.nq])
+    e = numbers(system, t, p, v)
+    xi = e.xi - alpha * (e.C @ v + e.Phi_t)
+    xi[:system.mh] -= beta * e.Phi
+    return np.concatenate([e.A @ v, solved(e.M, e.C, e.force, xi)[0]])
+
+
+def difference(function, x, h=1e-3):
+    """The derivative of a function of one number, by five points."""
+    return (8 * (function(x + h) - function(x - h)) - (function(x + 2 * h) - function(x - 2 * h))) / (12 * h)
+
+
+def along(function, *directed):
+    """The derivative of function(x, ...) along directions: pairs (x, direction)."""
+    return difference(lambda s: function(*(x + s * direction for x, direction in directed)), 0.0)
+
+
+def assert_close(actual, desired, tolerance, scale=0.0, what=""):
+    """|actual - desired| <= tolerance * the largest of scale, |actual| and |desired|."""
+    actual, desired = np.asarray(actual), np.asarray(desired)
+    assert actual.shape == desired.shape
+    size = max(scale, np.abs(desired).max(initial=0), np.abs(actual).max(initial=0))
+    error = np.abs(actual - desired).max(initial=0)
+    assert error <= tolerance * size, f"{what} off by {error:.3g}, of {size:.3g} (allowed: {tolerance:.1g})"
+
+
+def motion(system, t_end, steps, **options):
+    """A run of a given number of steps."""
+    return zd.simulate(system, t_end, step=t_end / steps, **options)
+
+
+def observed_order(system, steps=40, t_end=0.5, **options):
+    """From three runs, each with half the step of the one before; None where the differences are round-off."""
+    runs = [motion(system, t_end, steps * 2**k, save_every=2**k, **options) for k in range(3)]
+    states = [np.hstack([run.p, run.v]) for run in runs]
+    coarse, fine = (np.abs(a - b).max() for a, b in pairwise(states))
+    return None if fine < tol.MEASURABLE * (1 + np.abs(states[0]).max()) else np.log2(coarse / fine)

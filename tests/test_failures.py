@@ -1,0 +1,224 @@
+"""Each failure of a run, reached: its exception, its sentence with numbers, and what was computed before it."""
+
+import os
+import signal
+import sys
+import threading
+import time
+import types
+
+import numpy as np
+import pytest
+
+import tolerances as tol
+import zerodrift as zd
+from support import assert_close, motion
+from zerodrift import _gateway
+
+
+def failed(error, message, call):
+    """The error's solution: consistent, and shorter than what was asked for."""
+    with pytest.raises(error, match=message) as caught:
+        call()
+    sol = caught.value.solution
+    assert sol.message == str(caught.value)
+    assert not sol.success
+    assert sol.status < 0
+    assert np.isfinite(sol.p).all()
+    assert len(sol.t) == len(sol.p) == len(sol.energy_violation)
+    assert sol.t[-1] < sol.t_span[1]
+    return sol
+
+
+def without(bar):
+    """The paper's case (a), whose drift ends it."""
+    return zd.simulate(bar, 8.0, step=0.05, stabilization=None)
+
+
+def test_a_run_that_blows_up(bar):
+    sol = failed(zd.Diverged, r"^at t = 7\.\d+ \(step 15\d of 160\): the state left the range of doubles; try a smaller step",
+                 lambda: without(bar))
+    assert 7.5 <= sol.t[-1] <= 7.7
+    before = zd.simulate(bar, 7.0, step=0.05, stabilization=None)
+    assert np.array_equal(sol.p[:140], before.p[:140])
+
+
+def test_a_run_that_blows_up_may_return(bar):
+    sol = zd.simulate(bar, 8.0, step=0.05, stabilization=None, on_failure="return")
+    with pytest.raises(zd.Diverged) as caught:
+        without(bar)
+    assert np.array_equal(sol.p, caught.value.solution.p)
+    assert sol.message == str(caught.value)
+    assert (sol.success, sol.status) == (False, caught.value.solution.status)
+
+
+def test_a_failed_run_is_saved_like_others(bar, tmp_path):
+    sol = zd.simulate(bar, 8.0, step=0.05, stabilization=None, on_failure="return")
+    again = zd.load(sol.save(tmp_path / "failed"))
+    assert not again.success
+    assert repr(again) == repr(sol)
+
+
+def test_an_inconsistent_start(bar):
+    message = (r"^the start violates the constraints: max \|Phi\| = 0\.0\d+, max \|Psi\| = .* \(allowed: 1e-10\); "
+               r"zd\.assemble finds a consistent start nearby$")
+    with pytest.raises(zd.InconsistentStart, match=message):
+        zd.simulate(bar, 1, bar.p0 + 0.1, step=0.1)
+    with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = .*e-1\d, max \|Psi\| = 0\.\d+ "):
+        zd.simulate(bar, 1, bar.p0, [1, 0, 0], step=0.1)
+    zd.simulate(bar, 0.1, *zd.assemble(bar, bar.p0 + 0.1, [1, 0, 0]), step=0.05)
+
+
+def test_a_tolerance_below_what_doubles_reach(bar):
+    with pytest.raises(zd.UnreachableTolerance, match=r"^tol = 1e-17 is below what doubles can reach here: .* near \d.*e-1[67]$"):
+        zd.simulate(bar, 1, step=0.1, stabilization=zd.Projection(tol=1e-17))
+
+
+def test_a_correction_that_does_not_converge(bar):
+    message = r"^at t = 0\.3 \(step 6 of 160\): the position correction left max .* after 1 iterations \(tolerance 1e-12\)$"
+    sol = failed(zd.CorrectionFailed, message, lambda: motion(bar, 8.0, 160, stabilization=zd.Projection(max_iterations=1)))
+    assert_close(sol.t, 0.05 * np.arange(6), tol.SAME)
+    assert sol.stats["max_position_iterations"] == 1
+
+
+def test_a_step_far_too_large(bar):
+    failed(zd.CorrectionFailed, "the position correction left", lambda: zd.simulate(bar, 8.0, step=2.0))
+
+
+def test_an_implicit_step_far_too_large(bar):
+    failed(zd.StepFailed, r"^at t = .*: the equations of the implicit 'trapezoidal' step were not solved; try a smaller step$",
+           lambda: zd.simulate(bar, 8.0, step=2.0, integrator="trapezoidal"))
+
+
+def test_a_projection_that_does_not_converge(bar):
+    with pytest.raises(zd.CorrectionFailed, match=r"left max \|Phi\| = .* after 2 iterations \(tolerance 1e-12\)"):
+        zd.project(bar, bar.p0 + 0.3, bar.v0, projection=zd.Projection(max_iterations=2))
+    with pytest.raises(zd.CorrectionFailed, match=r"\(tolerance 1e-30\)"):
+        zd.project(bar, bar.p0 + 1e-3, bar.v0, projection=zd.Projection(tol=1e-30))
+
+
+def test_links_that_cannot_close(bar):
+    """The crank is held where links 2 and 3 do not reach the ground."""
+    short = zd.systems.four_bar(lengths=(1, 0.5, 0.5, 0.4), crank_angle=0.1)
+    with pytest.raises((zd.CorrectionFailed, zd.SingularSystem)):
+        zd.assemble(short, [np.pi, 0, 0], hold="alpha1")
+
+
+def test_too_much_is_held(bar):
+    with pytest.raises(zd.SingularSystem, match=r"the constraints are dependent \(row \d follows from those before it\)"):
+        zd.assemble(bar, bar.p0 + 0.1, hold=("alpha1", "alpha2", "alpha3"))
+
+
+def test_constraints_that_are_dependent(bar, formulation):
+    """All links along the x axis: none of them can move its end along x."""
+    with pytest.raises(zd.SingularSystem, match=r"^at t = 0 .*(the constraints are dependent|is singular)"):
+        zd.acceleration(bar, [0, 0, 0], [0, 0, 0], formulation=formulation)
+
+
+def massless():
+    """Two of three links without mass: M has rank two."""
+    return zd.systems.four_bar(masses=(1e-30, 1e-30, 3), inertias=(0, 0, 0))
+
+
+def test_a_mass_matrix_that_is_not_definite():
+    bar = massless()
+    start = bar.p0, bar.v0
+    for call in (lambda: zd.simulate(bar, 1, step=0.1), lambda: zd.acceleration(bar, *start), lambda: zd.project(bar, *start)):
+        with pytest.raises(zd.SingularSystem, match=r"the mass matrix is not positive definite \(first seen at velocity \d\)"):
+            call()
+
+
+def test_a_mass_beyond_doubles(formulation):
+    bar = zd.systems.four_bar(masses=(1e308, 1e308, 1e308), lengths=(1000, 300, 1000, 600))
+    with pytest.raises(zd.ZerodriftError):
+        zd.acceleration(bar, bar.p0, bar.v0, formulation=formulation)
+
+
+def test_every_error_is_one_of_ours():
+    """And one of Python's, where Python has a word for it."""
+    for status, error in _gateway.ERRORS.items():
+        assert status < 0
+        assert issubclass(error, zd.ZerodriftError | MemoryError)
+    assert issubclass(zd.InconsistentStart, ValueError)
+    assert issubclass(zd.SingularSystem, ArithmeticError)
+    assert isinstance(_gateway.error_of(-10, "unknown"), zd.ZerodriftError)
+    assert zd.ZerodriftError.solution is None
+
+
+def test_records_beyond_memory(bar):
+    with pytest.raises(MemoryError, match=r"^\d+ saved rows need [\d.e+]+ GiB; save fewer with save_every$"):
+        zd.simulate(bar, 1e4, step=1e-10)
+
+
+# ---- the keyboard ----
+
+
+def interrupted(bar, after=0.15, **options):
+    """A long run, Ctrl-C after a while: what came back, and how long that took."""
+    sent = []
+
+    def press():
+        time.sleep(after)
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=press).start()
+    try:
+        result = zd.simulate(bar, 1e5, step=1e-3, save_every=1000, **options)
+    except KeyboardInterrupt as error:
+        result = error
+    return result, time.perf_counter() - sent[0]
+
+
+def test_ctrl_c_keeps_what_was_computed(bar):
+    error, _ = interrupted(bar)
+    assert isinstance(error, zd.errors.Interrupted)
+    sol = error.solution
+    assert str(error) == sol.message == "interrupted from the keyboard"
+    assert not sol.success
+    assert sol.status > 0
+    assert 1 < len(sol.t) < 1e5
+    assert_close(sol.p, zd.simulate(bar, sol.t[-1], step=1e-3, save_every=1000).p, tol.CONVERGED)
+
+
+def test_ctrl_c_may_return(bar):
+    sol, _ = interrupted(bar, on_failure="return", integrator="trapezoidal")
+    assert sol.message == "interrupted from the keyboard"
+    assert len(sol.t) > 1
+
+
+def test_ctrl_c_is_heard_at_once(bar):
+    """The best of a few: a busy machine may delay any one of them."""
+    assert min(interrupted(bar)[1] for _ in range(3)) <= tol.KEYBOARD
+
+
+def test_an_exception_of_the_progress_callable_surfaces(bar):
+    def show(part):
+        raise ZeroDivisionError("mine")
+
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        motion(bar, 1.0, 20, progress=show)
+
+
+def test_the_bar_of_tqdm_is_closed(bar, monkeypatch):
+    """Also where the run fails."""
+    calls = []
+
+    class Bar:
+        def __init__(self, **options):
+            self.n = 0
+
+        def refresh(self):
+            calls.append(self.n)
+
+        def close(self):
+            calls.append("closed")
+
+    module = types.ModuleType("tqdm.auto")
+    module.tqdm = Bar
+    monkeypatch.setitem(sys.modules, "tqdm", types.ModuleType("tqdm"))
+    monkeypatch.setitem(sys.modules, "tqdm.auto", module)
+    with pytest.raises(zd.Diverged):
+        zd.simulate(bar, 8.0, step=0.05, stabilization=None, progress=True)
+    assert calls[-1] == "closed"
+    assert 0.9 < calls[-2] < 1

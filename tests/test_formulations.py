@@ -1,0 +1,62 @@
+"""All formulations solve the same equations: against an independent solve of (8), and against each other."""
+
+import numpy as np
+
+import tolerances as tol
+import zerodrift as zd
+from support import SYSTEMS, assert_close, condition, consistent_states, motion, numbers, solved
+
+
+def test_accelerations_and_multipliers_solve_8(system, formulation):
+    """With the sign of (7): M vdot + d = f - C^T lambda."""
+    for t, p, v in consistent_states(system):
+        e = numbers(system, t, p, v)
+        allowed = tol.SOLVED * condition(e.M, e.C)
+        expected = solved(e.M, e.C, e.force, e.xi)
+        vdot, multipliers = zd.acceleration(system, p, v, t, formulation=formulation)
+        assert_close(vdot, expected[0], allowed, scale=1)
+        assert_close(multipliers, expected[1], allowed, scale=1)
+        assert_close(e.M @ vdot + e.C.T @ multipliers, e.force, allowed, scale=1)
+        assert_close(e.C @ vdot, e.xi, allowed, scale=1)
+
+
+def test_recorded_multipliers_are_those_of_the_recorded_states(system, formulation):
+    sol = motion(system, 0.5, 50, formulation=formulation)
+    for t, p, v, recorded in zip(sol.t, sol.p, sol.v, sol.multipliers, strict=True):
+        e = numbers(system, t, p, v)
+        assert_close(recorded, solved(e.M, e.C, e.force, e.xi)[1], tol.SOLVED * condition(e.M, e.C), scale=1)
+
+
+def test_motion_is_the_same_in_every_formulation(system, formulation):
+    expected, sol = (motion(system, 0.5, 500, **options) for options in ({}, {"formulation": formulation}))
+    assert_close(sol.p, expected.p, tol.CONVERGED)
+    assert_close(sol.v, expected.v, tol.CONVERGED)
+
+
+def test_constraints_in_other_units_change_nothing(formulation):
+    """A mechanism a thousand times smaller, in masses a million times larger: the same angles, (8) scaled through."""
+    big = zd.systems.four_bar()
+    lengths, masses, gravity = (np.array(big.parameters[name]) for name in ("lengths", "masses", "gravity"))
+    small = zd.systems.four_bar(lengths=lengths / 1000, masses=masses * 1e6, gravity=float(gravity) / 1000)
+    for t, p, v in consistent_states(big):
+        vdot, multipliers = zd.acceleration(big, p, v, t, formulation=formulation)
+        again, larger = zd.acceleration(small, p, v, t, formulation=formulation)
+        assert_close(again, vdot, tol.STEPPED)
+        assert_close(larger, 1000 * multipliers, tol.STEPPED)
+
+
+def test_the_tables_introduce_their_rows():
+    for table in (zd.formulations(), zd.integrators(), zd.corrections()):
+        assert table
+        for name, card in table.items():
+            assert card.name == name
+            assert card.summary.endswith(".")
+            assert card.equations
+            assert card.summary in repr(table)
+    assert all(card.order >= 1 for card in zd.integrators().values())
+    assert set(zd.systems.__all__) == {system.name for system in SYSTEMS.values()}
+
+
+def test_a_table_handed_out_is_a_copy():
+    zd.formulations().clear()
+    assert zd.formulations()

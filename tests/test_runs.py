@@ -1,0 +1,156 @@
+"""Runs: the same bits whatever the slicing, threads and saving; time; and what a run costs, counted."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import tolerances as tol
+import zerodrift as zd
+from support import FORMULATIONS, INTEGRATORS, assert_close, motion
+from zerodrift import simulation
+
+ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
+        "energy_input", "energy_violation", "iterations")
+
+
+def assert_same_bits(one, other, rows=slice(None)):
+    """Every array of two solutions, the first at `rows`."""
+    for name in ROWS:
+        a, b = getattr(one, name), getattr(other, name)
+        assert (a is None) == (b is None), name
+        assert a is None or name == "iterations" or a[rows].tobytes() == b.tobytes(), name
+
+
+# ---- repeatability ----
+
+
+def test_slicing_changes_no_bit(system, formulation, integrator, monkeypatch):
+    runs = []
+    for seconds in (1e9, 0.0):
+        monkeypatch.setattr(simulation, "SLICE", seconds)
+        runs.append(motion(system, 1.0, 100, formulation=formulation, integrator=integrator))
+    assert_same_bits(*runs)
+    assert runs[0].stats | {"seconds": 0} == runs[1].stats | {"seconds": 0}
+
+
+def test_many_slices_are_many(bar, monkeypatch):
+    """Or the test above would show nothing; and progress goes from somewhere to the end."""
+    monkeypatch.setattr(simulation, "SLICE", 0.0)
+    parts = []
+    motion(bar, 1.0, 100, progress=parts.append)
+    assert len(parts) > 3
+    assert parts == sorted(parts)
+    assert parts[-1] == 1
+
+
+def test_threads_change_no_bit(system):
+    """One system, shared by runs in several threads at once."""
+    def run(_):
+        return motion(system, 2.0, 2000)
+
+    with ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(run, range(8)))
+    for other in runs[1:]:
+        assert_same_bits(runs[0], other)
+
+
+def test_threads_with_different_settings_do_not_meet(bar):
+    settings = [{"formulation": f, "integrator": i} for f in FORMULATIONS for i in INTEGRATORS]
+    alone = [motion(bar, 1.0, 400, **each) for each in settings]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda each: motion(bar, 1.0, 400, **each), settings))
+    for one, other in zip(alone, together, strict=True):
+        assert_same_bits(one, other)
+
+
+@pytest.mark.parametrize("every", [2, 7, 100, 1000])
+def test_saving_less_changes_no_bit(system, formulation, integrator, every):
+    options = {"formulation": formulation, "integrator": integrator}
+    full, sparse = motion(system, 1.0, 100, **options), motion(system, 1.0, 100, save_every=every, **options)
+    rows = sorted({*range(0, 101, every), 100})
+    assert_same_bits(full, sparse, rows)
+    assert sparse.stats["steps"] == 100
+
+
+def test_looking_at_every_row_costs_nothing(system, formulation):
+    """Multipliers are recorded from what the next step needs anyway; after a change of variables rounding makes it another point."""
+    full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
+    assert full["factorizations"] == sparse["factorizations"]
+    assert 0 <= full["solves"] - sparse["solves"] <= full["repartitions"]
+
+
+# ---- time ----
+
+
+@pytest.mark.parametrize("t_span", [1.0, 1, (0, 1), [0.0, 1.0], np.array([0, 1]), np.float32(1)], ids=repr)
+def test_forms_of_t_span(t_span):
+    sol = zd.simulate(zd.systems.oscillator(), t_span, step=0.25)
+    assert sol.t_span == (0.0, 1.0)
+    assert sol.t.tolist() == [0, 0.25, 0.5, 0.75, 1]
+
+
+def test_time_is_not_accumulated(bar):
+    sol = zd.simulate(bar, (3.0, 4.0), step=0.01)
+    assert sol.t.tolist() == [3.0 + k * 0.01 for k in range(100)] + [4.0]
+
+
+def test_a_shorter_last_step(system, integrator):
+    """It ends where asked, and is the step that a run from there would take."""
+    sol = zd.simulate(system, 0.1, step=0.03, integrator=integrator)
+    assert sol.t.tolist() == [0, 0.03, 0.06, 3 * 0.03, 0.1]
+    last = zd.simulate(system, (sol.t[3], 0.1), sol.p[3], sol.v[3], step=0.03, integrator=integrator)
+    assert last.t.tolist() == [sol.t[3], 0.1]
+    assert_close(last.p[-1], sol.p[-1], tol.STEPPED)
+    assert_close(last.v[-1], sol.v[-1], tol.STEPPED)
+
+
+@pytest.mark.parametrize(("end", "step", "steps"), [(1.0, 0.1, 10), (0.3, 0.1, 3), (8.0, 0.05, 160), (1.0, 1 / 3, 3),
+                                                    (1.0, 2.0, 1), (1.0, 0.0999999, 11), (1.0, 0.15, 7)])
+def test_a_whole_number_of_steps_is_recognized(end, step, steps):
+    sol = zd.simulate(zd.systems.oscillator(), end, step=step)
+    assert sol.stats["steps"] == steps == len(sol.t) - 1
+    assert sol.t[-1] == end
+
+
+def test_a_run_starts_where_it_is_told(system):
+    p, v = zd.assemble(system, system.p0, 0.5 * system.v0, t=2.0)
+    sol = zd.simulate(system, (2.0, 2.1), p, v, step=0.05)
+    assert np.array_equal(sol.p[0], p)
+    assert np.array_equal(sol.v[0], v)
+
+
+def test_a_start_within_the_tolerance_asked_for_is_taken(bar):
+    p = bar.p0 + 1e-7
+    sol = zd.simulate(bar, 0.1, p, bar.v0, step=0.05, stabilization=zd.Projection(tol=1e-6))
+    assert np.array_equal(sol.p[0], p)
+
+
+# ---- cost, counted: nothing is computed twice ----
+
+
+def test_cost_of_a_step(bar):
+    """RK4 with projection: the velocity correction's matrix serves the first of the next step's four stages."""
+    stats = motion(bar, 8.0, 800).stats
+    iterations = stats["position_iterations"]
+    assert stats["velocity_corrections"] == stats["steps"] == 800
+    assert stats["factorizations"] == 1 + 4 * 800 + iterations
+    assert stats["solves"] == 1 + 5 * 800 + iterations
+    assert stats["evaluations"] <= 2 * stats["factorizations"] + 800
+
+
+def test_cost_of_a_step_without_corrections(bar):
+    stats = motion(bar, 8.0, 800, stabilization=None).stats
+    assert stats["factorizations"] == stats["solves"] == 1 + 4 * 800
+    assert stats["position_iterations"] == stats["velocity_corrections"] == stats["energy_corrections"] == 0
+
+
+def test_energy_correction_needs_no_further_matrix(bar):
+    stats = motion(bar, 8.0, 800, energy=True).stats
+    assert stats["factorizations"] == 1 + 4 * 800 + stats["position_iterations"]
+    assert stats["energy_corrections"] == 800
+
+
+def test_implicit_iterations_are_counted(bar):
+    assert motion(bar, 1.0, 100).stats["implicit_iterations"] == 0
+    assert 100 <= motion(bar, 1.0, 100, integrator="trapezoidal").stats["implicit_iterations"] <= 500
