@@ -63,7 +63,7 @@ typedef struct zd_formulation {
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
     int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
-    /* Gives the point, after its p was corrected, the v that belongs to it; NULL where v is corrected by itself. */
+    /* Gives the point the v that follows from its p and the state; NULL where v is part of the state. */
     int (*settle)(void *self, zd_point *point);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
 } zd_formulation;

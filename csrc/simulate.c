@@ -26,7 +26,9 @@ static int take_step(zd_run *run)
     if (run->extras) run->point->known &= ~ZD_ACCELERATED;
     status = run->formulation->enter(run->solver, run->point, t1, run->y);
     if (!status) status = zd_run_correct(run);
-    return status ? status : run->formulation->leave(run->solver, run->point, run->y);
+    if (!status) status = run->formulation->leave(run->solver, run->point, run->y);
+    /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
+    return !status && run->formulation->settle ? run->formulation->settle(run->solver, run->point) : status;
 }
 
 static int is_saved(const zd_run *run)

@@ -19,11 +19,11 @@ def test_right_custom_systems_are_right():
 
 
 WRONG = {
-    "bias": (lambda p, v, l, m: -bias(p, v, l, m), "v . bias", True),                          # noqa: E741
-    "force": (lambda p, l, m, g: -force(p, l, m, g), "v . force", True),                       # noqa: E741
-    "jacobian": (lambda p, l: -jacobian(p, l), "C is not dPhi/dp A", True),                    # noqa: E741
-    "xi": (lambda p, v, l: 1.01 * xi(p, v, l), "xi is not what C vdot has to be", False),      # noqa: E741
-    "potential": (lambda p, l, m, g: 2 * potential(p, l, m, g), "v . force", False),           # noqa: E741
+    "bias": (lambda p, v, L, m: -bias(p, v, L, m), "v . bias", True),
+    "force": (lambda p, L, m, g: -force(p, L, m, g), "v . force", True),
+    "jacobian": (lambda p, L: -jacobian(p, L), "C is not dPhi/dp A", True),
+    "xi": (lambda p, v, L: 1.01 * xi(p, v, L), "xi is not what C vdot has to be", False),
+    "potential": (lambda p, L, m, g: 2 * potential(p, L, m, g), "v . force", False),
     "mass": (np.triu(np.ones((3, 3))), "M is not its own transpose", False),
     "power": (1.0, "v . force is not power - dV/dt", False),
 }
@@ -39,12 +39,12 @@ def test_what_is_wrong_is_said(name):
 
 
 def test_dependent_constraints_and_an_indefinite_mass_are_said():
-    doubled = four_bar(constraints=lambda p, l: np.array([l @ np.sin(p), 2 * l @ np.sin(p)]), jacobian=None, xi=None)   # noqa: E741
+    doubled = four_bar(constraints=lambda p, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p)]), jacobian=None, xi=None)
     assert "of 2 constraints only 1 are independent" in repr(zd.check(doubled))
     assert "lowest eigenvalue is -1" in repr(zd.check(four_bar(mass=-np.eye(3))))
 
 
 def test_a_balance_that_closes_in_another_split_is_no_mistake():
     """Forces may as well stand in bias, with the opposite sign."""
-    moved = four_bar(force=None, bias=lambda p, v, l, m, g: bias(p, v, l, m) - force(p, l, m, g))   # noqa: E741
+    moved = four_bar(force=None, bias=lambda p, v, L, m, g: bias(p, v, L, m) - force(p, L, m, g))
     assert zd.check(moved)

@@ -10,45 +10,45 @@ import zerodrift as zd
 from support import FORMULATIONS, SYSTEMS, assert_close
 
 ANGLES = ["alpha1", "alpha2", "alpha3"]
-GIVEN = {"l0": 1.0, "l": np.array([0.3, 1.0, 0.6]), "m": np.array([1.5, 5.0, 3.0]), "g": 9.81}
+GIVEN = {"l0": 1.0, "L": np.array([0.3, 1.0, 0.6]), "m": np.array([1.5, 5.0, 3.0]), "g": 9.81}
 AHEAD = np.array([[0.5, 1, 1], [0, 0.5, 1], [0, 0, 0.5]])     # where along link i the weight of link j pulls
 
 
-def mass(p, l, m):      # noqa: E741
+def mass(p, L, m):
     """Sum of m_j J_j^T J_j over the link midpoints, with slender links."""
-    M = np.diag(m * l**2 / 12)
+    M = np.diag(m * L**2 / 12)
     for j in range(3):
-        arms = AHEAD[:, j] * l
+        arms = AHEAD[:, j] * L
         M = M + m[j] * np.outer(arms, arms) * np.cos(p[:, None] - p)
     return M
 
 
-def bias(p, v, l, m):   # noqa: E741
+def bias(p, v, L, m):
     d = np.zeros(3)
     for j in range(3):
-        arms = AHEAD[:, j] * l
+        arms = AHEAD[:, j] * L
         d += m[j] * arms * (np.sin(p[:, None] - p) @ (arms * v**2))
     return d
 
 
-def force(p, l, m, g):  # noqa: E741
-    return -g * (AHEAD @ m) * l * np.cos(p)
+def force(p, L, m, g):
+    return -g * (AHEAD @ m) * L * np.cos(p)
 
 
-def constraints(p, l0, l):      # noqa: E741
-    return np.array([l @ np.cos(p) - l0, l @ np.sin(p)])
+def constraints(p, l0, L):
+    return np.array([L @ np.cos(p) - l0, L @ np.sin(p)])
 
 
-def jacobian(p, l):     # noqa: E741
-    return np.array([-l * np.sin(p), l * np.cos(p)])
+def jacobian(p, L):
+    return np.array([-L * np.sin(p), L * np.cos(p)])
 
 
-def xi(p, v, l):        # noqa: E741
-    return np.array([(l * v**2) @ np.cos(p), (l * v**2) @ np.sin(p)])
+def xi(p, v, L):
+    return np.array([(L * v**2) @ np.cos(p), (L * v**2) @ np.sin(p)])
 
 
-def potential(p, l, m, g):      # noqa: E741
-    return g * (AHEAD @ m) * l @ np.sin(p)
+def potential(p, L, m, g):
+    return g * (AHEAD @ m) * L @ np.sin(p)
 
 
 def four_bar(**changes):
@@ -65,11 +65,11 @@ def raising(error):
     """A force that raises on its two hundredth call."""
     calls = []
 
-    def force_until(p, l, m, g):    # noqa: E741
+    def force_until(p, L, m, g):
         calls.append(1)
         if len(calls) == 200:
             raise error
-        return force(p, l, m, g)
+        return force(p, L, m, g)
 
     return force_until
 
@@ -145,7 +145,7 @@ def test_nonholonomic_xi_is_derived():
 def test_callables_take_parameters_by_name_and_parameters_can_be_changed():
     short = four_bar().with_parameters(g=0.0)
     assert short.evaluate().f == pytest.approx(0.0)
-    with pytest.raises(ValueError, match="'l0', 'l', 'm', 'g'"):
+    with pytest.raises(ValueError, match="'l0', 'L', 'm', 'g'"):
         four_bar().with_parameters(gravity=1.0)
 
 
@@ -158,7 +158,7 @@ def test_saved_solutions_of_custom_systems_keep_the_description(tmp_path):
     sol = zd.simulate(four_bar(), 0.1, step=0.01)
     again = zd.load(sol.save(tmp_path / "motion"))
     assert [c.name for c in again.system.coordinates] == ANGLES
-    assert "four" not in repr(again) and "system" in repr(again)
+    assert repr(again.system) == "<description of system>"
 
 
 # ---- what goes wrong ----
@@ -172,14 +172,15 @@ def test_an_exception_in_a_callable_surfaces_as_itself_with_the_partial_solution
     assert 10 < len(error.solution.t) < 100
     assert "t = " in error.__notes__[0]
     partial = zd.simulate(four_bar(force=raising(ZeroDivisionError("again"))), 8.0, step=0.01, on_failure="return")
-    assert not partial.success and "again" in partial.message
+    assert not partial.success
+    assert "again" in partial.message
 
 
 def test_ctrl_c_inside_a_callable_is_an_interruption():
-    def interrupted(p, l, m, g):    # noqa: E741
+    def interrupted(p, L, m, g):
         if p[0] < 1.0:
             signal.raise_signal(signal.SIGINT)
-        return force(p, l, m, g)
+        return force(p, L, m, g)
 
     with pytest.raises(zd.Interrupted) as caught:
         zd.simulate(four_bar(force=interrupted, v0=-SYSTEMS["four_bar"].v0), 8.0, step=0.01)
@@ -205,7 +206,7 @@ def test_wrong_shapes_name_the_callable(changes, message):
 
 
 def test_an_unknown_argument_of_a_callable_is_named():
-    with pytest.raises(TypeError, match="force asks for 'q'; there is t, p, v, l0, l, m, g"):
+    with pytest.raises(TypeError, match="force asks for 'q'; there is t, p, v, l0, L, m, g"):
         four_bar(force=lambda q: q)
 
 
@@ -231,7 +232,7 @@ def test_a_shape_that_changes_on_the_way_is_caught():
 @pytest.mark.parametrize(("changes", "message"), [
     ({"mass": lambda p: -np.eye(3)}, "not positive definite"),
     ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "not symmetric"),
-    ({"constraints": lambda p, l: np.array([l @ np.sin(p), 2 * l @ np.sin(p)]), **DERIVED}, "dependent"),
+    ({"constraints": lambda p, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p)]), **DERIVED}, "dependent"),
 ])
 def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, message):
     with pytest.raises(zd.SingularSystem, match=message) as caught:
@@ -255,5 +256,5 @@ def test_filling_an_array_with_derivatives_explains_itself():
         out[0] = p[0] ** 2 + p[1] ** 2 - 1
         return out
 
-    with pytest.raises(TypeError, match="build arrays with np.array"):
+    with pytest.raises(TypeError, match="build arrays with"):
         zd.System(2, mass=np.eye(2), constraints=filled, p0=[1.0, 0.0]).evaluate()

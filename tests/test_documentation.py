@@ -12,7 +12,8 @@ import pytest
 import zerodrift
 
 README = Path(__file__).resolve().parent.parent / "README.md"
-MODULES = sorted(m.name for m in pkgutil.walk_packages(zerodrift.__path__, "zerodrift.") if not m.name.endswith(("__main__", "_core")))
+MODULES = [module.name for module in pkgutil.walk_packages(zerodrift.__path__, "zerodrift.")
+           if not module.name.endswith(("__main__", "_core"))]
 
 
 @pytest.mark.parametrize("name", ["zerodrift", *MODULES])

@@ -78,7 +78,7 @@ def test_bias_and_force_are_those_of_lagrange(system):
 
 
 def test_terms_are_absent_or_have_their_shapes(system):
-    sizes = {"nq": system.nq, "nv": system.nv, "mh": system.mh, "m": system.m}
+    sizes = {"nq": system.nq, "nv": system.nv, "mh": system.mh, "m": system.m, "r": system.nv - system.m}
     terms = system.evaluate()
     for name, (_, shape) in _gateway.TERMS.items():
         array = getattr(terms, name)

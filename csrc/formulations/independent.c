@@ -67,5 +67,6 @@ const zd_formulation zd_independent = {
     .solve = zd_minimal_solve,
     .enter = enter,
     .leave = leave,
+    .settle = zd_minimal_settle,
     .rate = rate,
 };
