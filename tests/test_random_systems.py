@@ -83,7 +83,7 @@ def test_accelerations_and_multipliers_of_all_formulations(random):
 def test_response_to_forces_is_the_same_by_the_complement_and_by_the_multipliers(random):
     """(12): D (D^T M D)^-1 D^T = M^-1 - M^-1 C^T (C M^-1 C^T)^-1 C M^-1, which is how vdot answers to f where xi = 0."""
     bound = well_conditioned(random)
-    if bound is None:
+    if bound is None or bound > 1e5:    # NumPy's side of (12) has the square of it
         return
     C, rest = random.C(random.p), np.zeros(random.n)
     inverse = np.linalg.inv(random.M)
@@ -91,10 +91,11 @@ def test_response_to_forces_is_the_same_by_the_complement_and_by_the_multipliers
     random.d = np.zeros(random.n)
     for formulation in ("mixed", "nullspace", "schur"):
         columns = []
-        for random.f in np.eye(random.n):
+        for unit in np.eye(random.n):
+            random.f = unit
             columns.append(zd.acceleration(random.system(), random.p, rest, formulation=formulation)[0])
-        weight = np.sqrt(np.diag(random.M))
-        assert_close(weight[:, None] * np.array(columns).T * weight, weight[:, None] * whole * weight, 1e4 * tol.EPS * bound, scale=1.0)
+        weight = np.sqrt(np.outer(random.M.diagonal(), random.M.diagonal()))
+        assert_close(weight * np.array(columns).T, weight * whole, 1e4 * tol.EPS * bound, scale=1.0)
 
 
 @ALWAYS
