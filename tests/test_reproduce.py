@@ -99,7 +99,7 @@ def test_case_a_is_kept_as_far_as_it_came():
     a = paper.run(paper.FOUR_BAR)["(a) no control"]
     assert not a.success
     assert 7 < a.t[-1] < 8
-    assert "7.65" in claims.ending(a)
+    assert claims.ending(a).startswith("at t = 7.")
 
 
 def test_costs_have_the_error_of_each_step(monkeypatch):

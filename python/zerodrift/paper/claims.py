@@ -132,12 +132,18 @@ def figure_7(runs: Runs) -> list[Claim]:
         Claim(7, "(d) the energy balance holds after every correction", "round-off",
               f"|Psi_E| {largest(d.energy_violation):.1e} J, of 33 J; in (c) {largest(c.energy_violation):.2g} J",
               largest(d.energy_violation) < 1e-12),
-        Claim(7, "(d) the error goes up and down and does not pile up", "at the end less than half of its worst",
-              f"{abs(errors[3][-1]):.1e} rad at the end, {worst[3]:.1e} rad at worst",
-              abs(errors[3][-1]) < worst[3] / 2),
+        _recovery(d, errors[3]),
         _delay(errors[2:]),
         *_signs_of_energy_errors(c, errors[2]),
     ]
+
+
+def _recovery(d: Solution, error: np.ndarray) -> Claim:
+    """The motion ends near the top, where the error is small again."""
+    peaks = [largest(error[(d.t > start) & (d.t <= start + 2)]) for start in (0, 2, 4, 6)]
+    return Claim(7, "(d) the error spoils and recovers in turn, and accuracy is kept", "at the end below half of its worst",
+                 f"{abs(error[-1]):.1e} rad at the end; at worst {', '.join(f'{peak:.1e}' for peak in peaks)} rad in the four "
+                 "quarters of the time", abs(error[-1]) < max(peaks) / 2, "its peaks still grow, but slowly")
 
 
 def _delay(errors: Sequence[np.ndarray]) -> Claim:

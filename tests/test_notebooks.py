@@ -1,0 +1,43 @@
+"""Every notebook runs, and is committed with the outputs of a run."""
+
+from pathlib import Path
+
+import pytest
+
+nbformat = pytest.importorskip("nbformat")
+nbclient = pytest.importorskip("nbclient")
+
+NOTEBOOKS = sorted((Path(__file__).resolve().parent.parent / "notebooks").glob("*.ipynb"))
+
+
+def read(path):
+    return nbformat.read(path, as_version=4)
+
+
+def code_cells(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+@pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
+def path(request):
+    return request.param
+
+
+def test_there_is_a_notebook_for_each_figure():
+    assert {f"figure_{n}" for n in range(5, 10)} <= {path.stem for path in NOTEBOOKS}
+
+
+@pytest.mark.filterwarnings("default")      # what Jupyter warns of is not ours
+def test_notebook_runs(path):
+    """The last cell asserts what the notebook states, so running it is the test."""
+    nbclient.NotebookClient(read(path), timeout=120, resources={"metadata": {"path": str(path.parent)}}).execute()
+
+
+def test_notebook_is_committed_as_executed(path):
+    cells = code_cells(read(path))
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert not [output for output in outputs if output.output_type == "error" or output.get("name") == "stderr"]
+    assert any("image/png" in output.get("data", {}) for output in outputs)
+    assert "assert" in cells[-1].source
+    assert path.stat().st_size < 1_000_000
