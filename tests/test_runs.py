@@ -74,7 +74,7 @@ def test_saving_less_changes_no_bit(system, formulation, integrator, every):
 
 
 def test_looking_at_every_row_costs_nothing(system, formulation):
-    """Multipliers are recorded from what the next step needs anyway; after a change of variables rounding makes it another point."""
+    """Multipliers come from what the next step needs anyway; after a change of variables rounding makes it another point."""
     full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
     assert full["factorizations"] == sparse["factorizations"]
     assert 0 <= full["solves"] - sparse["solves"] <= full["repartitions"]
