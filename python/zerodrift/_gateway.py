@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import hashlib
+import math
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -306,7 +307,7 @@ class Record:
         energies = {"potential": (), "input": (), "energy_violation": ()} if core.has_energy else {}
         shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
                   "velocity_violation": (core.m,), "kinetic": (), **energies}
-        widths = [int(np.prod(shape)) for shape in shapes.values()]
+        widths = [math.prod(shape) for shape in shapes.values()]
         try:
             block = np.empty(capacity * sum(widths))
             self._iterations = np.empty(capacity, dtype=np.intc)

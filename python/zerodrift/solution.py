@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -75,9 +74,9 @@ class Solution:
     t_span: tuple[float, float]
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            if isinstance(array := getattr(self, field.name), np.ndarray):
-                array.flags.writeable = False
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Solution, tuple(getattr(self, field.name) for field in fields(self))     # copies are read-only, too
@@ -157,7 +156,7 @@ def load(path: str | Path) -> Solution:
 def _arrays(path: str | Path) -> dict[str, np.ndarray]:
     """What an NPZ file holds; nothing, if it is none."""
     with open(path, "rb") as file:
-        if not zipfile.is_zipfile(file):
+        if file.read(2) != b"PK":       # any ZIP file; others NumPy would try to read in other ways
             return {}
     with np.load(path, allow_pickle=False) as file:
         return dict(file)

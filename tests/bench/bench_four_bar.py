@@ -1,0 +1,92 @@
+"""What the core, `simulate` and the import cost on the paper's four-bar: ratios and differences within one run.
+
+Run it with ``python tests/bench/bench_four_bar.py``; it needs a C compiler, and writes ``results/four_bar.csv``.
+"""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import zerodrift as zd
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT / "python"))
+
+
+def compiled(folder):
+    """Floor and core in one program, both with the product's flags."""
+    from build_core import FLAGS
+
+    program, sources = Path(folder) / "compare", sorted((ROOT / "csrc").rglob("*.c"))
+    subprocess.run([os.environ.get("CC", "cc"), *FLAGS, "-fPIC", "-I", ROOT / "csrc", "-o", program, HERE / "compare.c",
+                    HERE / "four_bar_floor.c", *sources, "-lm"], check=True)
+    return program
+
+
+def steps():
+    """Nanoseconds per step of floor and formulations, and that all of them go to the same place."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = subprocess.run([compiled(folder)], check=True, capture_output=True, text=True).stdout
+    lines = [line.split() for line in output.splitlines()]
+    angles = [float(angle) for _, _, angle in lines]
+    spread = max(angles) - min(angles)
+    assert spread < 1e-4, f"alpha_1(8 s) differs by {spread:g} rad"     # by truncation only
+    return {name: float(ns) for name, ns, _ in lines}
+
+
+def simulate_beyond_its_steps(rounds=200):
+    """Seconds of a call of 160 steps, less 160 steps at the cost they have in a call of 1600."""
+    bar, best = zd.systems.four_bar(), {}
+    for _ in range(rounds):
+        for count in (160, 1600):
+            start = time.perf_counter()
+            zd.simulate(bar, 0.05 * count, step=0.05)
+            best[count] = min(best.get(count, 1.0), time.perf_counter() - start)
+    return best[160] - 160 * (best[1600] - best[160]) / 1440
+
+
+def import_beyond_numpy_and_cffi(rounds=10):
+    """Seconds of `import zerodrift` where NumPy and CFFI are imported, and everything is compiled to byte code, already."""
+    code = "import time, numpy, cffi; t = time.perf_counter(); import zerodrift; print(time.perf_counter() - t)"
+    with tempfile.TemporaryDirectory() as folder:
+        environment = os.environ | {"PYTHONPYCACHEPREFIX": folder, "PYTHONDONTWRITEBYTECODE": ""}
+        return min(float(subprocess.run([sys.executable, "-c", code], env=environment, check=True, capture_output=True).stdout)
+                   for _ in range(rounds))
+
+
+def measured():
+    """Rows (what, value, unit, limit)."""
+    ns = steps()
+    yield "floor, a step", ns["floor"], "ns", None
+    for name in zd.formulations():
+        yield f"{name}, a step", ns[name], "ns", None
+    default = "schur"
+    yield f"{default} to floor", ns[default] / ns["floor"], "", 2
+    yield f"{default} with every row saved to floor", ns[f"{default}+rows"] / ns["floor"], "", None
+    limits = {"nullspace": 2, "mixed": 2, "independent": 3}
+    for name in zd.formulations():
+        if name != default:
+            yield f"{name} to {default}", ns[name] / ns[default], "", limits.get(name)
+    yield "simulate of 160 steps beyond its steps", 1e6 * simulate_beyond_its_steps(), "us", 150
+    yield "import beyond NumPy and CFFI", 1e3 * import_beyond_numpy_and_cffi(), "ms", 50
+
+
+def main():
+    """Measure, print and write."""
+    path = HERE / "results" / "four_bar.csv"
+    path.parent.mkdir(exist_ok=True)
+    with path.open("w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["what", "value", "unit", "at most"])
+        for what, value, unit, limit in measured():
+            print(f"{what:46} {value:8.3g} {unit:3}" + (f" (at most {limit})" if limit else ""))
+            table.writerow([what, f"{value:.3g}", unit, limit or ""])
+
+
+if __name__ == "__main__":
+    main()
