@@ -33,17 +33,58 @@ def declarations() -> str:
     return re.sub(r"^#.*$", "", header, flags=re.MULTILINE) + IN_PYTHON
 
 
-# Beside the core's own interface: what it was built from, and the evaluation of systems written in Python.
+# Beside the core's own interface: what it was built from, and the evaluation of systems written in Python. Between the core and
+# Python stands a little C, as it costs there a hundredth: noticing that the memory is another, and numbers that are not finite.
 IN_PYTHON = """
 extern const char *const zd_fingerprint;
-extern "Python" int zd_evaluate_in_python(const void *, int, double, const double *, const double *, const zd_terms *);
+
+typedef struct zd_python {
+    void *evaluator;            /* handle of the Python object */
+    const zd_system *system;
+    const double *p, *v;        /* the memory of the last call */
+    zd_terms terms;
+    double t;
+    int not_finite;             /* the term that was not, as its bit */
+} zd_python;
+
+int zd_evaluate_in_python(const void *, int, double, const double *, const double *, const zd_terms *);
+extern "Python" int zd_write_in_python(void *evaluator, int want, double t, int elsewhere);
+"""
+
+BRIDGE = """
+#include <string.h>
+#include "zerodrift.h"
+
+static const char *const zd_fingerprint = "%s";
+
+typedef struct zd_python {
+    void *evaluator;
+    const zd_system *system;
+    const double *p, *v;
+    zd_terms terms;
+    double t;
+    int not_finite;
+} zd_python;
+
+static int zd_write_in_python(void *evaluator, int want, double t, int elsewhere);
+
+static int zd_evaluate_in_python(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+{
+    zd_python *self = (zd_python *)data;
+    int elsewhere = p != self->p || v != self->v || memcmp(out, &self->terms, sizeof *out) != 0;
+    self->p = p, self->v = v, self->terms = *out, self->t = t;
+    int status = zd_write_in_python(self->evaluator, want, t, elsewhere);
+    if (status) return status;
+    self->not_finite = zd_first_not_finite(self->system, want, out);
+    return self->not_finite ? ZD_CALLBACK : ZD_DONE;
+}
 """
 
 ffibuilder = FFI()
 ffibuilder.cdef(declarations())
 ffibuilder.set_source(
     "zerodrift._core",
-    f'#include "zerodrift.h"\nstatic const char *const zd_fingerprint = "{fingerprint()}";\n',
+    BRIDGE % fingerprint(),
     sources=sources(),
     depends=[str(path.relative_to(ROOT)) for path in (ROOT / "csrc").rglob("*.h")],
     include_dirs=["csrc"],

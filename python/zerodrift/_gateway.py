@@ -205,40 +205,38 @@ class Evaluator:
     and the run stops.
     """
 
-    def __init__(self, core: PythonCore) -> None:
-        self.core, self.error = core, None
-        self._memory, self._arrays = None, None
+    def __init__(self, core: PythonCore, bridge: Any) -> None:
+        self.core, self.bridge, self.error, self.arrays = core, bridge, None, {}
 
-    def arrays(self, p: Any, v: Any, terms: Any) -> dict[str, np.ndarray]:
-        """Arrays over the memory of (p, v) and of the terms."""
-        memory = (p, v, ffi.buffer(terms)[:])
-        if memory != self._memory:
-            self._memory, self._arrays = memory, self._over(p, v, terms)
-        return self._arrays
+    def write(self, want: int, t: float, elsewhere: int) -> int:
+        """What the core calls: `elsewhere` says that its memory is another than at the last call."""
+        try:
+            if elsewhere:
+                self.arrays = self._over(self.bridge)
+            self.core.write(want, t, self.arrays)
+        except BaseException as error:      # it surfaces where the run was started
+            self.error = error
+            return CALLBACK
+        return DONE
 
-    def _over(self, p: Any, v: Any, terms: Any) -> dict[str, np.ndarray]:
+    def _over(self, memory: Any) -> dict[str, np.ndarray]:
         core = self.core
-        arrays = {"p": _over(p, (core.nq,)), "v": _over(v, (core.nv,))}
+        arrays = {"p": _over(memory.p, (core.nq,)), "v": _over(memory.v, (core.nv,))}
         arrays["p"].flags.writeable = arrays["v"].flags.writeable = False
         for name, (bit, shape) in TERMS.items():
             if core.provides & bit:
-                arrays[name] = _over(getattr(terms, name), [getattr(core, size) for size in shape])
+                arrays[name] = _over(getattr(memory.terms, name), [getattr(core, size) for size in shape])
         if "C" in arrays:
             arrays["C_H"], arrays["C_NH"] = arrays["C"][: core.mh], arrays["C"][core.mh :]
         return arrays
 
-    def evaluate(self, want: int, t: float, p: Any, v: Any, terms: Any) -> int:
-        """What the core calls."""
-        try:
-            self.core.write(want, t, self.arrays(p, v, terms))
-            bit = lib.zd_first_not_finite(self.core.c, want, terms)
-            if bit:
-                name = next(name for name, (mine, _) in TERMS.items() if mine == bit)
-                raise self.core.write.not_finite(name, t, self._arrays[name])
-        except BaseException as error:      # it surfaces where the run was started
-            self.error = error
-            return lib.ZD_CALLBACK
-        return lib.ZD_DONE
+    def failure(self) -> BaseException | None:
+        """What a callable raised, or the error for a term that was not finite."""
+        bit = self.bridge.not_finite
+        if self.error is None and bit:
+            name = next(name for name, (mine, _) in TERMS.items() if mine == bit)
+            self.error = self.core.write.not_finite(name, self.bridge.t, self.arrays[name])
+        return self.error
 
 
 def _over(pointer: Any, shape: Any) -> np.ndarray:
@@ -248,9 +246,14 @@ def _over(pointer: Any, shape: Any) -> np.ndarray:
     return np.frombuffer(ffi.buffer(pointer, size * 8), dtype=np.float64).reshape(shape)
 
 
-@ffi.def_extern()
-def zd_evaluate_in_python(data, want, t, p, v, terms):
-    return ffi.from_handle(ffi.cast("void *", data)).evaluate(want, t, p, v, terms)
+def _keep(kind: Any, error: BaseException, traceback: Any) -> None:
+    """Ctrl-C between C and `Evaluator.write` is an error like any other."""
+    ffi.from_handle(traceback.tb_frame.f_locals["evaluator"]).error = error
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
+def zd_write_in_python(evaluator, want, t, elsewhere):
+    return ffi.from_handle(evaluator).write(want, t, elsewhere)
 
 
 class PythonCore(CoreSystem):
@@ -272,16 +275,17 @@ class PythonCore(CoreSystem):
     def for_run(self) -> PythonCore:
         """The same system with an evaluator of its own, so that runs do not share memory."""
         mine = copy.copy(self)
-        mine.evaluator = Evaluator(mine)
+        bridge = ffi.new("zd_python *")
         mine.c = ffi.new("zd_system *", self.c[0])
+        mine.evaluator = Evaluator(mine, bridge)
         mine._data = ffi.new_handle(mine.evaluator)
-        mine.c.data = mine._data
+        bridge.evaluator, bridge.system, mine.c.data = mine._data, mine.c, bridge
         return mine
 
     @property
     def error(self) -> BaseException | None:
         """What a callable raised."""
-        return self.evaluator.error if self.evaluator else None
+        return self.evaluator.failure() if self.evaluator else None
 
 
 # ---- runs ----
