@@ -68,7 +68,7 @@ static int residual(void *context, double *size)
 {
     problem *it = context;
     zd_point *point = it->point;
-    int status = zd_point_need(point, ZD_PHI);
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
     if (status) return status;
     double Phi = it->self->mh ? zd_max_abs(it->self->mh, point->terms.Phi) : 0;
     *size = Phi > 0 ? Phi / it->self->rounding : 0;
