@@ -67,8 +67,9 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
     sines *a = (sines *)out->scratch;
     if (want & ZD_MOVED)
         for (int i = 0; i < N; i++) {
-            a->s[i] = sin(p[i]);
-            a->c[i] = cos(p[i]);
+            double angle = p[i];
+            a->s[i] = sin(angle);
+            a->c[i] = cos(angle);
         }
     if (want & ZD_M) write_mass(k, a, out->M);
     if (want & ZD_BIAS) write_bias(k, a, v, out->d);
