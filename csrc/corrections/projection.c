@@ -125,7 +125,7 @@ static int after_step(void *memory, zd_run *run)
 {
     const zd_projection *settings = &run->settings.projection;
     int status = ZD_DONE;
-    if (run->step % settings->every && run->step != run->steps) return ZD_DONE;
+    if (!zd_run_is_due(run, settings->every)) return ZD_DONE;
     if (settings->positions && (run->violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
     if (status || !zd_constraints(&run->system)) return status;
     if (run->violates & ZD_C) return settings->velocities ? correct_velocities(memory, run) : ZD_DONE;
