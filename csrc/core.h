@@ -136,6 +136,12 @@ struct zd_run {
     char message[ZD_MESSAGE];
 };
 
+/* Whether this step is one of every so many, or the last. One of every 1 is not worth a division, the slowest of instructions. */
+static inline int zd_run_is_due(const zd_run *run, long every)
+{
+    return every == 1 || run->step % every == 0 || run->step == run->steps;
+}
+
 /* dynamics.c: what integrators, corrections and recorder ask of a run */
 int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);  /* of energy, besides V: then it is integrated along */

@@ -1,5 +1,6 @@
 /* The equations of motion of a run at its point: the rate of the integrated state, and the energy balance. */
 #include "core.h"
+#include "linalg/small.h"
 
 int zd_has_energy(const zd_system *system)
 {
@@ -40,8 +41,7 @@ int zd_run_accelerate(zd_run *run)
     if (!status) status = zd_run_factor(run);
     if (status) return status;
     zd_point_force(point, point->force);
-    int m = zd_constraints(point->system);
-    if (m) memcpy(point->rhs, point->terms.xi, (size_t)m * sizeof(double));
+    ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
     stabilize(run);
     run->statistics.solves++;
     run->formulation->solve(run->solver, point->force, point->rhs, point->vdot, point->lambda);   /* (8), (9), (13) */

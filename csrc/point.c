@@ -4,6 +4,7 @@
  * whatever integrator or correction is plugged in.
  */
 #include "core.h"
+#include "linalg/small.h"
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
@@ -39,30 +40,25 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
     return zd_take_filled(arena, &point, sizeof point);
 }
 
-static int same(int n, const double *a, const double *b)
+/* to <- from; returns whether that changed a bit */
+ZD_INLINE int replace(const int n, double *to, const double *from)
 {
-    for (int i = 0; i < n; i++)
-        if (!(a[i] == b[i])) return 0;
+    if (memcmp(to, from, (size_t)n * sizeof *to) == 0) return 0;
+    memcpy(to, from, (size_t)n * sizeof *to);
     return 1;
 }
 
 void zd_point_move(zd_point *point, double t, const double *p, const double *v)
 {
-    int nq = point->system->nq;
-    if (!(t == point->t) || !same(nq, p, point->p)) {
-        memcpy(point->p, p, (size_t)nq * sizeof *p);
-        point->t = t;
-        point->known = 0;
-    }
+    int moved = ZD_SIZED(replace, point->system->nq, point->p, p);
+    if (moved || !(t == point->t)) point->known = 0;
+    point->t = t;
     zd_point_move_velocity(point, v);
 }
 
 void zd_point_move_velocity(zd_point *point, const double *v)
 {
-    int nv = point->system->nv;
-    if (same(nv, v, point->v)) return;
-    memcpy(point->v, v, (size_t)nv * sizeof *v);
-    point->known &= ~ZD_OF_VELOCITY;
+    if (ZD_SIZED(replace, point->system->nv, point->v, v)) point->known &= ~ZD_OF_VELOCITY;
 }
 
 int zd_point_need_missing(zd_point *point, int missing)
@@ -79,46 +75,44 @@ void zd_point_force(const zd_point *point, double *force)
 {
     int nv = point->system->nv;
     const double *f = point->terms.f, *d = point->terms.d;
-    for (int i = 0; i < nv; i++) force[i] = (f ? f[i] : 0) - (d ? d[i] : 0);
+    if (f && d) ZD_SIZED(zd_subtract, nv, f, d, force);
+    else
+        for (int i = 0; i < nv; i++) force[i] = f ? f[i] : d ? -d[i] : 0;
+}
+
+/* y <- A x, A (rows, n) */
+ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x, double *y)
+{
+    for (int i = 0; i < rows; i++) y[i] = zd_dot(n, A + i * n, x);
 }
 
 void zd_point_velocity_violation(const zd_point *point, double *Psi)
 {
-    int m = zd_constraints(point->system), nv = point->system->nv;
-    const double *C = point->terms.C, *Phi_t = point->terms.Phi_t;
-    for (int k = 0; k < m; k++) {
-        double sum = Phi_t ? Phi_t[k] : 0;
-        for (int i = 0; i < nv; i++) sum += C[k * nv + i] * point->v[i];    /* (5) */
-        Psi[k] = sum;
-    }
+    int m = zd_constraints(point->system);
+    const double *Phi_t = point->terms.Phi_t;
+    ZD_SIZED(multiply, point->system->nv, m, point->terms.C, point->v, Psi);    /* (5) */
+    for (int k = 0; Phi_t && k < m; k++) Psi[k] += Phi_t[k];
 }
 
 void zd_point_rate(const zd_point *point, const double *v, double *pdot)
 {
     int nq = point->system->nq, nv = point->system->nv;
     const double *A = point->terms.A;
-    if (!A) {
-        memcpy(pdot, v, (size_t)nq * sizeof *v);
-        return;
-    }
-    for (int i = 0; i < nq; i++) {
-        double sum = 0;
-        for (int j = 0; j < nv; j++) sum += A[i * nv + j] * v[j];           /* (1) */
-        pdot[i] = sum;
-    }
+    if (A) ZD_SIZED(multiply, nv, nq, A, v, pdot);      /* (1) */
+    else ZD_SIZED(zd_copy, nq, v, pdot);
+}
+
+/* x^T A x, A (n, n) */
+ZD_INLINE double quadratic(const int n, const double *A, const double *x)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += x[i] * zd_dot(n, A + i * n, x);
+    return sum;
 }
 
 double zd_point_kinetic(const zd_point *point)
 {
-    int nv = point->system->nv;
-    const double *M = point->terms.M, *v = point->v;
-    double sum = 0;
-    for (int i = 0; i < nv; i++) {
-        double row = 0;
-        for (int j = 0; j < nv; j++) row += M[i * nv + j] * v[j];
-        sum += v[i] * row;
-    }
-    return 0.5 * sum;
+    return 0.5 * ZD_SIZED(quadratic, point->system->nv, point->terms.M, point->v);
 }
 
 double zd_point_potential(const zd_point *point)
@@ -128,12 +122,7 @@ double zd_point_potential(const zd_point *point)
 
 double zd_max_abs(int n, const double *x)
 {
-    double largest = 0;
-    for (int i = 0; i < n; i++) {
-        double size = fabs(x[i]);
-        if (!(size <= largest)) largest = isnan(size) ? INFINITY : size;
-    }
-    return largest;
+    return ZD_SIZED(zd_largest, n, x);
 }
 
 int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms)

@@ -31,11 +31,6 @@ static int take_step(zd_run *run)
     return !status && run->formulation->settle ? run->formulation->settle(run->solver, run->point) : status;
 }
 
-static int is_saved(const zd_run *run)
-{
-    return run->step % run->settings.save_every == 0 || run->step == run->steps;
-}
-
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = now() + seconds;
@@ -46,7 +41,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
         if (record->rows == record->capacity) return ZD_FULL;
         if (run->step > first && run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
         status = take_step(run);
-        if (!status && is_saved(run)) status = zd_record_row(run, record);
+        if (!status && zd_run_is_due(run, run->settings.save_every)) status = zd_record_row(run, record);
     }
     if (status && !run->status) run->status = zd_explain(run, status);
     return status;

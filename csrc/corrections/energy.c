@@ -48,7 +48,7 @@ static int after_step(void *memory, zd_run *run)
 {
     energy *self = memory;
     double violation, kinetic, *scaled = self->scaled;
-    if (run->step % run->settings.energy.every && run->step != run->steps) return ZD_DONE;
+    if (!zd_run_is_due(run, run->settings.energy.every)) return ZD_DONE;
     int status = zd_run_energy_violation(run, &violation, &kinetic);
     double rounding = ROUNDING * (kinetic + fabs(zd_point_potential(run->point)) + fabs(run->energy0));
     if (!status) status = split(self, run, &kinetic);

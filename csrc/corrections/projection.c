@@ -1,12 +1,13 @@
 /* Back onto the constraint manifold after a step: positions by iteration, then velocities in one solve.
  *
- *     p <- p + A solve(0, -[Phi; 0])      (25a), (26a), (27a)     until max |Phi| <= tolerance
- *     v <- v + solve(0, -Psi)             (25b), (26b), (27b)
+ *     p <- p - A solve(0, [Phi; 0])       (25a), (26a), (27a)     until max |Phi| <= tolerance
+ *     v <- v - solve(0, Psi)              (25b), (26b), (27b)
  *
  * `solve` is the formulation's own, whose metric is the mass matrix: the correction is M-orthogonal to the manifold and leaves
  * the motion along it alone. For comparison there is the identity metric of the paper's reference [20], (13) with M = I.
  */
 #include "../core.h"
+#include "../linalg/small.h"
 #include "../newton.h"
 
 typedef struct projection {
@@ -44,10 +45,11 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+/* M and C are wanted at this point in any case, here or for the velocities: so they come with Phi in one evaluation. */
 static int position_residual(void *context, double *size)
 {
     zd_point *point = ((position_problem *)context)->run->point;
-    int status = zd_point_need(point, ZD_PHI);
+    int status = zd_point_need(point, ZD_PHI | ZD_M | ZD_C);
     if (!status) *size = zd_max_abs(point->system->mh, point->terms.Phi);
     return status;
 }
@@ -83,11 +85,11 @@ static int improve_position(void *context)
     const zd_system *system = point->system;
     int status = zd_point_need(point, ZD_PHI | ZD_A);
     if (status) return status;
-    for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? -point->terms.Phi[k] : 0;
+    for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
     status = solve(self, problem->run, self->rhs, self->x);
     if (status) return status;
     zd_point_rate(point, self->x, self->p);
-    for (int i = 0; i < system->nq; i++) self->p[i] += point->p[i];         /* (25a), (26a), (27a) */
+    ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
     zd_point_move(point, point->t, self->p, point->v);
     return ZD_DONE;
 }
@@ -112,10 +114,9 @@ static int correct_velocities(projection *self, zd_run *run)
     int status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
     if (status) return status;
     zd_point_velocity_violation(point, self->rhs);
-    for (int k = 0; k < zd_constraints(point->system); k++) self->rhs[k] = -self->rhs[k];
     status = solve(self, run, self->rhs, self->x);
     if (status) return status;
-    for (int i = 0; i < point->system->nv; i++) self->v[i] = point->v[i] + self->x[i];  /* (25b), (26b), (27b) */
+    ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
     zd_point_move_velocity(point, self->v);
     run->statistics.velocity_corrections++;
     return ZD_DONE;
@@ -125,7 +126,7 @@ static int after_step(void *memory, zd_run *run)
 {
     const zd_projection *settings = &run->settings.projection;
     int status = ZD_DONE;
-    if (run->step % settings->every && run->step != run->steps) return ZD_DONE;
+    if (!zd_run_is_due(run, settings->every)) return ZD_DONE;
     if (settings->positions && (run->violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
     if (status || !zd_constraints(&run->system)) return status;
     if (run->violates & ZD_C) return settings->velocities ? correct_velocities(memory, run) : ZD_DONE;

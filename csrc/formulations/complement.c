@@ -164,8 +164,8 @@ int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u
 static void invert(const zd_complement *self, double *x, double *u)
 {
     zd_complement_project(self, x, u);
-    zd_forward(self->r, self->r, self->gram, u);
-    zd_backward(self->r, self->r, self->gram, u);
+    zd_forward(self->r, self->gram, u, u);
+    zd_backward(self->r, self->gram, u, u);
 }
 
 void zd_complement_speeds(const zd_complement *self, const zd_point *point, double *u)

@@ -1,6 +1,8 @@
 /* The state (p, v) of the dependent formulations and its rate, (1) beside the acceleration. */
 #include "dependent.h"
 
+#include "../linalg/small.h"
+
 int zd_dependent_state_size(const zd_system *system)
 {
     return system->nq + system->nv;
@@ -16,9 +18,8 @@ int zd_dependent_enter(void *self, zd_point *point, double t, const double *y)
 int zd_dependent_leave(void *self, zd_point *point, double *y)
 {
     (void)self;
-    size_t nq = (size_t)point->system->nq, nv = (size_t)point->system->nv;
-    memcpy(y, point->p, nq * sizeof *y);
-    memcpy(y + nq, point->v, nv * sizeof *y);
+    ZD_SIZED(zd_copy, point->system->nq, point->p, y);
+    ZD_SIZED(zd_copy, point->system->nv, point->v, y + point->system->nq);
     return ZD_DONE;
 }
 
@@ -28,6 +29,6 @@ int zd_dependent_rate(void *self, zd_point *point, double *ydot)
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, ydot);                               /* (1) */
-    memcpy(ydot + point->system->nq, point->vdot, (size_t)point->system->nv * sizeof *ydot);
+    ZD_SIZED(zd_copy, point->system->nv, point->vdot, ydot + point->system->nq);
     return ZD_DONE;
 }

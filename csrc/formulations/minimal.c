@@ -46,8 +46,8 @@ void zd_minimal_solve(void *memory, const double *force, const double *rhs, doub
     zd_complement_particular(&self->complement, rhs, x);                /* gamma */
     unbalanced(self, force, x);
     zd_complement_project(&self->complement, self->b, self->du);
-    zd_forward(r, r, self->Mu, self->du);
-    zd_backward(r, r, self->Mu, self->du);                              /* (17): udot */
+    zd_forward(r, self->Mu, self->du, self->du);
+    zd_backward(r, self->Mu, self->du, self->du);                       /* (17): udot */
     zd_complement_add(&self->complement, self->du, x);                  /* (15) */
     if (!lambda) return;
     unbalanced(self, force, x);

@@ -1,14 +1,14 @@
 /* (13): the multipliers from the m x m matrix C M^-1 C^T, and then the accelerations.
  *
- *     M = L L^T                       Cholesky; L is lower triangular
- *     C L^-T = G Q                    rows of Q orthonormal, G lower triangular
- *     C M^-1 C^T = G G^T
+ *     M = L D L^T                     Cholesky without square roots; L has ones on its diagonal
+ *     C L^-T = G Q                    rows of Q orthogonal in the metric D^-1, G with ones on its diagonal
+ *     C M^-1 C^T = G E G^T            E = Q D^-1 Q^T, diagonal
  *
- * G is the Cholesky factor of C M^-1 C^T, found by orthogonalizing the rows of C L^-T instead of multiplying them: so the
+ * G and E are the same factors of C M^-1 C^T, found by orthogonalizing the rows of C L^-T instead of multiplying them: so the
  * condition of the constraints enters once and not squared, for the same work. With y = L^-1 (f - d) and z = G^-1 xi, (13)
  * reads
  *
- *     lambda = G^-T (Q y - z),    vdot = L^-T (y - Q^T (Q y - z)),
+ *     mu = E^-1 (Q D^-1 y - z),    lambda = G^-T mu,    vdot = L^-T D^-1 (y - Q^T mu),
  *
  * that is: what y has along the constraints is taken out and z put in its place. A correction, (27), has y = 0.
  */
@@ -20,9 +20,9 @@ enum { DEPENDENT_BELOW = 1024 };    /* units of rounding left of a row after tak
 
 typedef struct schur {
     int n, m;
-    double *L;      /* (n, n), reciprocals on the diagonal */
+    double *L;      /* (n, n), with D in reciprocals on the diagonal */
     double *Q;      /* (m, n) */
-    double *G;      /* (m, m), reciprocals on the diagonal */
+    double *G;      /* (m, m), with E in reciprocals on the diagonal */
     double *b;      /* (m,) */
 } schur;
 
@@ -40,33 +40,31 @@ static void *take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Takes out of row k what it has along the rows before it; gives what is left, squared. */
-ZD_INLINE double orthogonalize(const int n, int m, int k, double *Q, double *G)
+/* Takes out of q what it has along the first k rows of Q; how much that was goes to g, row k of G, or is added if it is done
+ * again. Gives what is left of q, squared. */
+ZD_INLINE double orthogonalize(const int n, int k, const int again, const schur *self, double *q, double *g)
 {
-    double *q = Q + k * n;
     for (int j = 0; j < k; j++) {
-        double along = zd_dot(n, Q + j * n, q);
-        G[k * m + j] += along;
-        zd_add_scaled(n, q, -along, Q + j * n);
+        const double *other = self->Q + j * n;
+        double along = self->G[j * self->m + j] * zd_metric_dot(n, self->L, other, q);
+        g[j] = again ? g[j] + along : along;
+        zd_add_scaled(n, q, -along, other);
     }
-    return zd_dot(n, q, q);
+    return zd_metric_dot(n, self->L, q, q);
 }
 
 /* Returns m, or the row that depends on those before it. */
-ZD_INLINE int factor_rows(const int n, int m, const double *C, const double *L, double *Q, double *G)
+ZD_INLINE int factor_rows(const int n, const schur *self, const double *C)
 {
+    int m = self->m;
     for (int k = 0; k < m; k++) {
-        double *q = Q + k * n;
-        for (int i = 0; i < n; i++) q[i] = C[k * n + i];
-        zd_forward(n, n, L, q);
-        for (int j = 0; j < k; j++) G[k * m + j] = 0;
-        double whole = zd_dot(n, q, q), rest = orthogonalize(n, m, k, Q, G);
-        if (rest < 0.01 * whole) rest = orthogonalize(n, m, k, Q, G);       /* twice is enough */
+        double *q = self->Q + k * n, *g = self->G + k * m;
+        zd_forward(n, self->L, C + k * n, q);
+        double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, k, 0, self, q, g);
+        if (rest < 0.01 * whole) rest = orthogonalize(n, k, 1, self, q, g);    /* twice is enough */
         double least = DEPENDENT_BELOW * 0x1p-53;
         if (!(rest > least * least * whole) || !(rest < INFINITY)) return k;
-        double inverse = 1 / sqrt(rest);
-        G[k * m + k] = inverse;
-        for (int i = 0; i < n; i++) q[i] *= inverse;
+        g[k] = 1 / rest;
     }
     return m;
 }
@@ -74,37 +72,32 @@ ZD_INLINE int factor_rows(const int n, int m, const double *C, const double *L, 
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
-    int n = self->n, m = self->m;
-    point->culprit = ZD_SIZED(zd_cholesky, n, point->terms.M, self->L);
-    if (point->culprit < n) return ZD_NOT_DEFINITE;
-    point->culprit = ZD_SIZED(factor_rows, n, m, point->terms.C, self->L, self->Q, self->G);
-    return point->culprit < m ? ZD_DEPENDENT : ZD_DONE;
+    point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
+    if (point->culprit < self->n) return ZD_NOT_DEFINITE;
+    point->culprit = ZD_SIZED(factor_rows, self->n, self, point->terms.C);
+    return point->culprit < self->m ? ZD_DEPENDENT : ZD_DONE;
 }
 
-ZD_INLINE int solve_sized(const int n, schur *self, const double *force, const double *rhs, double *x, double *lambda)
+/* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */
+ZD_INLINE void exchange(const int n, const schur *self, const double *force, double *b, double *x)
 {
-    int m = self->m;
-    double *b = self->b;
-    for (int i = 0; i < n; i++) x[i] = force ? force[i] : 0;
-    if (force) zd_forward(n, n, self->L, x);
-    for (int k = 0; k < m; k++) b[k] = rhs[k];
-    zd_forward(m, m, self->G, b);                               /* z */
-    for (int k = 0; k < m; k++) {
+    if (force) zd_forward(n, self->L, force, x);                            /* y */
+    else
+        for (int i = 0; i < n; i++) x[i] = 0;
+    for (int k = 0; k < self->m; k++) {
         const double *q = self->Q + k * n;
-        b[k] = (force ? zd_dot(n, q, x) : 0) - b[k];            /* Q y - z */
-        zd_add_scaled(n, x, -b[k], q);
+        b[k] = (force ? zd_metric_dot(n, self->L, q, x) : 0) - b[k];
+        zd_add_scaled(n, x, -self->G[k * self->m + k] * b[k], q);
     }
-    zd_backward(n, n, self->L, x);                              /* (13), (27) */
-    if (!lambda) return 0;
-    zd_backward(m, m, self->G, b);
-    for (int k = 0; k < m; k++) lambda[k] = b[k];
-    return 0;
+    zd_backward(n, self->L, x, x);                                          /* (13), (27) */
 }
 
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
 {
     schur *self = memory;
-    (void)ZD_SIZED(solve_sized, self->n, self, force, rhs, x, lambda);
+    ZD_SIZED(zd_forward, self->m, self->G, rhs, self->b);                   /* z */
+    ZD_SIZED(exchange, self->n, self, force, self->b, x);
+    if (lambda) ZD_SIZED(zd_backward, self->m, self->G, self->b, lambda);
 }
 
 const zd_formulation zd_schur = {

@@ -4,6 +4,8 @@
  */
 #include "runge_kutta.h"
 
+#include "../linalg/small.h"
+
 typedef struct runge_kutta {
     const zd_tableau *tableau;
     int size;
@@ -24,16 +26,11 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, int size)
 }
 
 /* to <- y + h sum_j weight_j k_j, over the first `stages` of them */
-static void combine(const runge_kutta *self, int stages, const double *weight, double h, const double *y, double *to)
+ZD_INLINE void combine(const int size, int stages, const double *weight, double h, const double *k, const double *y, double *to)
 {
-    int size = self->size;
-    if (to != y) memcpy(to, y, (size_t)size * sizeof *y);
-    for (int j = 0; j < stages; j++) {
-        if (weight[j] == 0) continue;
-        double w = h * weight[j];
-        const double *k = self->k + j * size;
-        for (int i = 0; i < size; i++) to[i] += w * k[i];
-    }
+    for (int i = 0; i < size; i++) to[i] = y[i];
+    for (int j = 0; j < stages; j++)
+        if (weight[j] != 0) zd_add_scaled(size, to, h * weight[j], k + j * size);
 }
 
 int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
@@ -42,10 +39,10 @@ int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, d
     runge_kutta *self = memory;
     const zd_tableau *T = self->tableau;
     for (int i = 0; i < T->stages; i++) {
-        combine(self, i, T->a + i * T->stages, h, y, self->stage);
+        ZD_SIZED(combine, self->size, i, T->a + i * T->stages, h, self->k, y, self->stage);
         int status = rate->evaluate(rate->context, t + T->c[i] * h, self->stage, self->k + i * self->size);
         if (status) return status;
     }
-    combine(self, T->stages, T->b, h, y, y);
+    ZD_SIZED(combine, self->size, T->stages, T->b, h, self->k, y, y);
     return ZD_DONE;
 }

@@ -1,9 +1,9 @@
 /* Gaussian elimination with partial pivoting. Row scaling is the caller's business: it knows the units. */
 #include "lu.h"
 
-#include <math.h>
+#include "small.h"
 
-static int largest_below(int n, const double *A, int column)
+ZD_INLINE int largest_below(const int n, const double *A, int column)
 {
     int best = column;
     for (int i = column + 1; i < n; i++)
@@ -11,36 +11,30 @@ static int largest_below(int n, const double *A, int column)
     return best;
 }
 
-static void swap(double *a, double *b)
+ZD_INLINE void swap(double *a, double *b)
 {
     double x = *a;
     *a = *b;
     *b = x;
 }
 
-static void swap_rows(int n, double *A, int a, int b)
+ZD_INLINE void swap_rows(const int n, double *A, int a, int b)
 {
     for (int j = 0; j < n; j++) swap(A + a * n + j, A + b * n + j);
 }
 
-static double largest_entry(int count, const double *A)
+ZD_INLINE int factor(const int n, double *A, int *order)
 {
-    double largest = 0;
-    for (int i = 0; i < count; i++) largest = fmax(largest, fabs(A[i]));
-    return largest;
-}
-
-int zd_lu_factor(int n, double *A, int *order)
-{
-    double negligible = n * 0x1p-52 * largest_entry(n * n, A);
+    double negligible = n * 0x1p-52 * zd_largest(n * n, A);
     for (int k = 0; k < n; k++) {
         int pivot_row = largest_below(n, A, k);
         order[k] = pivot_row;
         if (pivot_row != k) swap_rows(n, A, k, pivot_row);
         double pivot = A[k * n + k];
         if (!(fabs(pivot) > negligible)) return k;
+        double inverse = A[k * n + k] = 1 / pivot;
         for (int i = k + 1; i < n; i++) {
-            double factor = A[i * n + k] / pivot;
+            double factor = A[i * n + k] * inverse;
             A[i * n + k] = factor;
             for (int j = k + 1; j < n; j++) A[i * n + j] -= factor * A[k * n + j];
         }
@@ -48,22 +42,32 @@ int zd_lu_factor(int n, double *A, int *order)
     return n;
 }
 
-void zd_lu_solve(int n, const double *LU, const int *order, double *b)
+int zd_lu_factor(int n, double *A, int *order)
+{
+    return ZD_SIZED(factor, n, A, order);
+}
+
+ZD_INLINE void solve(const int n, const double *LU, const int *order, double *b)
 {
     for (int k = 0; k < n; k++) swap(b + k, b + order[k]);
-    for (int i = 1; i < n; i++)
-        for (int j = 0; j < i; j++) b[i] -= LU[i * n + j] * b[j];
+    zd_forward(n, LU, b, b);
     for (int i = n - 1; i >= 0; i--) {
-        for (int j = i + 1; j < n; j++) b[i] -= LU[i * n + j] * b[j];
-        b[i] /= LU[i * n + i];
+        double sum = b[i];
+        for (int j = i + 1; j < n; j++) sum -= LU[i * n + j] * b[j];
+        b[i] = sum * LU[i * n + i];
     }
+}
+
+void zd_lu_solve(int n, const double *LU, const int *order, double *b)
+{
+    ZD_SIZED(solve, n, LU, order, b);
 }
 
 void zd_lu_solve_transposed(int n, const double *LU, const int *order, double *b)
 {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < i; j++) b[i] -= LU[j * n + i] * b[j];
-        b[i] /= LU[i * n + i];
+        b[i] *= LU[i * n + i];
     }
     for (int i = n - 2; i >= 0; i--)
         for (int j = i + 1; j < n; j++) b[i] -= LU[j * n + i] * b[j];
@@ -92,7 +96,7 @@ static void bring_pivot(int rows, int columns, int end, double *A, int *order, i
 
 int zd_choose_columns(int rows, int columns, int leading, double *A, int *order)
 {
-    double negligible = columns * 0x1p-52 * largest_entry(rows * columns, A);
+    double negligible = columns * 0x1p-52 * zd_largest(rows * columns, A);
     for (int j = 0; j < columns; j++) order[j] = j;
     for (int k = 0; k < rows; k++) {
         bring_pivot(rows, columns, k < leading ? leading : columns, A, order, k);

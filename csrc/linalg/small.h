@@ -22,55 +22,91 @@
      : (n) == 6 ? kernel(6, __VA_ARGS__)          \
                 : kernel((n), __VA_ARGS__))
 
-ZD_INLINE double zd_dot(int n, const double *a, const double *b)
+ZD_INLINE void zd_copy(const int n, const double *from, double *to)
 {
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
+    for (int i = 0; i < n; i++) to[i] = from[i];
+}
+
+/* to <- a - b; to may be a or b */
+ZD_INLINE void zd_subtract(const int n, const double *a, const double *b, double *to)
+{
+    for (int i = 0; i < n; i++) to[i] = a[i] - b[i];
+}
+
+ZD_INLINE double zd_dot(const int n, const double *a, const double *b)
+{
+    double sum = n ? a[0] * b[0] : 0;       /* 0 + x would stay an addition, as 0 + -0 is 0 */
+    for (int i = 1; i < n; i++) sum += a[i] * b[i];
     return sum;
 }
 
-ZD_INLINE void zd_add_scaled(int n, double *y, double s, const double *x)
+ZD_INLINE void zd_add_scaled(const int n, double *y, double s, const double *x)
 {
     for (int i = 0; i < n; i++) y[i] += s * x[i];
 }
 
-/* Cholesky factor L of the symmetric M = L L^T; the diagonal of L (n, n) holds reciprocals. M may be L. Returns n, or the
- * index at which M is found not positive definite to working precision. */
+/* The largest |x_i|; infinite if any is not a number. Without branches, which would be mispredicted. */
+ZD_INLINE double zd_largest(const int n, const double *x)
+{
+    double largest = 0;
+    int broken = 0;
+    for (int i = 0; i < n; i++) {
+        double size = fabs(x[i]);
+        largest = size > largest ? size : largest;
+        broken |= isnan(size);
+    }
+    return broken ? INFINITY : largest;
+}
+
+/* Cholesky's factors without square roots, M = L D L^T, in one matrix (n, n): L below its diagonal of ones, and D, in reciprocals,
+ * in place of these. A root and a division wait for each other at every pivot; here there is one division. M may be L. Returns n,
+ * or the index at which M is found not positive definite to working precision. */
 ZD_INLINE int zd_cholesky(const int n, const double *M, double *L)
 {
-    for (int j = 0; j < n; j++) {
-        double diagonal = M[j * n + j], pivot = diagonal;
-        for (int k = 0; k < j; k++) pivot -= L[j * n + k] * L[j * n + k];
-        if (!(pivot > n * 0x1p-52 * diagonal) || !(pivot < INFINITY)) return j;
-        double inverse = 1 / sqrt(pivot);
-        L[j * n + j] = inverse;
-        for (int i = j + 1; i < n; i++) {
+    for (int i = 0; i < n; i++) {
+        double diagonal = M[i * n + i], pivot = diagonal;
+        for (int j = 0; j < i; j++) {
             double sum = M[i * n + j];
             for (int k = 0; k < j; k++) sum -= L[i * n + k] * L[j * n + k];
-            L[i * n + j] = sum * inverse;
+            L[i * n + j] = sum;             /* of L D, for now */
         }
+        for (int j = 0; j < i; j++) {
+            double scaled = L[i * n + j];
+            L[i * n + j] *= L[j * n + j];
+            pivot -= L[i * n + j] * scaled;
+        }
+        if (!(pivot > n * 0x1p-52 * diagonal) || !(pivot < INFINITY)) return i;
+        L[i * n + i] = 1 / pivot;
     }
     return n;
 }
 
-/* b <- L^-1 b, L with reciprocals on its diagonal and row length `stride` */
-ZD_INLINE void zd_forward(const int n, const int stride, const double *L, double *b)
+/* x <- L^-1 b; x may be b */
+ZD_INLINE void zd_forward(const int n, const double *L, const double *b, double *x)
 {
     for (int i = 0; i < n; i++) {
         double sum = b[i];
-        for (int k = 0; k < i; k++) sum -= L[i * stride + k] * b[k];
-        b[i] = sum * L[i * stride + i];
+        for (int k = 0; k < i; k++) sum -= L[i * n + k] * x[k];
+        x[i] = sum;
     }
 }
 
-/* b <- L^-T b */
-ZD_INLINE void zd_backward(const int n, const int stride, const double *L, double *b)
+/* x <- L^-T D^-1 b; x may be b */
+ZD_INLINE void zd_backward(const int n, const double *L, const double *b, double *x)
 {
     for (int i = n - 1; i >= 0; i--) {
-        double sum = b[i];
-        for (int k = i + 1; k < n; k++) sum -= L[k * stride + i] * b[k];
-        b[i] = sum * L[i * stride + i];
+        double sum = L[i * n + i] * b[i];
+        for (int k = i + 1; k < n; k++) sum -= L[k * n + i] * x[k];
+        x[i] = sum;
     }
+}
+
+/* a^T D^-1 b */
+ZD_INLINE double zd_metric_dot(const int n, const double *L, const double *a, const double *b)
+{
+    double sum = n ? L[0] * a[0] * b[0] : 0;
+    for (int i = 1; i < n; i++) sum += L[i * n + i] * a[i] * b[i];
+    return sum;
 }
 
 #endif

@@ -23,6 +23,17 @@ typedef struct sines {          /* kept while p stays */
 
 _Static_assert(sizeof(sines) == ZD_FOUR_BAR_SCRATCH * sizeof(double), "the header tells other systems the size of the scratch");
 
+/* By value: what is written through a pointer might be p, and sin and cos of an angle would not be computed in one go. */
+static sines sines_of(const double *p)
+{
+    sines a;
+    for (int i = 0; i < N; i++) {
+        a.s[i] = sin(p[i]);
+        a.c[i] = cos(p[i]);
+    }
+    return a;
+}
+
 static void write_mass(const constants *k, const sines *a, double *M)
 {
     const double *s = a->s, *c = a->c;
@@ -53,35 +64,31 @@ static void write_closure(const constants *k, const sines *a, double *Phi)
 
 static void write_closure_bias(const constants *k, const sines *a, const double *v, double *xi)
 {
-    xi[0] = xi[1] = 0;
-    for (int i = 0; i < N; i++) {
-        xi[0] += k->l[i] * v[i] * v[i] * a->c[i];
-        xi[1] += k->l[i] * v[i] * v[i] * a->s[i];
-    }
+    double pull[N];     /* l_i v_i^2, m/s^2 */
+    for (int i = 0; i < N; i++) pull[i] = k->l[i] * v[i] * v[i];
+    xi[0] = zd_dot(N, pull, a->c);
+    xi[1] = zd_dot(N, pull, a->s);
 }
 
 int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     (void)t;
     const constants *k = data;
-    sines *a = (sines *)out->scratch;
-    if (want & ZD_MOVED)
-        for (int i = 0; i < N; i++) {
-            a->s[i] = sin(p[i]);
-            a->c[i] = cos(p[i]);
-        }
-    if (want & ZD_M) write_mass(k, a, out->M);
-    if (want & ZD_BIAS) write_bias(k, a, v, out->d);
+    sines *kept = (sines *)out->scratch;
+    if (want & ZD_MOVED) *kept = sines_of(p);
+    const sines a = *kept;
+    if (want & ZD_M) write_mass(k, &a, out->M);
+    if (want & ZD_BIAS) write_bias(k, &a, v, out->d);
     if (want & ZD_FORCE)
-        for (int i = 0; i < N; i++) out->f[i] = -k->weight[i] * a->c[i];
-    if (want & ZD_PHI) write_closure(k, a, out->Phi);
+        for (int i = 0; i < N; i++) out->f[i] = -k->weight[i] * a.c[i];
+    if (want & ZD_PHI) write_closure(k, &a, out->Phi);
     if (want & ZD_C)
         for (int i = 0; i < N; i++) {
-            out->C[i] = -k->l[i] * a->s[i];
-            out->C[N + i] = k->l[i] * a->c[i];
+            out->C[i] = -k->l[i] * a.s[i];
+            out->C[N + i] = k->l[i] * a.c[i];
         }
-    if (want & ZD_XI) write_closure_bias(k, a, v, out->xi);
-    if (want & ZD_POTENTIAL) *out->V = zd_dot(N, k->weight, a->s);
+    if (want & ZD_XI) write_closure_bias(k, &a, v, out->xi);
+    if (want & ZD_POTENTIAL) *out->V = zd_dot(N, k->weight, a.s);
     return ZD_DONE;
 }
 
