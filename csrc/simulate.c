@@ -44,5 +44,5 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
         if (!status && zd_run_is_due(run, run->settings.save_every)) status = zd_record_row(run, record);
     }
     if (status && !run->status) run->status = zd_explain(run, status);
-    return status;
+    return run->status;
 }

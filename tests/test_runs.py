@@ -44,6 +44,17 @@ def test_many_slices_are_many(bar, monkeypatch):
     assert parts[-1] == 1
 
 
+def test_a_slice_takes_steps_however_short_it_is(bar, monkeypatch):
+    monkeypatch.setattr(simulation, "SLICE", -1.0)
+    slices = []
+
+    def count(part):
+        slices.append(part)
+        assert len(slices) <= 100
+
+    motion(bar, 1.0, 100, progress=count)
+
+
 def test_threads_change_no_bit(system):
     """One system, shared by runs in several threads at once."""
     def run(_):
