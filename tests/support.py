@@ -147,9 +147,17 @@ def motion(system, t_end, steps, **options):
     return zd.simulate(system, t_end, step=t_end / steps, **options)
 
 
-def observed_order(system, steps=40, t_end=0.5, **options):
-    """From three runs, each with half the step of the one before; None where the differences are round-off."""
-    runs = [motion(system, t_end, steps * 2**k, save_every=2**k, **options) for k in range(3)]
-    states = [np.hstack([run.p, run.v]) for run in runs]
-    coarse, fine = (np.abs(a - b).max() for a, b in pairwise(states))
-    return None if fine < tol.MEASURABLE * (1 + np.abs(states[0]).max()) else np.log2(coarse / fine)
+def observed_order(system, t_end=0.5, coarsest=10, refinements=8, **options):
+    """From runs with ever half the step: the last that is not round-off. None where there is none."""
+    order, states, before = None, None, None
+    for k in range(refinements):
+        run = motion(system, t_end, coarsest * 2**k, save_every=2**k, **options)
+        now = np.hstack([run.p, run.v])
+        if states is not None:
+            difference = np.abs(now - states).max()
+            if difference < tol.MEASURABLE * (1 + np.abs(now).max()):
+                break
+            order = None if before is None else np.log2(before / difference)
+            before = difference
+        states = now
+    return order

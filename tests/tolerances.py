@@ -12,7 +12,8 @@ IMPLICIT = 64 * EPS         # defect of an implicit step among its terms: the co
 
 # ---- truncation ----
 DIFFERENCE = 1e-9           # five-point differences at 1e-3: 1e-12 truncation, 1e-13 round-off, and derivatives of size 1e2
-ORDER = 0.15                # observed against declared order: what the next term of the error contributes at steps of 1/80 s
+ORDER = 0.2                 # observed against declared order, up to four: what the next term of the error contributes
+HIGH_ORDER = 0.9            # above: two or three refinements lie between too coarse a step and round-off
 MEASURABLE = 1e-11          # below this the difference of two runs is round-off, and has no order
 CONVERGED = 1e-8            # motions with step 1e-3 over half a second: the fourth order leaves 1e-10 where rates are near 10/s
 REFERENCE = 1e-8            # against DOP853 at rtol 1e-12, for a run at step 1e-3

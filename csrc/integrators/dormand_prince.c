@@ -1,0 +1,23 @@
+/* The method of order five by J. R. Dormand and P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational
+ * and Applied Mathematics 6 (1980) 19-26.
+ */
+#include "runge_kutta.h"
+
+static const double a[] = {
+    0,              0,               0,              0,            0,               0,
+    1.0 / 5,        0,               0,              0,            0,               0,
+    3.0 / 40,       9.0 / 40,        0,              0,            0,               0,
+    44.0 / 45,      -56.0 / 15,      32.0 / 9,       0,            0,               0,
+    19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729, 0,               0,
+    9017.0 / 3168,  -355.0 / 33,     46732.0 / 5247, 49.0 / 176,   -5103.0 / 18656, 0,
+};
+static const double b[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+static const double c[] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1};
+
+static const zd_tableau tableau = {6, a, b, c};
+
+const zd_integrator zd_dormand_prince = {
+    .card = {"dormand_prince", "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
+             "Dormand and Prince, 1980", 5},
+    ZD_RUNGE_KUTTA(tableau),
+};
