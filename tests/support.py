@@ -1,7 +1,6 @@
 """What several tests need: the systems there are, consistent states of theirs, and the paper's equations in plain NumPy."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
