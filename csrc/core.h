@@ -81,6 +81,8 @@ typedef struct zd_integrator {
     const void *table;      /* coefficients, for methods that share a stepper */
     void *(*take)(zd_arena *arena, const void *table, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
+    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
 } zd_integrator;
 
 /* ---- a correction: something done to the right side of (6), or to the state after a step ---- */
@@ -108,6 +110,25 @@ typedef struct zd_active {
     int extra_size;
 } zd_active;
 
+typedef struct zd_control {
+    double h;               /* the next step */
+    double *scale;          /* (size,): what the error is measured in */
+    double *y0;             /* (size,): the state before a step */
+    double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
+} zd_control;
+
+typedef struct zd_place {   /* where a run was */
+    double t;
+    double *p, *v;          /* (nq,), (nv,) */
+    double *extra;          /* what the state has besides them */
+} zd_place;
+
+typedef struct zd_output {
+    zd_place before, after; /* the step */
+    long next;              /* of settings.t_eval */
+    int between;            /* whether the run is on its way there: such points are always corrected */
+} zd_output;
+
 struct zd_run {
     zd_settings settings;
     zd_system system;
@@ -124,13 +145,17 @@ struct zd_run {
     zd_point *point;
     double *y;              /* the integrated state: the formulation's, what corrections add, the energy input (28) */
     const double *state;    /* that of the point: y, or a stage of the integrator */
+    int own_size;           /* of the formulation's part of it */
     int extras;             /* numbers in the state that corrections add */
     double *input;          /* the last of y where the system has energy input, else 0 */
     double *Psi;            /* (m,) */
     double *factor;         /* (nv, nv): of M at the start, to see whether it is positive definite */
     double no_input;
     double energy0;         /* E0 of (28) */
-    long step, steps;       /* done, to do */
+    double t;               /* where the run has got to */
+    long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_control control;     /* where steps are chosen */
+    zd_output output;       /* where something between steps is to be saved */
     int iterations;         /* most position iterations of a step since the last saved row */
     int status;
     char message[ZD_MESSAGE];
@@ -139,7 +164,7 @@ struct zd_run {
 /* Whether this step is one of every so many, or the last. One of every 1 is not worth a division, the slowest of instructions. */
 static inline int zd_run_is_due(const zd_run *run, long every)
 {
-    return every == 1 || run->step % every == 0 || run->step == run->steps;
+    return every == 1 || run->step % every == 0 || run->t == run->settings.t1 || run->output.between;
 }
 
 /* dynamics.c: what integrators, corrections and recorder ask of a run */
@@ -154,7 +179,21 @@ int zd_run_correct(zd_run *run);            /* all corrections that are on, in t
 /* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
 zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
 int zd_run_place(zd_run *run, double t, const double *p, const double *v);
+int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);
+
+/* simulate.c: the two halves of a step */
+int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
+int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
+
+/* control.c: a step whose size the error decides */
+int zd_control_start(zd_run *run);
+int zd_control_step(zd_run *run);
+
+/* output.c: values between steps */
+void zd_output_before(zd_run *run);
+int zd_output_after(zd_run *run, zd_record *record);
+int zd_output_is_complete(const zd_run *run);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

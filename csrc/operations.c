@@ -1,4 +1,4 @@
-/* Acceleration and projection outside a run, for those who bring their own integrator: a run that takes no step. */
+/* What a run does, outside it: acceleration, projection, a single step. */
 #include <stdio.h>
 
 #include "core.h"
@@ -65,4 +65,17 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
         status = project_stage(&holding, &stage, t, p, v, NULL, message, message_size);
     }
     return status;
+}
+
+int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
+{
+    zd_run *run = zd_run_lay_out(system, settings);
+    if (!run) return no_memory(message, message_size);
+    int status = zd_run_place(run, settings->t0, p, v);
+    if (!status) status = zd_run_start_energy(run);
+    if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
+    if (!status) status = zd_run_land(run, settings->t1);
+    memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
+    memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
+    return finish(run, status, message, message_size);
 }

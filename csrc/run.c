@@ -24,6 +24,26 @@ static int enable_corrections(zd_run *run, zd_arena *arena, int size)
     return size;
 }
 
+static zd_control take_control(zd_arena *arena, size_t size)
+{
+    return (zd_control){
+        .scale = zd_take_doubles(arena, size),
+        .y0 = zd_take_doubles(arena, size),
+        .y1 = zd_take_doubles(arena, size),
+        .f0 = zd_take_doubles(arena, size),
+        .f1 = zd_take_doubles(arena, size),
+    };
+}
+
+static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extras)
+{
+    return (zd_place){
+        .p = zd_take_doubles(arena, (size_t)system->nq),
+        .v = zd_take_doubles(arena, (size_t)system->nv),
+        .extra = zd_take_doubles(arena, extras),
+    };
+}
+
 /* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
@@ -37,8 +57,9 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
         .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
-    int own_size = run.formulation->state_size(system), size = enable_corrections(&run, arena, own_size);
-    run.extras = size - own_size;
+    run.own_size = run.formulation->state_size(system);
+    int size = enable_corrections(&run, arena, run.own_size);
+    run.extras = size - run.own_size;
     if (zd_has_input(system)) {
         run.acceleration_needs |= ZD_POWER | ZD_PHI_T;
         size++;
@@ -51,6 +72,11 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
+    if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
+    if (settings->t_eval) {
+        run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
+        run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
+    }
     if (here) {
         *here = run;
         here->input = zd_has_input(system) ? here->y + size - 1 : &here->no_input;
@@ -76,6 +102,7 @@ void zd_run_free(zd_run *run)
 
 int zd_run_place(zd_run *run, double t, const double *p, const double *v)
 {
+    run->t = t;
     zd_point_move(run->point, t, p, v);
     return run->formulation->leave(run->solver, run->point, run->y);
 }
@@ -134,21 +161,23 @@ static int check_mass(zd_run *run)
     return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
 }
 
-static int start_energy(zd_run *run)
+int zd_run_start_energy(zd_run *run)
 {
     double kinetic;
     if (!zd_has_energy(&run->system)) return ZD_DONE;
     return zd_run_energy_violation(run, &run->energy0, &kinetic);    /* E0 of (28), as it stands at 0 */
 }
 
-static int start(zd_run *run)
+static int start(zd_run *run, const double *p0, const double *v0)
 {
     int status = check_constraints(run);
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
-    if (!status) status = start_energy(run);
-    return status;
+    if (!status) status = zd_run_start_energy(run);
+    if (status || run->settings.step > 0) return status;
+    status = zd_control_start(run);
+    return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)
@@ -167,7 +196,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
     if (!run) return NULL;
     int why = zd_run_place(run, settings->t0, p0, v0);
-    if (!why) why = start(run);
+    if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;
 }
 
@@ -188,7 +217,8 @@ double zd_run_time(const zd_run *run, long step)
 
 double zd_run_progress(const zd_run *run)
 {
-    return run->steps ? (double)run->step / (double)run->steps : 1;
+    double span = run->settings.t1 - run->settings.t0;
+    return span > 0 ? (run->t - run->settings.t0) / span : 1;
 }
 
 const char *zd_run_message(const zd_run *run) { return run->message; }

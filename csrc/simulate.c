@@ -12,23 +12,51 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int take_step(zd_run *run)
+int zd_run_integrate(zd_run *run, double h)
 {
-    double t = zd_run_time(run, run->step), t1 = zd_run_time(run, run->step + 1);
-    double h = run->step + 1 == run->steps ? t1 - t : run->settings.step;
-    int status = run->integrator->step(run->stepper, &run->rate, t, h, run->y, &run->statistics);
+    int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
     if (status) return status;
-    run->step++;
-    run->statistics.steps++;
-    if (!isfinite(zd_max_abs(run->rate.size, run->y))) return ZD_NOT_FINITE;
+    return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
+}
 
+int zd_run_land(zd_run *run, double t1)
+{
+    const zd_formulation *formulation = run->formulation;
+    run->t = t1;
     run->state = run->y;
     if (run->extras) run->point->known &= ~ZD_ACCELERATED;
-    status = run->formulation->enter(run->solver, run->point, t1, run->y);
+    int status = formulation->enter(run->solver, run->point, t1, run->y);
     if (!status) status = zd_run_correct(run);
-    if (!status) status = run->formulation->leave(run->solver, run->point, run->y);
+    if (!status) status = formulation->leave(run->solver, run->point, run->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
-    return !status && run->formulation->settle ? run->formulation->settle(run->solver, run->point) : status;
+    return !status && formulation->settle ? formulation->settle(run->solver, run->point) : status;
+}
+
+static int take_fixed_step(zd_run *run)
+{
+    double t1 = zd_run_time(run, run->step);
+    int status = zd_run_integrate(run, run->step == run->steps ? t1 - run->t : run->settings.step);
+    return status ? status : zd_run_land(run, t1);
+}
+
+static int take_step(zd_run *run)
+{
+    if (run->settings.t_eval) zd_output_before(run);
+    run->step++;
+    int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
+    if (!status) run->statistics.steps++;
+    return status;
+}
+
+static int save(zd_run *run, zd_record *record)
+{
+    if (run->settings.t_eval) return zd_output_after(run, record);
+    return zd_run_is_due(run, run->settings.save_every) ? zd_record_row(run, record) : ZD_DONE;
+}
+
+static int is_over(const zd_run *run)
+{
+    return run->t == run->settings.t1 || (run->settings.t_eval && zd_output_is_complete(run));
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
@@ -36,12 +64,12 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
     double deadline = now() + seconds;
     long first = run->step;     /* no slice is so short that nothing happens in it */
     int status = run->status;
-    if (!status && run->step == 0 && record->rows == 0) status = zd_record_row(run, record);
-    while (!status && run->step < run->steps) {
-        if (record->rows == record->capacity) return ZD_FULL;
+    if (!status && run->step == 0 && record->rows == 0) status = save(run, record);
+    while (!status && !is_over(run)) {
+        if (!run->settings.t_eval && record->rows == record->capacity) return ZD_FULL;
         if (run->step > first && run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
         status = take_step(run);
-        if (!status && zd_run_is_due(run, run->settings.save_every)) status = zd_record_row(run, record);
+        if (!status) status = save(run, record);
     }
     if (status && !run->status) run->status = zd_explain(run, status);
     return run->status;

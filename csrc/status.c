@@ -30,6 +30,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NO_STEP:
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
         break;
+    case ZD_TINY_STEP:
+        snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
+                 run->settings.atol);
+        break;
     case ZD_NO_EMBEDDING:
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
                  point->defect);
@@ -54,6 +58,8 @@ int zd_explain(zd_run *run, int status)
     if (run->message[0]) return status;
     status = cause_of(run, status);
     describe(run, status, what, sizeof what);
-    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld of %ld): %s", run->point->t, run->step, run->steps, what);
+    char of_steps[32] = "";
+    if (run->steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->steps);
+    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", run->point->t, run->step, of_steps, what);
     return status;
 }

@@ -28,7 +28,8 @@ enum zd_status {
     ZD_CALLBACK = -10,        /* a system's own evaluation failed */
     ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
     ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
-    ZD_NOT_SYMMETRIC = -13    /* M is not */
+    ZD_NOT_SYMMETRIC = -13,   /* M is not */
+    ZD_TINY_STEP = -14        /* the error asked for needs steps that time does not resolve */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -92,6 +93,7 @@ typedef struct zd_card {
     const char *summary;     /* one sentence */
     const char *equations;   /* "(8), (25)" */
     int order;               /* of an integrator; else 0 */
+    int error_order;         /* of its error estimate; 0: there is none, and steps are of fixed size */
 } zd_card;
 
 enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
@@ -159,8 +161,13 @@ typedef struct zd_energy {          /* (28), (29) */
 
 typedef struct zd_settings {
     int formulation, integrator;    /* rows of the tables */
-    double t0, t1, step;            /* s; the last step is shortened to end at t1 */
+    double t0, t1;                  /* s */
+    double step;                    /* s; the last step is shortened to end at t1. 0: chosen by the error estimate */
+    double rtol, atol;              /* of the state, per step, where steps are chosen */
+    double first_step, max_step;    /* s; 0: no bound, nothing given */
     long save_every;
+    const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
+    long t_evals;
     zd_projection projection;
     zd_baumgarte baumgarte;
     zd_energy energy;
@@ -170,6 +177,8 @@ typedef struct zd_settings {
 
 typedef struct zd_statistics {
     long steps;
+    long rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
+    long output_steps;          /* shorter ones, to times between steps that are to be saved */
     long evaluations;           /* calls of the system */
     long factorizations;        /* of leading matrices */
     long solves;                /* with them */
@@ -215,5 +224,7 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
  * nonzero (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size);
+/* One step, corrected, from (p, v) at settings->t0 to settings->t1: what a run does between its own steps. In place. */
+int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size);
 
 #endif

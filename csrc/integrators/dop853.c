@@ -36,9 +36,18 @@ static const double c[STAGES] = {
     0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571, 1.0,
 };
 
-static const zd_tableau tableau = {STAGES, a, b, c};
+static const double e5[STAGES + 1] = {
+    0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864, -0.35032884874997366,
+    0.3341791187130175, 0.08192320648511571, -0.022355307863886294, 0,
+};
+static const double e3[STAGES + 1] = {
+    -0.18980075407240762, 0, 0, 0, 0, 4.450312892752409, 1.8915178993145003, -5.801203960010585, -0.4226823213237919,
+    -0.1521609496625161, 0.20136540080403034, 0.02265179219836082, 0,
+};
+
+static const zd_tableau tableau = {STAGES, a, b, c, e5, e3};
 
 const zd_integrator zd_dop853 = {
-    .card = {"dop853", "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.", "Hairer et al., section II.5", 8},
+    .card = {"dop853", "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.", "Hairer et al., section II.5", 8, 7},
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -14,10 +14,12 @@ static const double a[] = {
 static const double b[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
 static const double c[] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1};
 
-static const zd_tableau tableau = {6, a, b, c};
+static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0 / 339200, -22.0 / 525, 1.0 / 40};
+
+static const zd_tableau tableau = {6, a, b, c, e, NULL};
 
 const zd_integrator zd_dormand_prince = {
     .card = {"dormand_prince", "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
-             "Dormand and Prince, 1980", 5},
+             "Dormand and Prince, 1980", 5, 4},
     ZD_RUNGE_KUTTA(tableau),
 };

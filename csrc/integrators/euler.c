@@ -7,7 +7,7 @@ static const double a[] = {
 static const double b[] = {1};
 static const double c[] = {0};
 
-static const zd_tableau tableau = {1, a, b, c};
+static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
 
 const zd_integrator zd_euler = {
     .card = {"euler", "Euler's explicit method: for comparison.", "Euler, 1768", 1},

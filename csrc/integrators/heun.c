@@ -8,7 +8,7 @@ static const double a[] = {
 static const double b[] = {0.5, 0.5};
 static const double c[] = {0, 1};
 
-static const zd_tableau tableau = {2, a, b, c};
+static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_heun = {
     .card = {"heun", "Heun's method: the explicit trapezoidal rule.", "Heun, 1900", 2},

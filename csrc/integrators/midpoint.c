@@ -8,7 +8,7 @@ static const double a[] = {
 static const double b[] = {0, 1};
 static const double c[] = {0, 0.5};
 
-static const zd_tableau tableau = {2, a, b, c};
+static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_midpoint = {
     .card = {"midpoint", "The explicit midpoint rule.", "Runge, 1895", 2},

@@ -10,7 +10,7 @@ static const double a[] = {
 static const double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 static const double c[] = {0, 0.5, 0.5, 1};
 
-static const zd_tableau tableau = {4, a, b, c};
+static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
 
 const zd_integrator zd_rk4 = {
     .card = {"rk4", "The classical explicit Runge-Kutta method.", "section 4", 4},

@@ -9,7 +9,7 @@
 typedef struct runge_kutta {
     const zd_tableau *tableau;
     int size;
-    double *k;      /* (stages, size) */
+    double *k;      /* (stages + 1, size) */
     double *stage;  /* (size,) */
 } runge_kutta;
 
@@ -19,7 +19,7 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, int size)
     runge_kutta self = {
         .tableau = tableau,
         .size = size,
-        .k = zd_take_doubles(arena, (size_t)tableau->stages * (size_t)size),
+        .k = zd_take_doubles(arena, ((size_t)tableau->stages + 1) * (size_t)size),
         .stage = zd_take_doubles(arena, (size_t)size),
     };
     return zd_take_filled(arena, &self, sizeof self);
@@ -44,5 +44,29 @@ int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, d
         if (status) return status;
     }
     ZD_SIZED(combine, self->size, T->stages, T->b, h, self->k, y, y);
+    return ZD_DONE;
+}
+
+/* The sum of squares of sum_j weight_j k_j in units of scale */
+static double squares(const runge_kutta *self, const double *weight, const double *scale)
+{
+    double sum = 0;
+    for (int i = 0; i < self->size; i++) {
+        double estimate = 0;
+        for (int j = 0; j <= self->tableau->stages; j++) estimate += weight[j] * self->k[j * self->size + i];
+        sum += (estimate / scale[i]) * (estimate / scale[i]);
+    }
+    return sum;
+}
+
+int zd_runge_kutta_error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm)
+{
+    runge_kutta *self = memory;
+    const zd_tableau *T = self->tableau;
+    double *last = self->k + T->stages * self->size;
+    int status = T->e[T->stages] != 0 ? rate->evaluate(rate->context, t1, y, last) : ZD_DONE;
+    if (status) return status;
+    double sum = squares(self, T->e, scale), blend = T->e3 ? sum + 0.01 * squares(self, T->e3, scale) : sum;
+    *norm = sum > 0 ? fabs(h) * sum / sqrt(blend * self->size) : sum;       /* with e alone: the root mean square */
     return ZD_DONE;
 }

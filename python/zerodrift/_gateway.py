@@ -27,11 +27,12 @@ ERRORS = {
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
     lib.ZD_NO_STEP: errors.StepFailed,
     lib.ZD_NO_EMBEDDING: errors.StepFailed,
+    lib.ZD_TINY_STEP: errors.StepFailed,
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_NO_MEMORY: MemoryError,
 }
-DONE, PAUSED, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_CALLBACK
+DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
 # The terms a system may have: bit, shape in terms of its sizes.
@@ -50,6 +51,7 @@ class Card(NamedTuple):
     summary: str
     equations: str
     order: int
+    error_order: int
 
 
 class Variable(NamedTuple):
@@ -103,7 +105,7 @@ def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
 def cards(table: str) -> tuple[Card, ...]:
     """The rows of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
-    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order) for row in rows)
+    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order, row.error_order) for row in rows)
 
 
 def error_of(status: int, message: str) -> Exception:
@@ -292,8 +294,12 @@ class PythonCore(CoreSystem):
 
 
 def settings(options: dict[str, Any]) -> Any:
-    """A `zd_settings` from nested dictionaries."""
-    return ffi.new("zd_settings *", options)
+    """A `zd_settings` from nested dictionaries; an array `t_eval` has to outlive it."""
+    t_eval = options.pop("t_eval", None)
+    made = ffi.new("zd_settings *", options)
+    if t_eval is not None:
+        made.t_eval, made.t_evals = doubles(t_eval, t_eval.size), t_eval.size
+    return made
 
 
 def count_steps(t0: float, t1: float, step: float) -> int:
@@ -305,35 +311,40 @@ STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
 
 
 class Record:
-    """The arrays a run writes into: one block of memory, one row per saved instant."""
+    """The arrays a run writes into, one row per saved instant: a block of memory, and further ones as long as they are needed."""
 
     def __init__(self, core: CoreSystem, capacity: int) -> None:
         energies = {"potential": (), "input": (), "energy_violation": ()} if core.has_energy else {}
-        shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
-                  "velocity_violation": (core.m,), "kinetic": (), **energies}
-        widths = [math.prod(shape) for shape in shapes.values()]
+        self._shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
+                        "velocity_violation": (core.m,), "kinetic": (), **energies}
+        self._blocks: list[tuple[Any, Any, dict[str, np.ndarray]]] = []
+        self._add(capacity)
+
+    def _add(self, capacity: int) -> None:
+        widths = [math.prod(shape) for shape in self._shapes.values()]
         try:
-            block = np.empty(capacity * sum(widths))
-            self._iterations = np.empty(capacity, dtype=np.intc)
+            block, iterations = np.empty(capacity * sum(widths)), np.empty(capacity, dtype=np.intc)
         except (MemoryError, ValueError):
             size = capacity * (sum(widths) + 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
         self.c = ffi.new("zd_record *")
         self.c.capacity = capacity
-        memory, self._arrays, start = doubles(block, block.size, writable=True), {}, 0
-        for (name, shape), width in zip(shapes.items(), widths, strict=True):
+        memory, arrays, start = doubles(block, block.size, writable=True), {"iterations": iterations}, 0
+        for (name, shape), width in zip(self._shapes.items(), widths, strict=True):
             setattr(self.c, name, memory + start)
-            self._arrays[name] = block[start:start + capacity * width].reshape(capacity, *shape)
+            arrays[name] = block[start:start + capacity * width].reshape(capacity, *shape)
             start += capacity * width
-        self.c.iterations = self._ints = ffi.from_buffer("int[]", self._iterations, require_writable=True)
-        self._memory = memory
+        self.c.iterations = counts = ffi.from_buffer("int[]", iterations, require_writable=True)
+        self._blocks.append((self.c, (memory, counts), arrays))
+
+    def grow(self) -> None:
+        """Go on in a block as large as all before it."""
+        self._add(sum(c.capacity for c, _, _ in self._blocks))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """The rows written so far."""
-        rows = self.c.rows
-        arrays = {name: array[:rows] for name, array in self._arrays.items()}
-        arrays["iterations"] = self._iterations[:rows]
-        return arrays
+        rows = [{name: array[: c.rows] for name, array in arrays.items()} for c, _, arrays in self._blocks]
+        return rows[0] if len(rows) == 1 else {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
 
 
 class Run:
@@ -370,6 +381,15 @@ class Run:
         """Counts of what the run did."""
         c = lib.zd_run_statistics(self._run)
         return {name: getattr(c, name) for name in STATISTICS}
+
+
+def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:
+    """`zd_step`: one corrected step, p and v in place."""
+    core, message = core.for_run(), ffi.new("char[]", MESSAGE_SIZE)
+    status = lib.zd_step(core.c, options, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True), message,
+                         MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
 
 
 def acceleration(core: CoreSystem, formulation: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -189,3 +189,17 @@ def formulation_row(name: Any) -> int:
 def integrator_row(name: Any) -> int:
     """The row of an integrator in the core's table."""
     return list(_INTEGRATORS).index(_check.choice("integrator", name, _INTEGRATORS))
+
+
+# Settings that the core takes as they are.
+_PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eval")
+
+
+def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
+    """The core's settings from a solution's."""
+    options = {"formulation": formulation_row(chosen["formulation"]),
+               "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1]}
+    options |= {name: chosen[name] for name in _PLAIN if chosen.get(name) is not None}
+    for correction in (chosen["stabilization"], chosen["energy"]):
+        options |= correction._core() if correction else {}
+    return _gateway.settings(options)

@@ -14,7 +14,10 @@ from ._system import BaseSystem, core_of
 from .errors import CorrectionWarning, Interrupted
 from .solution import Solution
 
-SLICE = 0.03    # seconds the core runs between looks at the keyboard and the progress bar
+SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
+FIRST_BLOCK = 1024  # rows, where it is not known how many there will be
+DEFAULT_CONTROL = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}
+FINEST_RTOL = 100 * np.finfo(float).eps     # below, estimates are round-off
 
 
 def simulate(
@@ -24,6 +27,11 @@ def simulate(
     v0: Any = None,
     *,
     step: float | None = None,
+    rtol: float | None = None,
+    atol: float | None = None,
+    first_step: float | None = None,
+    max_step: float | None = None,
+    t_eval: Any = None,
     formulation: str = "schur",
     integrator: str = "rk4",
     stabilization: str | settings.Stabilization = "projection",
@@ -42,8 +50,17 @@ def simulate(
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
         Start; left out: the system's own. It must satisfy the constraints, see `assemble`.
-    step : float
-        Step in s. If the span is no whole number of steps, a shorter one is added at the end.
+    step : float, optional
+        Step in s. If the span is no whole number of steps, a shorter one is added at the end. Left out: the integrator
+        chooses its steps by its error estimate, if it has one.
+    rtol, atol : float, optional
+        Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
+        at most one. Left out: 1e-6 and 1e-9.
+    first_step, max_step : float, optional
+        Where steps are chosen: the first, and the largest, in s.
+    t_eval : array_like (k,), optional
+        Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
+        corrected.
     formulation : str
         One of `formulations()`: which equations of motion are solved.
     integrator : str
@@ -84,39 +101,67 @@ def simulate(
     True
     """
     core, span = core_of(system), _check.span(t_span)
-    chosen = _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every)
+    control = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
+    chosen = {**_steps(span, step, integrator, control), **_chosen(system, formulation, integrator, stabilization, energy),
+              **_saved(span, save_every, t_eval)}
     _check.choice("on_failure", on_failure, ("raise", "return"))
     p0, v0 = system._start(p0, v0)
-    run = _gateway.Run(core, _core_settings(span, chosen), p0, v0)
+    run = _gateway.Run(core, settings.core_settings(span, chosen), p0, v0)
     record = _gateway.Record(core, _rows(span, chosen))
     return _finish(system, span, chosen, run, record, on_failure, *_drive(run, record, progress))
 
 
-def _chosen(system, span, step, formulation, integrator, stabilization, energy, save_every) -> dict[str, Any]:
-    """The settings, checked: what `Solution.settings` will say."""
-    if step is None:
-        raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size")
-    step = _check.number("step", step, above=0)
-    smallest = 16 * np.finfo(float).eps * max(map(abs, span))
-    if step < smallest:
-        raise ValueError(f"step must be at least {smallest:.3g} for times up to {max(map(abs, span)):g}, not {step:g}")
-    settings.formulation_row(formulation)
+def _steps(span, step, integrator, control) -> dict[str, Any]:
+    """How steps are made, checked."""
     settings.integrator_row(integrator)
+    latest = max(map(abs, span))
+    smallest = 16 * np.finfo(float).eps * latest
+    if step is None:
+        return {"step": None, **_control(integrator, control, smallest)}
+    for name, value in control.items():
+        if value is not None:
+            raise ValueError(f"{name} is for steps that are chosen by their error: with it, leave out step")
+    step = _check.number("step", step, above=0)
+    if step < smallest:
+        raise ValueError(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
+    return {"step": step}
+
+
+def _control(integrator, control, smallest) -> dict[str, Any]:
+    able = [name for name, card in settings.integrators().items() if card.error_order]
+    if integrator not in able:
+        raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size; "
+                         f"{', '.join(map(repr, able))} can choose theirs")
+    values = DEFAULT_CONTROL | {name: value for name, value in control.items() if value is not None}
+    least = {"rtol": FINEST_RTOL, "atol": 0.0, "first_step": smallest, "max_step": smallest}
+    checked = {name: None if value is None else _check.number(name, value, least=least[name]) for name, value in values.items()}
+    if checked["atol"] == 0:
+        raise ValueError("atol must be greater than 0: parts of the state pass through zero")
+    return checked
+
+
+def _saved(span, save_every, t_eval) -> dict[str, Any]:
+    """What is saved, checked."""
+    save_every = _check.count("save_every", save_every)
+    if t_eval is None:
+        return {"save_every": save_every}
+    if save_every != 1:
+        raise ValueError("save_every counts steps, and t_eval names times: give one of them")
+    times = _check.vector("t_eval", t_eval, np.size(t_eval))
+    if not times.size or (np.diff(times) <= 0).any() or times[0] < span[0] or times[-1] > span[1]:
+        raise ValueError(f"t_eval must increase from at least {span[0]:g} to at most {span[1]:g}, not {t_eval!r}")
+    times.flags.writeable = False
+    return {"save_every": 1, "t_eval": times}
+
+
+def _chosen(system, formulation, integrator, stabilization, energy) -> dict[str, Any]:
+    """Equations, method and corrections, checked."""
+    settings.formulation_row(formulation)
     energy = settings.energy(energy)
     if energy and not system.has_energy:
         raise ValueError(f"energy correction needs a potential energy, and {system.name} declares none")
-    return {"step": step, "formulation": formulation, "integrator": integrator,
-            "stabilization": settings.stabilization(stabilization), "energy": energy,
-            "save_every": _check.count("save_every", save_every)}
-
-
-def _core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
-    options = {"formulation": settings.formulation_row(chosen["formulation"]),
-               "integrator": settings.integrator_row(chosen["integrator"]),
-               "t0": span[0], "t1": span[1], "step": chosen["step"], "save_every": chosen["save_every"]}
-    for correction in (chosen["stabilization"], chosen["energy"]):
-        options |= correction._core() if correction else {}
-    return _gateway.settings(options)
+    return {"formulation": formulation, "integrator": integrator, "stabilization": settings.stabilization(stabilization),
+            "energy": energy}
 
 
 def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any) -> tuple[int, float]:
@@ -124,7 +169,9 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any) -> tuple[i
     show, close = _progress(progress)
     start, status = time.perf_counter(), _gateway.PAUSED
     try:
-        while status == _gateway.PAUSED:
+        while status in (_gateway.PAUSED, _gateway.FULL):
+            if status == _gateway.FULL:
+                record.grow()
             status = run.advance(record, SLICE)
             show(run.progress)
     except KeyboardInterrupt:
@@ -177,7 +224,11 @@ def _raise(run: _gateway.Run, status: int, solution: Solution) -> None:
 
 
 def _rows(span: tuple[float, float], chosen: dict[str, Any]) -> int:
-    """Rows of the record, counted as the core counts steps, with the start."""
+    """Rows of the record, with the start; where steps are chosen, as many as a first block has."""
+    if "t_eval" in chosen:
+        return len(chosen["t_eval"])
+    if chosen["step"] is None:
+        return FIRST_BLOCK
     steps = _gateway.count_steps(*span, chosen["step"])
     return steps // chosen["save_every"] + 1 + (steps % chosen["save_every"] != 0)
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from . import _gateway, systems
-from ._system import BaseSystem
-from .settings import STABILIZATIONS, EnergyCorrection
+from ._system import BaseSystem, core_of
+from .settings import STABILIZATIONS, EnergyCorrection, core_settings
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,7 +86,7 @@ class Solution:
         steps = max(1, stats["steps"])
         lines = [
             f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._reached:g} s, {self.message}",
-            f"  how        {s['formulation']}, {s['integrator']}, step {s['step']:g} s, "
+            f"  how        {s['formulation']}, {s['integrator']}, {_steps(s)}, "
             f"{s['stabilization'] or 'no stabilization'}" + (f", {s['energy']}" if s["energy"] else ""),
             f"  cost       {1e3 * stats['seconds']:.3g} ms, {steps} steps of {1e6 * stats['seconds'] / steps:.3g} us, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
@@ -97,6 +97,51 @@ class Solution:
         if self.energy_violation is not None:
             lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
         return "\n".join(lines)
+
+    def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and velocities at any time between the first and the last row.
+
+        From the row before, one shorter step of the same method is made and corrected: so the values satisfy the constraints
+        as the rows do, and have the error of the method.
+
+        Parameters
+        ----------
+        t : float or array_like
+            Times in s.
+
+        Returns
+        -------
+        p, v : ndarray (..., nq), (..., nv)
+
+        Raises
+        ------
+        ValueError
+            Outside the rows; or if not every step was saved.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+        >>> p, v = sol([0.25, 0.5])
+        >>> p.shape
+        (2, 1)
+        """
+        times = np.asarray(t, dtype=float)
+        if self.settings["save_every"] != 1 or "t_eval" in self.settings:
+            raise ValueError("values between rows need every step saved: save_every=1, and no t_eval")
+        if times.size and not (self.t[0] <= times.min() and times.max() <= self.t[-1]):
+            raise ValueError(f"t must be between {self.t[0]:g} and {self.t[-1]:g}, not {t!r}")
+        states = [self._at(moment) for moment in times.ravel()]
+        p, v = (np.array([state[i] for state in states]).reshape(*times.shape, -1) for i in (0, 1))
+        return p, v
+
+    def _at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        row = int(np.searchsorted(self.t, t, side="right")) - 1
+        p, v = self.p[row].copy(), self.v[row].copy()
+        if t > self.t[row]:
+            options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
+            _gateway.step(core_of(self.system), options, p, v)
+        return p, v
 
     @property
     def _reached(self) -> float:
@@ -169,11 +214,13 @@ def _plain(value: Any) -> Any:
     """A setting as JSON."""
     if type(value).__name__ in _SETTINGS:
         return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
-    return value
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def _restored(value: Any) -> Any:
-    return _SETTINGS[value.pop("kind")](**value) if isinstance(value, dict) else value
+    if isinstance(value, dict):
+        return _SETTINGS[value.pop("kind")](**value)
+    return np.array(value) if isinstance(value, list) else value
 
 
 class Described(BaseSystem):
@@ -194,6 +241,12 @@ def _restored_system(description: dict[str, Any]) -> BaseSystem:
     if "parameters" in description and description["name"] in systems.__all__:
         return systems.BuiltIn(description["name"], description["parameters"])
     return Described(description)
+
+
+def _steps(settings: dict[str, Any]) -> str:
+    if settings["step"] is None:
+        return f"rtol {settings['rtol']:g}, atol {settings['atol']:g}"
+    return f"step {settings['step']:g} s"
 
 
 def _largest(violation: np.ndarray) -> str:

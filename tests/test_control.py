@@ -1,0 +1,205 @@
+"""Steps chosen by their error, and values between steps."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import SYSTEMS
+
+ADAPTIVE = [name for name, card in zd.integrators().items() if card.error_order]
+WITHIN = 3000       # global error of tolerance: half a second of the liveliest system multiplies what steps leave by this
+
+
+def adaptive(system, t_end=0.5, tol=1e-8, **options):
+    return zd.simulate(system, t_end, **({"rtol": tol, "atol": tol, "integrator": "dormand_prince"} | options))
+
+
+@pytest.fixture(scope="module")
+def references():
+    return {name: zd.simulate(system, 0.5, step=1 / 1600, integrator="dop853") for name, system in SYSTEMS.items()}
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+def test_error_follows_the_tolerance(system, references, method):
+    reference = next(sol for sol in references.values() if sol.system is system)
+    for tol in (1e-6, 1e-9):
+        sol = adaptive(system, tol=tol, integrator=method)
+        error = np.abs(np.hstack([sol.p[-1] - reference.p[-1], sol.v[-1] - reference.v[-1]])).max()
+        assert error <= WITHIN * tol
+        assert sol.t[-1] == 0.5
+        assert (np.diff(sol.t) > 0).all()
+
+
+def test_formulations_choose_steps_alike(system, formulation):
+    a, b = (adaptive(system, tol=1e-9, formulation=name, integrator="dop853") for name in (formulation, "schur"))
+    assert np.abs(a.p[-1] - b.p[-1]).max() <= WITHIN * 1e-9
+    if system.m:
+        assert np.abs(a.position_violation).max(initial=0) <= 1e-12
+        assert np.abs(a.velocity_violation).max() <= 1e-12 * (1 + np.abs(a.v).max())
+
+
+def test_a_tighter_tolerance_costs_more_and_pays(bar):
+    loose, tight = adaptive(bar, 2.0, 1e-5), adaptive(bar, 2.0, 1e-10)
+    exact = zd.simulate(bar, 2.0, step=1e-3, integrator="dop853").p[-1]
+    assert tight.stats["steps"] > 3 * loose.stats["steps"]
+    assert np.abs(tight.p[-1] - exact).max() < 1e-3 * np.abs(loose.p[-1] - exact).max()
+
+
+def test_rejected_steps_are_counted_and_leave_no_trace(bar):
+    sol = adaptive(bar, 2.0, first_step=0.5)
+    assert sol.stats["rejected"] > 0
+    assert len(sol.t) == sol.stats["steps"] + 1
+    assert sol.t[1] < 0.5
+    assert np.abs(sol.position_violation).max() <= 1e-12
+
+
+def test_a_step_whose_correction_fails_is_tried_smaller(bar):
+    """Without a bound by the error, the first step is far too large to be corrected."""
+    with pytest.raises(zd.ZerodriftError):
+        zd.simulate(bar, 2.0, step=1.0, integrator="dormand_prince")
+    sol = adaptive(bar, 2.0, 1e3, first_step=1.0, stabilization=zd.Projection(max_iterations=3))
+    assert sol.stats["rejected"] > 0
+    assert np.abs(sol.position_violation).max() <= 1e-12
+
+
+def test_first_and_largest_step_are_kept(bar):
+    sol = adaptive(bar, 1.0, 1e-3, first_step=1e-3, max_step=0.01)
+    assert sol.t[1] == 1e-3
+    assert np.diff(sol.t).max() <= 0.01 * (1 + 1e-12)
+
+
+def test_records_grow_as_long_as_they_have_to(bar, monkeypatch):
+    whole = adaptive(bar, 2.0)
+    monkeypatch.setattr("zerodrift.simulation.FIRST_BLOCK", 3)
+    pieces = adaptive(bar, 2.0)
+    assert pieces.p.tobytes() == whole.p.tobytes()
+    assert pieces.iterations.tobytes() == whole.iterations.tobytes()
+
+
+def test_slices_change_no_bit(bar, monkeypatch):
+    whole = adaptive(bar, 2.0)
+    monkeypatch.setattr("zerodrift.simulation.SLICE", 0.0)
+    assert adaptive(bar, 2.0).p.tobytes() == whole.p.tobytes()
+
+
+def test_integrals_along_the_state_are_controlled_too():
+    sol = zd.simulate(SYSTEMS["slider_crank"], 5.0, rtol=1e-9, atol=1e-9, integrator="dop853")
+    assert np.abs(sol.energy_violation).max() < 1e-8
+
+
+def test_a_motion_that_ends_is_followed_to_its_end():
+    """X'' = 2 x^3 from x = x' = 1 is 1 / (1 - t)."""
+    system = zd.System(1, mass=[[1.0]], force=lambda p: 2 * p**3, p0=[1.0], v0=[1.0])
+    with pytest.raises(zd.ZerodriftError) as caught, np.errstate(all="ignore"):
+        adaptive(system, 2.0)
+    sol = caught.value.solution
+    assert 0.99 < sol.t[-1] < 1.0 + 1e-6
+    early = sol.t < 0.5
+    assert np.abs(sol.p[early, 0] - 1 / (1 - sol.t[early])).max() < 1e-6
+
+
+# ---- values between steps ----
+
+
+TIMES = np.array([0.0, 0.013, 0.1, 0.10001, 0.237, 0.5])
+
+
+def test_values_at_given_times_are_those_between_rows(system, formulation):
+    """The first as the run goes, the second afterwards from its rows; rounding where variables are changed."""
+    options = {"step": 0.02, "formulation": formulation}
+    at = zd.simulate(system, 0.5, t_eval=TIMES, **options)
+    p, v = zd.simulate(system, 0.5, **options)(TIMES)
+    assert at.t.tolist() == TIMES.tolist()
+    assert np.abs(at.p - p).max() <= 1e-12 * (1 + np.abs(p).max())
+    assert np.abs(at.v - v).max() <= 1e-11 * (1 + np.abs(v).max())
+
+
+def test_values_between_steps_satisfy_the_constraints(system, formulation):
+    sol = zd.simulate(system, 0.5, step=0.02, formulation=formulation, t_eval=np.linspace(0, 0.5, 60))
+    assert np.abs(sol.position_violation).max(initial=0) <= 1e-12
+    assert np.abs(sol.velocity_violation).max(initial=0) <= 1e-12 * (1 + np.abs(sol.v).max())
+
+
+def test_saving_between_steps_leaves_the_steps_alone(bar):
+    plain = zd.simulate(bar, 0.5, step=0.02)
+    watched = zd.simulate(bar, 0.5, step=0.02, t_eval=np.append(np.linspace(0.001, 0.499, 99), 0.5))
+    assert watched.p[-1].tobytes() == plain.p[-1].tobytes()
+    assert watched.stats["steps"] == plain.stats["steps"]
+    assert watched.stats["output_steps"] == 99
+
+
+@pytest.mark.parametrize("method", ["rk4", "dormand_prince", "trapezoidal"])
+def test_order_is_kept_between_steps(bar, method):
+    times = np.linspace(0.1, 0.5, 23)
+    exact = zd.simulate(bar, 0.5, step=1 / 2000, integrator="dop853")(times)[0]
+    errors = [np.abs(zd.simulate(bar, 0.5, step=0.5 / n, integrator=method)(times)[0] - exact).max() for n in (40, 80, 160)]
+    declared = zd.integrators()[method].order
+    assert np.log2(errors[0] / errors[2]) / 2 > declared - 0.5
+
+
+def test_a_run_stops_when_all_that_is_asked_for_is_saved(bar):
+    sol = zd.simulate(bar, 8.0, step=0.01, t_eval=[0.5])
+    assert sol.success
+    assert sol.stats["steps"] == 50
+
+
+def test_one_time_gives_one_state(bar):
+    sol = zd.simulate(bar, 0.5, step=0.02)
+    p, v = sol(0.25)
+    assert p.shape == v.shape == (3,)
+    assert (sol(sol.t[3])[0] == sol.p[3]).all()
+
+
+def test_values_between_rows_of_uncorrected_motions(bar):
+    """There rows violate the constraints, and so do the values between them: nothing is corrected that was not to be."""
+    sol = zd.simulate(bar, 2.0, step=0.02, stabilization=None)
+    p, _ = sol(np.array([1.999]))
+    assert 1e-9 < np.abs(bar.evaluate(p[0]).Phi).max() < 1e-2
+
+
+def test_chosen_steps_survive_saving_and_serve_again(bar, tmp_path):
+    sol = adaptive(bar, 0.5, t_eval=[0.1, 0.2])
+    again = zd.load(sol.save(tmp_path / "motion"))
+    assert again.settings["t_eval"].tolist() == [0.1, 0.2]
+    assert zd.simulate(bar, 0.5, **again.settings).p.tobytes() == sol.p.tobytes()
+    assert "rtol 1e-08" in repr(sol)
+
+
+# ---- bad arguments ----
+
+
+BAR = SYSTEMS["four_bar"]
+
+
+@pytest.mark.parametrize(("options", "message"), [
+    ({"integrator": "rk4"}, "step is needed: 'rk4' takes steps of fixed size; 'dormand_prince', 'dop853' can choose theirs"),
+    ({"step": 0.1, "rtol": 1e-6}, "rtol is for steps that are chosen"),
+    ({"step": 0.1, "max_step": 1.0}, "max_step is for steps that are chosen"),
+    ({"rtol": 1e-15}, "rtol must be at least 2.2"),
+    ({"rtol": -1.0}, "rtol must be at least"),
+    ({"rtol": np.nan}, "rtol must be finite"),
+    ({"atol": 0.0}, "atol must be greater than 0"),
+    ({"max_step": 0.0}, "max_step must be at least"),
+    ({"first_step": -1.0}, "first_step must be at least"),
+    ({"t_eval": []}, "t_eval must increase"),
+    ({"t_eval": [0.2, 0.1]}, "t_eval must increase"),
+    ({"t_eval": [0.1, 0.1]}, "t_eval must increase"),
+    ({"t_eval": [0.5, 1.5]}, "to at most 1"),
+    ({"t_eval": [-0.5]}, "from at least 0"),
+    ({"t_eval": [[0.5]]}, "t_eval must have shape"),
+    ({"t_eval": [np.nan]}, "t_eval must be finite"),
+    ({"t_eval": [0.5], "save_every": 2}, "give one of them"),
+])
+def test_bad_values(options, message):
+    with pytest.raises(ValueError, match=message):
+        zd.simulate(BAR, 1.0, **({"integrator": "dop853"} | options))
+
+
+def test_values_between_rows_that_are_not_there():
+    sol = zd.simulate(BAR, 0.5, step=0.02)
+    with pytest.raises(ValueError, match="t must be between 0 and"):
+        sol(0.6)
+    with pytest.raises(ValueError, match="need every step saved"):
+        zd.simulate(BAR, 0.5, step=0.02, save_every=2)(0.1)
+
+
