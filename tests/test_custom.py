@@ -149,6 +149,20 @@ def test_callables_take_parameters_by_name_and_parameters_can_be_changed():
         four_bar().with_parameters(gravity=1.0)
 
 
+class Drawn(zd.System):
+    """A system with a drawing."""
+
+    def points(self, p):
+        return np.array([[0.0, 0.0], p])
+
+
+def test_a_system_that_adds_a_drawing_keeps_it():
+    mine = Drawn(2, mass=np.eye(2), parameters={"m": 1.0}, p0=[0.0, 1.0])
+    for other in (mine.with_parameters(m=2.0), pickle.loads(pickle.dumps(mine))):
+        assert type(other) is Drawn
+        assert other.points(other.p0).shape == (2, 2)
+
+
 def test_pickled_systems_are_the_same():
     again = pickle.loads(pickle.dumps(four_bar()))
     assert (again.evaluate().M == four_bar().evaluate().M).all()

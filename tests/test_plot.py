@@ -213,6 +213,19 @@ def test_mechanism_in_space_gets_axes_in_space():
         plot.mechanism(Spatial(), ax=plt.subplots()[1])
 
 
+@pytest.mark.parametrize("animated", [False, True])
+def test_a_drawing_in_space_has_equal_scales(animated):
+    """A disc that rolls far is still round."""
+    sol, ax = zd.simulate(zd.systems.rolling_disc(), 2.0, step=0.01), plt.figure().add_subplot(projection="3d")
+    if animated:
+        plot.animate(sol, fps=1, ax=ax).to_jshtml()
+    else:
+        plot.mechanism(sol, ax=ax)
+    spans = [np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())]
+    scales = ax._box_aspect / spans       # matplotlib has no public way to ask
+    assert np.ptp(scales) < 1e-12 * scales.max()
+
+
 def test_mechanism_joins_joints_and_marks_what_rests(bar):
     ax = drawn(plot.mechanism(bar))
     squares = [line for line in ax.lines if line.get_marker() == "s"]

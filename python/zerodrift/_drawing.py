@@ -64,7 +64,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     _links(ax, drawings[0])
     if moving:
         ax.plot(*_resting(drawings).T, "s", color="black", markersize=7, zorder=3)
-    return ax
+    return _equal(ax)
 
 
 def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0) -> FuncAnimation:
@@ -104,8 +104,9 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     times = sol.t[0] + np.arange(frames) * speed / fps
     drawings = _drawings(sol.system, sol.p[nearest(sol.t, times)])
     ax = _drawing_axes(ax, drawings.shape[2])
-    _set_limits(ax, drawings)
     line = _links(ax, drawings[0])
+    _set_limits(ax, drawings)
+    _equal(ax)
     title = ax.set_title("", fontsize="medium")
 
     def show(frame: int) -> tuple[Any, ...]:
@@ -146,9 +147,14 @@ def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
         ax = plt.figure(layout="constrained").add_subplot(projection="3d" if dimension == 3 else None)
     elif dimension == 3 and ax.name != "3d":
         raise ValueError("ax must be 3D axes for this system: fig.add_subplot(projection='3d')")
-    ax.set_aspect("equal", adjustable="box")
     for axis in "xyz"[:dimension]:
         getattr(ax, f"set_{axis}label")(f"{axis} [m]")
+    return ax
+
+
+def _equal(ax: Axes) -> Axes:
+    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn."""
+    ax.set_aspect("equal", adjustable="box")
     return ax
 
 

@@ -112,18 +112,18 @@ class System(BaseSystem):
         """
         for key in changed:
             _check.choice("parameter", key, self.parameters)
-        return System(**(self._given | {"parameters": self.parameters | changed}))
+        return type(self)(**(self._given | {"parameters": self.parameters | changed}))
 
     def __repr__(self) -> str:
         return (f"<zd.System {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
                 f"{self.mn} nonholonomic constraints>")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild, (self._given,)
+        return _rebuild, (type(self), self._given)
 
 
-def _rebuild(given: dict[str, Any]) -> System:
-    return System(**given)
+def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
+    return kind(**given)
 
 
 def _variables(names: Sequence[str]) -> tuple[Variable, ...]:
