@@ -1,10 +1,12 @@
 """All formulations solve the same equations: against an independent solve of (8), and against each other."""
 
 import numpy as np
+import pytest
+from mpmath import mp
 
 import tolerances as tol
 import zerodrift as zd
-from support import SYSTEMS, assert_close, condition, consistent_states, motion, numbers, solved
+from support import SYSTEMS, assert_close, condition, consistent_states, motion, numbers, saddle_matrix, solved
 
 
 def test_accelerations_and_multipliers_solve_8(system, formulation):
@@ -60,3 +62,17 @@ def test_the_tables_introduce_their_rows():
 def test_a_table_handed_out_is_a_copy():
     zd.formulations().clear()
     assert zd.formulations()
+
+
+@pytest.mark.parametrize("mass", [3.0, 1e-2, 1e-4, 1e-6, 1e-9])
+def test_a_light_link_costs_no_digits(formulation, mass, monkeypatch):
+    """Against fifty digits: (13) inverts M, whose condition is 1e9 here, and its own refinement has to make up for that."""
+    bar = zd.systems.four_bar(masses=(1.5, 5.0, mass))
+    monkeypatch.setattr(mp, "dps", 50)
+    for _, p, v in consistent_states(bar, 8):
+        e = numbers(bar, 0.0, p, v)
+        exact = mp.lu_solve(mp.matrix(saddle_matrix(e.M, e.C).tolist()), mp.matrix([*e.force, *e.xi]))
+        expected = np.array([float(x) for x in exact])
+        found = np.concatenate(zd.acceleration(bar, p, v, formulation=formulation))
+        for rows in (slice(0, 3), slice(3, 5)):
+            assert_close(found[rows], expected[rows], tol.EXACT)

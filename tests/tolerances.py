@@ -10,6 +10,8 @@ ENERGY = 32 * EPS           # E after (29), of T + |V| + |E0|: the balance is a 
 VELOCITY = 256 * EPS        # |Psi| after (25b), of sum |C v|: what one solve leaves, its condition included
 IMPLICIT = 64 * EPS         # defect of an implicit step among its terms: the core iterates to 4 EPS, our own f differs by SOLVED
 
+EXACT = 128 * EPS           # against exact arithmetic, masses nine powers of ten apart: with no condition number beside it
+
 # ---- truncation ----
 DIFFERENCE = 1e-9           # five-point differences at 1e-3: 1e-12 truncation, 1e-13 round-off, and derivatives of size 1e2
 ORDER = 0.2                 # observed against declared order, up to four: what the next term of the error contributes

@@ -11,11 +11,15 @@
  *     mu = E^-1 (Q D^-1 y - z),    lambda = G^-T mu,    vdot = L^-T D^-1 (y - Q^T mu),
  *
  * that is: what y has along the constraints is taken out and z put in its place. A correction, (27), has y = 0.
+ *
+ * M^-1 enlarges the rounding of large reactions that meet in a light link. But C vdot = xi shows that error, and a correction by
+ * what is left of it, (27b) again, removes it: so the digits do not depend on how far masses are apart.
  */
 #include "dependent.h"
 
 #include "../linalg/small.h"
 
+static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 enum { DEPENDENT_BELOW = 1024 };    /* units of rounding left of a row after taking out the others: then it is one of them */
 
 typedef struct schur {
@@ -23,7 +27,9 @@ typedef struct schur {
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
     double *Q;      /* (m, n) */
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
+    const double *C;    /* (m, n): the point's */
     double *b;      /* (m,) */
+    double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
 } schur;
 
 static void *take(zd_arena *arena, const zd_system *system)
@@ -36,6 +42,8 @@ static void *take(zd_arena *arena, const zd_system *system)
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
         .b = zd_take_doubles(arena, m),
+        .rest = zd_take_doubles(arena, m),
+        .correction = zd_take_doubles(arena, n),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -72,6 +80,7 @@ ZD_INLINE int factor_rows(const int n, const schur *self, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
+    self->C = point->terms.C;
     point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
     if (point->culprit < self->n) return ZD_NOT_DEFINITE;
     point->culprit = ZD_SIZED(factor_rows, self->n, self, point->terms.C);
@@ -92,11 +101,39 @@ ZD_INLINE void exchange(const int n, const schur *self, const double *force, dou
     zd_backward(n, self->L, x, x);                                          /* (13), (27) */
 }
 
+/* rest <- rhs - C x; returns whether it is more than the rounding of x makes it */
+ZD_INLINE int is_left(const int n, const schur *self, const double *rhs, const double *x, double *rest)
+{
+    int left = 0;
+    for (int k = 0; k < self->m; k++) {
+        double sum = rhs[k], size = fabs(rhs[k]);
+        for (int i = 0; i < n; i++) {
+            double term = self->C[k * n + i] * x[i];
+            sum -= term;
+            size += fabs(term);
+        }
+        rest[k] = sum;
+        left |= fabs(sum) > ROUNDING * size;
+    }
+    return left;
+}
+
+static void refine(const schur *self, const double *rhs, double *x)
+{
+    double *rest = self->rest;
+    if (!ZD_SIZED(is_left, self->n, self, rhs, x, rest)) return;
+    ZD_SIZED(zd_forward, self->m, self->G, rest, rest);
+    ZD_SIZED(exchange, self->n, self, NULL, rest, self->correction);
+    for (int i = 0; i < self->n; i++) x[i] += self->correction[i];
+    for (int k = 0; k < self->m; k++) self->b[k] += rest[k];
+}
+
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
 {
     schur *self = memory;
     ZD_SIZED(zd_forward, self->m, self->G, rhs, self->b);                   /* z */
     ZD_SIZED(exchange, self->n, self, force, self->b, x);
+    if (force) refine(self, rhs, x);
     if (lambda) ZD_SIZED(zd_backward, self->m, self->G, self->b, lambda);
 }
 
