@@ -4,9 +4,9 @@
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
 
-/* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up when they have grown so much: early, because
- * the motion is the harder to integrate the steeper w depends on u. */
-static const double WORSE = 2;
+/* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
+ * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
+static const double WORSE = 1.1;
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
 {

@@ -11,7 +11,7 @@
 #include "../newton.h"
 
 enum { MAX_ITERATIONS = 20 };
-static const double WORSE = 2;      /* so much larger than at its choice may the response of p to q grow */
+static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 {
