@@ -1,0 +1,110 @@
+"""What all of the gateway shares: tables, statuses and their errors, and the check of memory that is handed to the core."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import errors
+from .._core import ffi, lib
+
+TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
+          "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
+MESSAGE_SIZE = 512
+
+ERRORS = {
+    lib.ZD_NOT_FINITE: errors.Diverged,
+    lib.ZD_NOT_DEFINITE: errors.SingularSystem,
+    lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
+    lib.ZD_DEPENDENT: errors.SingularSystem,
+    lib.ZD_SINGULAR: errors.SingularSystem,
+    lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
+    lib.ZD_NO_STEP: errors.StepFailed,
+    lib.ZD_NO_EMBEDDING: errors.StepFailed,
+    lib.ZD_TINY_STEP: errors.StepFailed,
+    lib.ZD_BAD_START: errors.InconsistentStart,
+    lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
+    lib.ZD_NO_MEMORY: MemoryError,
+}
+DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
+INTERRUPTED = 3     # positive, as it is Python that stops early
+
+# The terms a system may have: bit, shape in terms of its sizes.
+TERMS = {
+    "A": (lib.ZD_A, ("nq", "nv")), "M": (lib.ZD_M, ("nv", "nv")), "d": (lib.ZD_BIAS, ("nv",)),
+    "f": (lib.ZD_FORCE, ("nv",)), "Phi": (lib.ZD_PHI, ("mh",)), "C": (lib.ZD_C, ("m", "nv")),
+    "Phi_t": (lib.ZD_PHI_T, ("m",)), "xi": (lib.ZD_XI, ("m",)), "V": (lib.ZD_POTENTIAL, ()),
+    "power": (lib.ZD_POWER, ()), "D": (lib.ZD_COMPLEMENT, ("nv", "r")), "gamma": (lib.ZD_GAMMA, ("nv",)),
+}
+
+
+class Card(NamedTuple):
+    """A row of one of the core's tables."""
+
+    name: str
+    summary: str
+    equations: str
+    order: int
+    error_order: int
+
+
+class Variable(NamedTuple):
+    """A coordinate, velocity or constraint."""
+
+    name: str
+    unit: str
+
+
+class Parameter(NamedTuple):
+    """A parameter of a built-in system; `initial` is None where it is derived from the others."""
+
+    name: str
+    unit: str
+    text: str
+    size: int
+    rule: str
+    initial: tuple[float, ...] | None
+
+
+RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}
+
+
+def check_fingerprint() -> None:
+    """In a source tree, refuses a compiled core that does not belong to the sources beside it."""
+    root = Path(__file__).resolve().parents[3]
+    if not (root / "python" / "build_core.py").is_file():
+        return
+    digest = hashlib.sha256()
+    for path in sorted((root / "csrc").rglob("*.[ch]")):
+        digest.update(path.relative_to(root).as_posix().encode())
+        digest.update(path.read_bytes())
+    if digest.hexdigest() != text(lib.zd_fingerprint):
+        raise errors.StaleCore(f"the compiled core is older than {root / 'csrc'}; rebuild it with: pip install -e {root}")
+
+
+def text(characters: Any) -> str:
+    """A C string as a Python string."""
+    return ffi.string(characters).decode()
+
+
+def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
+    """The memory of a C-contiguous float64 array of `size` entries, and no other: CFFI itself would reinterpret it."""
+    if array.dtype != np.float64 or not array.flags.c_contiguous or array.size != size:
+        raise TypeError(f"expected {size} contiguous float64 values, got {array.dtype} of shape {array.shape}")
+    if writable and not array.flags.writeable:
+        raise TypeError("expected a writable array")
+    return ffi.from_buffer("double[]", array, require_writable=writable)
+
+
+def cards(table: str) -> tuple[Card, ...]:
+    """The rows of a table of the core."""
+    rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
+    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order, row.error_order) for row in rows)
+
+
+def error_of(status: int, message: str) -> Exception:
+    """The exception that stands for a failed status."""
+    return ERRORS.get(status, errors.ZerodriftError)(message)

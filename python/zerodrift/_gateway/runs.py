@@ -1,0 +1,136 @@
+"""Runs, their records, and the same operations outside a run."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import MESSAGE_SIZE, doubles, error_of, text
+from .systems import CoreSystem
+
+
+def settings(options: dict[str, Any]) -> Any:
+    """A `zd_settings` from nested dictionaries; an array `t_eval` has to outlive it."""
+    t_eval = options.pop("t_eval", None)
+    made = ffi.new("zd_settings *", options)
+    if t_eval is not None:
+        made.t_eval, made.t_evals = doubles(t_eval, t_eval.size), t_eval.size
+    return made
+
+
+def count_steps(t0: float, t1: float, step: float) -> int:
+    """Steps from t0 to t1."""
+    return int(lib.zd_count_steps(t0, t1, step))
+
+
+STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
+
+
+class Record:
+    """The arrays a run writes into, one row per saved instant: a block of memory, and further ones as long as they are needed."""
+
+    def __init__(self, core: CoreSystem, capacity: int) -> None:
+        energies = {"potential": (), "input": (), "energy_violation": ()} if core.has_energy else {}
+        self._shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
+                        "velocity_violation": (core.m,), "kinetic": (), **energies}
+        self._blocks: list[tuple[Any, Any, dict[str, np.ndarray]]] = []
+        self._add(capacity)
+
+    def _add(self, capacity: int) -> None:
+        widths = [math.prod(shape) for shape in self._shapes.values()]
+        try:
+            block, iterations = np.empty(capacity * sum(widths)), np.empty(capacity, dtype=np.intc)
+        except (MemoryError, ValueError):
+            size = capacity * (sum(widths) + 0.5) * 8 / 2**30
+            raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
+        self.c = ffi.new("zd_record *")
+        self.c.capacity = capacity
+        memory, arrays, start = doubles(block, block.size, writable=True), {"iterations": iterations}, 0
+        for (name, shape), width in zip(self._shapes.items(), widths, strict=True):
+            setattr(self.c, name, memory + start)
+            arrays[name] = block[start:start + capacity * width].reshape(capacity, *shape)
+            start += capacity * width
+        self.c.iterations = counts = ffi.from_buffer("int[]", iterations, require_writable=True)
+        self._blocks.append((self.c, (memory, counts), arrays))
+
+    def grow(self) -> None:
+        """Go on in a block as large as all before it."""
+        self._add(sum(c.capacity for c, _, _ in self._blocks))
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """The rows written so far."""
+        rows = [{name: array[: c.rows] for name, array in arrays.items()} for c, _, arrays in self._blocks]
+        return rows[0] if len(rows) == 1 else {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
+
+
+class Run:
+    """A run of the core."""
+
+    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray) -> None:
+        core = core.for_run()
+        status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
+        run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
+        if not run:
+            raise core.error or error_of(status[0], text(message))
+        self._run, self._core = ffi.gc(run, lib.zd_run_free), core
+
+    def advance(self, record: Record, seconds: float) -> int:
+        """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
+        return lib.zd_run_advance(self._run, record.c, seconds)
+
+    def error(self, status: int) -> BaseException:
+        """The exception that stands for a failed status: what a system written in Python raised, or our own."""
+        return self._core.error or error_of(status, self.message)
+
+    @property
+    def progress(self) -> float:
+        """The part that is done, 0 ... 1."""
+        return lib.zd_run_progress(self._run)
+
+    @property
+    def message(self) -> str:
+        """The first failure, in one sentence."""
+        return text(lib.zd_run_message(self._run))
+
+    @property
+    def statistics(self) -> dict[str, int]:
+        """Counts of what the run did."""
+        c = lib.zd_run_statistics(self._run)
+        return {name: getattr(c, name) for name in STATISTICS}
+
+
+def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:
+    """`zd_step`: one corrected step, p and v in place."""
+    core, message = core.for_run(), ffi.new("char[]", MESSAGE_SIZE)
+    status = lib.zd_step(core.c, options, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True), message,
+                         MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
+
+
+def acceleration(core: CoreSystem, formulation: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`zd_acceleration`: vdot (nv,) and multipliers (m,)."""
+    core = core.for_run()
+    vdot, multipliers, message = np.empty(core.nv), np.empty(core.m), ffi.new("char[]", MESSAGE_SIZE)
+    status = lib.zd_acceleration(core.c, formulation, t, doubles(p, core.nq), doubles(v, core.nv),
+                                 doubles(vdot, core.nv, writable=True), doubles(multipliers, core.m, writable=True),
+                                 message, MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
+    return vdot, multipliers
+
+
+def project(core: CoreSystem, options: Any, t: float, p: np.ndarray, v: np.ndarray,
+            hold_p: list[int] | None = None, hold_v: list[int] | None = None) -> int:
+    """`zd_project`: corrects p and v in place; the number of iterations."""
+    core = core.for_run()
+    iterations, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
+    held = [ffi.NULL if hold is None else ffi.new("int[]", hold) for hold in (hold_p, hold_v)]
+    status = lib.zd_project(core.c, options, t, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True),
+                            *held, iterations, message, MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
+    return iterations[0]

@@ -1,0 +1,91 @@
+"""Systems of the core's table."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import RULES, TERMS, Parameter, Variable, cards, doubles, error_of, text
+
+
+class Kind:
+    """A row of the table of systems: what it needs to be made, and what its instances consist of."""
+
+    def __init__(self, row: int) -> None:
+        self.c = lib.zd_kind_of(row)
+        self.card = cards("systems")[row]
+        system = self.c.system
+        self.parameters = tuple(self._parameter(self.c.parameter[i]) for i in range(self.c.parameters))
+        self.coordinates = self._variables(self.c.coordinate, system.nq)
+        self.velocities = self._variables(self.c.velocity, system.nv)
+        self.constraints = self._variables(self.c.constraint, system.mh + system.mn)
+
+    @staticmethod
+    def _parameter(c: Any) -> Parameter:
+        initial = tuple(c.initial[i] for i in range(c.size)) if c.initial else None
+        return Parameter(text(c.name), text(c.unit), text(c.text), c.size, RULES[c.rule], initial)
+
+    @staticmethod
+    def _variables(c: Any, size: int) -> tuple[Variable, ...]:
+        return tuple(Variable(text(c[i].name), text(c[i].unit)) for i in range(size))
+
+    def make(self, parameters: np.ndarray) -> tuple[CoreSystem, np.ndarray, np.ndarray]:
+        """The core's system for these parameters (NaN: derived), and its start (p0, v0)."""
+        given = doubles(parameters, sum(parameter.size for parameter in self.parameters))
+        constants = ffi.new("double[]", max(1, self.c.constants))
+        reason = self.c.prepare(given, constants)
+        if reason:
+            raise ValueError(f"{self.card.name}: {text(reason)}")
+        system = ffi.new("zd_system *", self.c.system)
+        system.data = constants
+        p0, v0 = np.empty(system.nq), np.empty(system.nv)
+        self.c.start(given, doubles(p0, system.nq, writable=True), doubles(v0, system.nv, writable=True))
+        return CoreSystem(system, constants), p0, v0
+
+    def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray:
+        """The drawing at p: points (n, dimension) to be joined by lines."""
+        points = np.empty((self.c.points, self.c.dimension))
+        self.c.draw(core.c.data, doubles(p, core.nq), doubles(points, points.size, writable=True))
+        return points
+
+
+def kinds() -> dict[str, Kind]:
+    """The built-in systems by name."""
+    return {card.name: Kind(row) for row, card in enumerate(cards("systems"))}
+
+
+class CoreSystem:
+    """A `zd_system` and what it refers to."""
+
+    def __init__(self, system: Any, data: Any) -> None:
+        self.c, self._data = system, data
+        self.nq, self.nv, self.mh, self.mn = system.nq, system.nv, system.mh, system.mn
+        self.m = self.mh + self.mn
+        self.r = self.nv - self.m
+        self.provides = system.provides
+        self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
+
+    error: BaseException | None = None      # what a system written in Python raised
+
+    def for_run(self) -> CoreSystem:
+        """The system for one run; one written in Python needs memory of its own for each."""
+        return self
+
+    def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """All terms the system has, at (t, p, v)."""
+        core = self.for_run()
+        terms = ffi.new("zd_terms *")
+        scratch = ffi.new("double[]", max(1, self.c.scratch))
+        terms.scratch = scratch
+        arrays = {}
+        for name, (bit, shape) in TERMS.items():
+            if not self.provides & bit:
+                continue
+            arrays[name] = array = np.zeros([getattr(self, size) for size in shape])
+            setattr(terms, name, doubles(array, array.size, writable=True))
+        status = core.c.evaluate(core.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
+        if status:
+            raise core.error or error_of(status, "the system's evaluation failed")
+        return arrays
