@@ -88,7 +88,7 @@ class Solution:
             f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._reached:g} s, {self.message}",
             f"  how        {s['formulation']}, {s['integrator']}, {_steps(s)}, "
             f"{s['stabilization'] or 'no stabilization'}" + (f", {s['energy']}" if s["energy"] else ""),
-            f"  cost       {1e3 * stats['seconds']:.3g} ms, {steps} steps of {1e6 * stats['seconds'] / steps:.3g} us, "
+            f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
         ]
         if self.system.m:
@@ -241,6 +241,13 @@ def _restored_system(description: dict[str, Any]) -> BaseSystem:
     if "parameters" in description and description["name"] in systems.__all__:
         return systems.BuiltIn(description["name"], description["parameters"])
     return Described(description)
+
+
+def _duration(seconds: float) -> str:
+    for unit, size in (("s", 1.0), ("ms", 1e-3)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{1e6 * seconds:.3g} us"
 
 
 def _steps(settings: dict[str, Any]) -> str:
