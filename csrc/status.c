@@ -30,6 +30,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_NO_STEP:
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
         break;
+    case ZD_UNSUITED:
+        snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", run->formulation->card.name,
+                 run->system.nq, run->system.nv);
+        break;
     case ZD_TINY_STEP:
         snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
                  run->settings.atol);

@@ -29,7 +29,8 @@ enum zd_status {
     ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
     ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
-    ZD_TINY_STEP = -14        /* the error asked for needs steps that time does not resolve */
+    ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
+    ZD_UNSUITED = -15         /* the formulation cannot take this system */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

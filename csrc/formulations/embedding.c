@@ -3,7 +3,7 @@
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be square, nor the identity. It starts from the point before, whose branch it therefore stays on.
+ * so that A need not be the identity. It starts from the point before, whose branch it therefore stays on.
  */
 #include "embedding.h"
 

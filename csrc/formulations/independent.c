@@ -37,6 +37,7 @@ static int leave(void *memory, zd_point *point, double *y)
 {
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
+    if (point->system->nq != point->system->nv) return ZD_UNSUITED;     /* p = g(q) leaves out what ties surplus coordinates */
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
     if (changed && !point->system->mn && !point->terms.A) {     /* (19): u is qdot */

@@ -22,6 +22,7 @@ from .errors import (
     StaleCore,
     StepFailed,
     UnreachableTolerance,
+    UnsuitedFormulation,
     ZerodriftError,
 )
 from .operations import acceleration, assemble, project
@@ -33,8 +34,8 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
-    "integrators", "load", "plot", "project", "simulate", "systems",
+    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
+    "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
 ]
 
 

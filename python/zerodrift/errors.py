@@ -28,6 +28,10 @@ class UnreachableTolerance(ZerodriftError, ValueError):
     """The tolerance is below what double precision can reach for this system."""
 
 
+class UnsuitedFormulation(ZerodriftError, ValueError):
+    """The formulation cannot take this system."""
+
+
 class SingularSystem(ZerodriftError, ArithmeticError):
     """The mass matrix is not positive definite, or the constraints are dependent."""
 

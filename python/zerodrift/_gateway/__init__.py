@@ -21,8 +21,9 @@ from .runs import Record, Run, acceleration, count_steps, project, settings, ste
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter", "PythonCore",
-    "Record", "Run", "Variable", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds", "project", "settings", "step",
+    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter",
+    "PythonCore", "Record", "Run", "Variable", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds", "project",
+    "settings", "step",
 ]
 
 check_fingerprint()

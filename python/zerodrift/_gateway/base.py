@@ -27,6 +27,7 @@ ERRORS = {
     lib.ZD_TINY_STEP: errors.StepFailed,
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
+    lib.ZD_UNSUITED: errors.UnsuitedFormulation,
     lib.ZD_NO_MEMORY: MemoryError,
 }
 DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
