@@ -175,7 +175,7 @@ def test_error_against_a_function(oscillator):
 @pytest.mark.parametrize(("reference", "names", "error", "message"), [
     (lambda t: [1.0, 2.0], None, ValueError, r"must return p of shape \(3,\), not \(2,\)"),
     (lambda t: [1.0, 2.0, 3.0], "alpha1_dot", ValueError, "coordinates only; names must be among 'alpha1'"),
-    (3.0, None, TypeError, "must be a Solution or a callable"),
+    (3.0, None, TypeError, "must be a Reference, a Solution or a callable"),
 ])
 def test_error_says_what_is_wrong_with_the_reference(bar, reference, names, error, message):
     with pytest.raises(error, match=message):

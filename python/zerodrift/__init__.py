@@ -35,11 +35,14 @@ __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "simulate", "systems",
+    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
 ]
+_LATER = {"reference": "certified"}     # functions whose module is imported when they are first used
 
 
 def __getattr__(name: str) -> Any:
     if name == "plot":      # matplotlib is imported when something is drawn
         return importlib.import_module(".plot", __name__)
+    if name in _LATER:
+        return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

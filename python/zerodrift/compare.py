@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _check
 from ._gateway import Variable
+from .certified import Reference
 from .solution import Solution
 
 SAME_TIME = 1e-9    # of the larger of the time itself and 1 s: far above round-off, far below any step
@@ -44,10 +45,10 @@ def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tup
         names = known[:len(system.coordinates)]
     names = [names] if isinstance(names, str) else names
     columns = [known.index(_check.choice("names", name, known)) for name in names]
-    return np.hstack([solution.p, solution.v])[:, columns], tuple(variables[column] for column in columns)
+    return _states(solution)[:, columns], tuple(variables[column] for column in columns)
 
 
-def difference(solution: Solution, reference: Solution | Callable[[float], Any],
+def difference(solution: Solution, reference: Solution | Reference | Callable[[float], Any],
                names: str | Sequence[str] | None = None) -> np.ndarray:
     """Solution minus reference, at the times of the solution.
 
@@ -55,8 +56,9 @@ def difference(solution: Solution, reference: Solution | Callable[[float], Any],
     ----------
     solution : Solution
         What is looked at.
-    reference : Solution or callable
-        A solution whose times contain those of `solution`, or a function of the time that returns p (nq,).
+    reference : Reference, Solution or callable
+        What `zerodrift.reference` gave, a solution whose times contain those of `solution`, or a function of the time that
+        returns p (nq,).
     names : str or sequence of str, optional
         Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
 
@@ -79,16 +81,39 @@ def difference(solution: Solution, reference: Solution | Callable[[float], Any],
     (101, 1)
     """
     values, variables = signals(solution, names)
-    if isinstance(reference, Solution):
-        return values - signals(reference, names)[0][_rows_at(reference.t, solution.t)]
-    if not callable(reference):
-        raise TypeError(f"reference must be a Solution or a callable t -> p, not {reference!r}")
-    coordinates = solution.system.coordinates
-    columns = [coordinates.index(variable) for variable in variables if variable in coordinates]
-    if len(columns) < len(variables):
+    known = [*solution.system.coordinates, *solution.system.velocities]
+    exact = states_of(reference, solution.t, len(solution.system.coordinates))
+    columns = [known.index(variable) for variable in variables]
+    if max(columns, default=0) >= exact.shape[1]:
         raise ValueError("a callable reference gives coordinates only; names must be among "
-                         + ", ".join(repr(coordinate.name) for coordinate in coordinates))
-    return values - _called(reference, solution.t, len(coordinates))[:, columns]
+                         + ", ".join(repr(coordinate.name) for coordinate in solution.system.coordinates))
+    return values - exact[:, columns]
+
+
+def states_of(reference: Solution | Reference | Callable[[float], Any], times: np.ndarray, nq: int) -> np.ndarray:
+    """What a reference says at each of the times: p and v (k, nq + nv), or p (k, nq) if it is a callable."""
+    if isinstance(reference, Reference):
+        return _between(reference.solution, times)
+    if isinstance(reference, Solution):
+        return _states(reference)[_rows_at(reference.t, times)]
+    if not callable(reference):
+        raise TypeError(f"reference must be a Reference, a Solution or a callable t -> p, not {reference!r}")
+    return _called(reference, times, nq)
+
+
+def _between(solution: Solution, times: np.ndarray) -> np.ndarray:
+    """Rows where there are any, and values between rows where every step was saved."""
+    if "t_eval" in solution.settings:
+        return _states(solution)[_rows_at(solution.t, times)]
+    states = _states(solution)[nearest(solution.t, times)]
+    apart = _apart(solution.t, times)
+    if apart.any():
+        states[apart] = np.hstack(solution(times[apart]))
+    return states
+
+
+def _states(solution: Solution) -> np.ndarray:
+    return np.hstack([solution.p, solution.v])
 
 
 def _called(reference: Callable[[float], Any], times: np.ndarray, size: int) -> np.ndarray:
@@ -113,9 +138,13 @@ def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """The rows of `times` that have the times wanted."""
     if not len(times):
         raise ValueError("the reference solution has no rows")
-    rows = nearest(times, wanted)
-    missing = np.abs(times[rows] - wanted) > SAME_TIME * np.maximum(1, np.abs(wanted))
+    missing = _apart(times, wanted)
     if missing.any():
         raise ValueError(f"the reference has no row at t = {wanted[missing][0]:g} s; "
                          "its times must contain the solution's")
-    return rows
+    return nearest(times, wanted)
+
+
+def _apart(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Which of the times wanted are none of `times`."""
+    return np.abs(times[nearest(times, wanted)] - wanted) > SAME_TIME * np.maximum(1, np.abs(wanted))

@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 
 from ._drawing import animate, mechanism
 from ._gateway import Variable
+from .certified import Reference
 from .compare import difference, signals
 from .solution import Solution
 
@@ -182,16 +183,17 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     return _finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
 
 
-def error(sol: Solution, reference: Solution | Callable[[float], Any], names: str | Sequence[str] | None = None,
-          ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
+def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any],
+          names: str | Sequence[str] | None = None, ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
     """Draw solution minus reference over time.
 
     Parameters
     ----------
     sol : Solution
         What to draw.
-    reference : Solution or callable
-        A solution whose times contain those of `sol`, or a function of the time that returns p (nq,).
+    reference : Reference, Solution or callable
+        What `zerodrift.reference` gave, a solution whose times contain those of `sol`, or a function of the time that returns
+        p (nq,).
     names : str or sequence of str, optional
         Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
     ax : Axes, optional
