@@ -238,6 +238,14 @@ def test_a_value_that_is_not_finite_names_callable_and_time(term, value):
     assert len(caught.value.solution.t) > 5
 
 
+def test_a_jacobian_that_is_not_finite_is_named():
+    def broken(t, p, L):
+        return jacobian(p, L) if t < 0.1 else np.full((2, 3), np.nan)
+
+    with pytest.raises(ValueError, match=r"^jacobian is not finite at t = 0.1"):
+        zd.simulate(four_bar(jacobian=broken), 1.0, step=0.01)
+
+
 def test_a_shape_that_changes_on_the_way_is_caught():
     with pytest.raises(ValueError, match=r"force must return shape \(3,\), not \(4,\) \(at t = 0.1"):
         zd.simulate(four_bar(force=lambda t: np.zeros(3 if t < 0.1 else 4)), 1.0, step=0.01)

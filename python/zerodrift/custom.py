@@ -287,13 +287,13 @@ class _Writer:
         return [(name, function) for name, function in self._direct.items() if name in names], derived
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
-        """The error for a term that is not finite: it names the callable."""
-        source = _SOURCE.get(name)
-        if source not in self.functions:
-            source = "constraints" if self.mh else "nonholonomic"
-            name = f"{name}, derived from it,"
-            return ValueError(f"{source}: {name} is not finite at t = {t:g}: {value}")
-        return ValueError(f"{source} is not finite at t = {t:g}: {value}")
+        """The error for a term that is not finite: it names the callable, or those that may be at fault."""
+        asked = ("jacobian", "nonholonomic") if name == "C" else (_SOURCE.get(name),)
+        sources = [source for source in asked if source in self.functions]
+        if sources:
+            return ValueError(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}")
+        source = "constraints" if self.mh else "nonholonomic"
+        return ValueError(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}")
 
     def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         p, v, mh = arrays["p"], arrays["v"], self.mh
