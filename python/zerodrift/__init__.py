@@ -34,9 +34,9 @@ __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
-    "integrators", "load", "plot", "project", "reference", "simulate", "systems",
+    "integrators", "load", "plot", "project", "reference", "simulate", "systems", "work_precision",
 ]
-_LATER = {"reference": "certified"}     # functions whose module is imported when they are first used
+_LATER = {"reference": "certified", "work_precision": "benchmarking"}   # their modules are imported at first use
 
 
 def __getattr__(name: str) -> Any:
