@@ -34,9 +34,10 @@ __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
-    "integrators", "load", "plot", "project", "reference", "simulate", "systems", "work_precision",
+    "integrators", "load", "plot", "project", "reference", "simulate", "systems", "tune",
+    "work_precision",
 ]
-_LATER = {"reference": "certified", "work_precision": "benchmarking"}   # their modules are imported at first use
+_LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
 
 
 def __getattr__(name: str) -> Any:
