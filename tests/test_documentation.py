@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import matplotlib
+import matplotlib.pyplot as plt
 import pytest
 
 import zerodrift
@@ -20,6 +21,7 @@ MODULES = [module.name for module in pkgutil.walk_packages(zerodrift.__path__, "
 def test_examples_of_docstrings(name):
     matplotlib.use("Agg")
     failed, _ = doctest.testmod(importlib.import_module(name))
+    plt.close("all")
     assert failed == 0
 
 

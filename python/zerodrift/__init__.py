@@ -36,8 +36,9 @@ __all__ = [
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
     "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
+    "tune", "work_precision",
 ]
-_LATER = {"reference": "certified"}     # functions whose module is imported when they are first used
+_LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
 
 
 def __getattr__(name: str) -> Any:

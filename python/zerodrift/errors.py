@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from .benchmarking import WorkPrecision
     from .solution import Solution
 
 
@@ -57,8 +58,8 @@ class CorrectionWarning(UserWarning):
 
 
 class Interrupted(KeyboardInterrupt):
-    """A run was interrupted from the keyboard; `solution` has what was computed before."""
+    """A run was interrupted from the keyboard; `solution` has what was computed before: a Solution, or a WorkPrecision."""
 
-    def __init__(self, message: str, solution: Solution) -> None:
+    def __init__(self, message: str, solution: Solution | WorkPrecision) -> None:
         super().__init__(message)
         self.solution = solution

@@ -6,24 +6,30 @@ and no global setting of matplotlib is touched.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import itertools
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from ._drawing import animate, mechanism
 from ._gateway import Variable
+from .benchmarking import Row, Setting, WorkPrecision
 from .certified import Reference
 from .compare import difference, signals
+from .settings import Projection
 from .solution import Solution
 
-__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "violation"]
+__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "violation",
+           "work_precision"]
 
 # Okabe and Ito's colours, told apart with any colour vision; dark ones first.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
+MARKERS = "os^Dv<>pPX*"
 
 
 def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
@@ -227,6 +233,69 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
         _line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _labelled(variable)} | style)
     of = f" of {_labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
     return _finished(ax, ("|error|" if log else "error") + of, legend=len(variables) > 1 or "label" in style)
+
+
+def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
+    """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
+
+    The colour is that of the integrator, dashed where it chooses its steps; the marker is that of the formulation and the
+    corrections. Runs that failed are not there; below the dotted line, errors are those of the reference.
+
+    Parameters
+    ----------
+    result : WorkPrecision
+        What `zerodrift.work_precision` measured.
+    ax : Axes, optional
+        Left out: a new figure.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> ax = zd.plot.work_precision(zd.work_precision(zd.systems.pendulum(), 1.0, integrators=["rk4", "dop853"], rounds=1))
+    >>> ax.get_xlabel()
+    'time [ms]'
+    """
+    ax = _axes(ax)
+    ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
+    done = [row for row in result.rows if row.success and row.error > 0]
+    integrators = _assigned((row.setting.integrator for row in result.rows), COLOURS)
+    variants = _assigned((_variant(row.setting) for row in result.rows), MARKERS)
+    for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
+        times, errors, first, *_ = _curve(rows)
+        ax.plot(times, errors, "--" if first.tolerance else "-", color=integrators[first.integrator], linewidth=1, alpha=0.6,
+                marker=variants[_variant(first)], markersize=4)
+    times, errors, *_ = _curve(row for row in result.pareto() if row.error > 0)
+    ax.plot(times, errors, color="#F0E442", linewidth=8, zorder=0, solid_capstyle="round")
+    if result.reference_error > 0:
+        ax.axhline(result.reference_error, color="grey", linestyle=":", linewidth=1)
+    handles = [Line2D([], [], color=colour, label=name) for name, colour in integrators.items()]
+    handles += [Line2D([], [], color="grey", marker=marker, linestyle="", label=name) for name, marker in variants.items()]
+    handles += [Line2D([], [], color="#F0E442", linewidth=8, label="Pareto front"),
+                Line2D([], [], color="grey", linestyle="--", label="steps chosen by error"),
+                Line2D([], [], color="grey", linestyle=":", label="error of the reference")]
+    ax.legend(handles=handles, frameon=False, fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
+    return ax
+
+
+def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:
+    """Times in ms, errors, and the settings of each row."""
+    rows = list(rows)
+    return [1e3 * row.seconds for row in rows], [row.error for row in rows], *(row.setting for row in rows)
+
+
+def _variant(setting: Setting) -> str:
+    """Formulation and corrections, in words; projection is what goes without saying."""
+    other = setting.stabilization != Projection()
+    return setting.formulation + (f", {setting.stabilization}" if other else "") + (", energy" if setting.energy else "")
+
+
+def _assigned(names: Iterable[str], to: Sequence[str]) -> dict[str, str]:
+    """Colours or markers by name, in order of appearance."""
+    return dict(zip(dict.fromkeys(names), itertools.cycle(to), strict=False))
 
 
 # ---- what all share ----

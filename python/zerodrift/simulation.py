@@ -166,7 +166,7 @@ def _chosen(system, formulation, integrator, stabilization, energy) -> dict[str,
 
 def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any) -> tuple[int, float]:
     """Run slice by slice to the end; the status and the seconds it took."""
-    show, close = _progress(progress)
+    show, close = progress_of(progress)
     start, status = time.perf_counter(), _gateway.PAUSED
     try:
         while status in (_gateway.PAUSED, _gateway.FULL):
@@ -233,7 +233,7 @@ def _rows(span: tuple[float, float], chosen: dict[str, Any]) -> int:
     return steps // chosen["save_every"] + 1 + (steps % chosen["save_every"] != 0)
 
 
-def _progress(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
+def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
     """How to show progress, and how to end that."""
     if progress is False or progress is None:
         return (lambda part: None), (lambda: None)

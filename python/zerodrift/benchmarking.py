@@ -1,0 +1,325 @@
+"""`work_precision`: what an error costs, measured for any combination of methods."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _check, _gateway, certified, settings
+from ._system import BaseSystem
+from .compare import states_of
+from .errors import CorrectionWarning, Interrupted
+from .simulation import progress_of, simulate
+from .solution import Solution
+
+PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
+STEPS = tuple(2.0**-k for k in range(-2, 5))        # those multiples
+TOLERANCES = tuple(10.0**-k for k in range(3, 12))
+MEASURED = 200      # rows of a run at which its error is measured, at most; a reference between its rows takes time
+
+
+class Setting(NamedTuple):
+    """One way to simulate: steps of a fixed size (s), or chosen with ``rtol = atol = tolerance``."""
+
+    formulation: str
+    integrator: str
+    step: float | None
+    tolerance: float | None
+    stabilization: settings.Stabilization = settings.Projection()
+    energy: settings.EnergyCorrection | None = None
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """As `simulate` takes them."""
+        steps = {"step": self.step} if self.tolerance is None else {"rtol": self.tolerance, "atol": self.tolerance}
+        return {"formulation": self.formulation, "integrator": self.integrator, **steps,
+                "stabilization": self.stabilization, "energy": self.energy}
+
+    @property
+    def method(self) -> tuple[Any, ...]:
+        """What stays the same along a line of the diagram: all but the number that says how fine."""
+        return self._replace(step=None, tolerance=None), self.tolerance is not None
+
+
+class Row(NamedTuple):
+    """What one way to simulate costs and gives; numbers are NaN where there is nothing to measure.
+
+    Attributes
+    ----------
+    setting : Setting
+    success : bool
+        Whether the end was reached.
+    message : str
+        "done", or what happened.
+    seconds : float
+        The least of all rounds.
+    steps, evaluations : int
+        Counts of the core.
+    error : float
+        ``max |p - p_ref|`` over all coordinates and up to 200 rows of the run, the last among them.
+    position_violation, velocity_violation, energy_violation : float
+        The largest of all rows.
+    """
+
+    setting: Setting
+    success: bool
+    message: str
+    seconds: float
+    steps: int
+    evaluations: int
+    error: float
+    position_violation: float
+    velocity_violation: float
+    energy_violation: float
+
+    def flat(self) -> dict[str, Any]:
+        """The columns of a table."""
+        return {**self.setting._asdict(), **{name: value for name, value in self._asdict().items() if name != "setting"}}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorkPrecision:
+    """What was measured.
+
+    Attributes
+    ----------
+    system : system
+    t_span : (float, float)
+    rows : tuple of Row
+        One per way to simulate, failures included.
+    reference_error : float
+        Certified error of the reference; NaN where it was given without one. Errors below it say nothing.
+    rounds : int
+        How often each was timed.
+    complete : bool
+        False after Ctrl-C.
+    """
+
+    system: BaseSystem
+    t_span: tuple[float, float]
+    rows: tuple[Row, ...]
+    reference_error: float
+    rounds: int
+    complete: bool = True
+
+    def pareto(self) -> tuple[Row, ...]:
+        """The rows than which none is both faster and more accurate, from the fastest on.
+
+        Errors below the reference's own count as that.
+        """
+        front: list[Row] = []
+        known = np.nan_to_num(self.reference_error)
+        done = (row for row in self.rows if row.success and np.isfinite(row.error))
+        for row in sorted(done, key=lambda row: (row.seconds, row.error)):
+            if not front or max(row.error, known) < max(front[-1].error, known):
+                front.append(row)
+        return tuple(front)
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write all rows as comma-separated values.
+
+        Parameters
+        ----------
+        path : str or Path
+
+        Returns
+        -------
+        Path
+            Where it was written.
+        """
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, [*Setting._fields, *Row._fields[1:]])
+            writer.writeheader()
+            writer.writerows(row.flat() for row in self.rows)
+        return Path(path)
+
+    def to_dataframe(self) -> Any:
+        """All rows as a pandas.DataFrame, if pandas is installed."""
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError("to_dataframe needs pandas, which is not installed: pip install pandas") from None
+        return pandas.DataFrame([row.flat() for row in self.rows], columns=[*Setting._fields, *Row._fields[1:]])
+
+    def __repr__(self) -> str:
+        failed = sum(not row.success for row in self.rows)
+        title = (f"WorkPrecision of {self.system.name}, t = {self.t_span[0]:g} ... {self.t_span[1]:g} s: {len(self.rows)} rows, "
+                 f"{failed} failed{'' if self.complete else ', interrupted'}; reference known to {self.reference_error:.2g}")
+        table = [("error", "time [ms]", "evaluations", "integrator", "formulation", "steps by", "corrections")]
+        table += [_cells(row) for row in self.pareto()]
+        widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+        lines = ["  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True)).rstrip() for cells in table]
+        return "\n".join([title, *("  " + line for line in lines)])
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    setting = row.setting
+    fineness = f"step {setting.step:.3g} s" if setting.tolerance is None else f"tolerance {setting.tolerance:.2g}"
+    corrections = type(setting.stabilization).__name__ if setting.stabilization else "none"
+    return (f"{row.error:.2g}", f"{1e3 * row.seconds:.3g}", str(row.evaluations), setting.integrator, setting.formulation,
+            fineness, corrections + (", energy" if setting.energy else ""))
+
+
+def work_precision(
+    system: BaseSystem,
+    t_span: float | tuple[float, float],
+    p0: Any = None,
+    v0: Any = None,
+    *,
+    formulations: Iterable[str] | None = None,
+    integrators: Iterable[str] | None = None,
+    steps: Iterable[float] | None = None,
+    tolerances: Iterable[float] | None = None,
+    stabilizations: Iterable[str | settings.Stabilization] = ("projection",),
+    energy: Iterable[bool | settings.EnergyCorrection | None] = (None,),
+    reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
+    progress: bool | Callable[[float], None] = False,
+    rounds: int = 3,
+) -> WorkPrecision:
+    """Measure time and error of all combinations of what is chosen.
+
+    Time is what the core needs for a run that saves every step. All runs are made once, then all again, `rounds` times, and
+    the least time of each counts: so what else the machine does for a while slows all alike, and the least is hardly slowed.
+
+    Parameters
+    ----------
+    system : system
+        One of `zerodrift.systems`, or a `zerodrift.System`.
+    t_span : float or (float, float)
+        End time, or start and end, in s.
+    p0, v0 : array_like (nq,), (nv,), optional
+        Start; left out: the system's own.
+    formulations, integrators : iterable of str, optional
+        Left out: all there are.
+    steps : iterable of float, optional
+        Fixed steps in s, for every integrator. Left out: 4, 2, 1, 1/2 ... 1/16 times the mean step that the integrator of
+        highest order chooses at a tolerance of 1e-6.
+    tolerances : iterable of float, optional
+        rtol and atol, for the integrators that choose their steps. Left out: 1e-3, 1e-4 ... 1e-11.
+    stabilizations, energy : iterable, optional
+        Values of `stabilization` and `energy` as `simulate` takes them. Left out: projection, and no energy correction.
+    reference : Reference, Solution or callable, optional
+        What errors are measured against; left out: the best that `reference` certifies. A Solution must have the times of
+        all runs.
+    progress : bool or callable
+        As in `simulate`.
+    rounds : int
+        How often each run is timed.
+
+    Returns
+    -------
+    WorkPrecision
+        A run that fails is a row, too, with its message.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C; its `.solution` is the WorkPrecision of what was measured until then.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> wp = zd.work_precision(zd.systems.pendulum(), 1.0, formulations=["schur"], integrators=["rk4", "dop853"], rounds=1)
+    >>> len(wp.rows), wp.rows[0].setting.integrator
+    (23, 'rk4')
+    >>> bool(wp.pareto()[-1].error < 1e-9)
+    True
+    """
+    span = _check.span(t_span)
+    formulations, integrators = _names("formulations", formulations), _names("integrators", integrators)
+    stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
+    steps = _default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
+    tolerances = TOLERANCES if tolerances is None else [_check.number("tolerances", tol, above=0) for tol in tolerances]
+    combinations = [
+        Setting(formulation, integrator, *fineness, stabilization, corrected)
+        for formulation, integrator, stabilization, corrected in itertools.product(
+            formulations, integrators, stabilizations, energy)
+        for fineness in _finenesses(integrator, steps, tolerances)]
+    if not combinations:
+        raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
+    rounds = _check.count("rounds", rounds)
+    reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
+    return Bench(system, span, p0, v0, reference).measure(combinations, rounds, progress)
+
+
+class Bench:
+    """A motion, and the reference against which runs of it are measured."""
+
+    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any) -> None:
+        self.system, self.span, self.start, self.reference = system, span, (p0, v0), reference
+        self.known = reference.error if isinstance(reference, certified.Reference) else np.nan
+        self._exact: dict[bytes, np.ndarray] = {}       # fixed steps of several methods ask for the same times
+
+    def measure(self, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:
+        """All combinations, `rounds` times in turn."""
+        rows: dict[Setting, Row] = {}
+        show, close = progress_of(progress)
+        try:
+            for done, setting in enumerate(setting for _ in range(rounds) for setting in combinations):
+                rows[setting] = self._row(setting, rows.get(setting))
+                show((done + 1) / (rounds * len(combinations)))
+        except KeyboardInterrupt:
+            partial = WorkPrecision(self.system, self.span, tuple(rows.values()), self.known, rounds, complete=False)
+            raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} rows", partial) from None
+        finally:
+            close()
+        return WorkPrecision(self.system, self.span, tuple(rows.values()), self.known, rounds)
+
+    def _row(self, setting: Setting, before: Row | None) -> Row:
+        """A run measured; if it was before, only its time."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", CorrectionWarning)      # it is the row's message
+            solution = simulate(self.system, self.span, *self.start, **setting.settings, on_failure="return")
+        if solution.status == _gateway.INTERRUPTED:
+            raise KeyboardInterrupt
+        if before:
+            return before._replace(seconds=min(before.seconds, solution.stats["seconds"]))
+        return Row(setting, solution.success, _message(solution), solution.stats["seconds"], solution.stats["steps"],
+                   solution.stats["evaluations"], self._error(solution),
+                   *map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation)))
+
+    def _error(self, solution: Solution) -> float:
+        """Of a run that reached its end."""
+        if not solution.success:
+            return np.nan
+        chosen = np.unique(np.linspace(0, len(solution.t) - 1, MEASURED).round().astype(int))
+        times, nq = solution.t[chosen], self.system.nq
+        if times.tobytes() not in self._exact:
+            self._exact[times.tobytes()] = states_of(self.reference, times, nq)[:, :nq]
+        return _largest(solution.p[chosen] - self._exact[times.tobytes()])
+
+
+def _message(solution: Solution) -> str:
+    skipped = solution.stats["energy_skipped"]
+    return solution.message + (f"; {skipped} energy corrections left out" if skipped else "")
+
+
+def _largest(values: np.ndarray | None) -> float:
+    return float(np.abs(values).max()) if values is not None and values.size else np.nan
+
+
+def _names(table: str, chosen: Iterable[str] | None) -> list[str]:
+    """Those chosen of a table, or all."""
+    known = getattr(settings, table)()
+    if isinstance(chosen, str):
+        raise TypeError(f"{table} must be a list of names, not {chosen!r}")
+    return [_check.choice(table, name, known) for name in (known if chosen is None else chosen)]
+
+
+def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
+    """Pairs (step, tolerance), one of them None."""
+    chooses = settings.integrators()[integrator].error_order
+    return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
+
+
+def _default_steps(system, span, p0, v0) -> list[float]:
+    method = max(settings.integrators().values(), key=lambda card: card.order).name
+    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method)
+    return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

@@ -1,0 +1,68 @@
+"""`zd.tune`: what it picks reaches what was asked for. Times are not asserted."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import SYSTEMS
+from zerodrift import compare
+
+BAR = SYSTEMS["four_bar"]
+FEW = {"formulations": ["schur", "independent"], "integrators": ["rk4", "dop853"], "rounds": 1}
+
+
+@pytest.mark.parametrize("error", [1e-4, 1e-8])
+def test_the_error_is_met_on_every_system(system, error):
+    """By a run of one's own, at every row, against a reference of another formulation."""
+    tuning = zd.tune(system, 0.5, error=error, **FEW)
+    sol = zd.simulate(system, 0.5, **tuning.settings)
+    ref = zd.reference(system, 0.5, error=1e-10, formulations=("nullspace", "augmented"))
+    assert np.abs(compare.difference(sol, ref)).max() <= error + ref.error
+    assert tuning.row in tuning.evidence.rows
+    assert f"Tuning of {system.name}" in repr(tuning)
+
+
+def test_the_evidence_has_every_setting_once():
+    tuning = zd.tune(BAR, 1.0, error=1e-6, **FEW)
+    assert len(tuning.evidence.rows) == len({row.setting for row in tuning.evidence.rows})
+    assert {row.setting.integrator for row in tuning.evidence.rows} == {"rk4", "dop853"}
+
+
+def test_steps_finer_than_those_of_the_sweep_are_tried():
+    tuning = zd.tune(BAR, 1.0, error=1e-6, formulations=["schur"], integrators=["rk4"], rounds=1)
+    assert tuning.row.error <= 1e-6
+
+
+def test_a_budget_that_all_keep_is_used_for_accuracy():
+    tuning = zd.tune(SYSTEMS["pendulum"], 0.5, budget=100.0, **FEW)
+    assert tuning.row.error < 1e-10
+
+
+# ---- what it refuses ----
+
+
+def test_an_error_below_round_off_is_refused():
+    with pytest.raises(zd.UnreachableTolerance, match="is below round-off as this motion multiplies it"):
+        zd.tune(BAR, 8.0, error=1e-13)
+
+
+def test_an_error_that_no_method_allowed_reaches_is_refused():
+    with pytest.raises(zd.UnreachableTolerance, match=r"reached by none of .* has an error of"):
+        zd.tune(BAR, 1.0, error=1e-9, formulations=["schur"], integrators=["euler"])
+
+
+def test_a_budget_that_no_run_keeps_is_refused():
+    with pytest.raises(ValueError, match="budget = 1e-12 s is kept by none of"):
+        zd.tune(BAR, 0.5, budget=1e-12, **FEW)
+
+
+@pytest.mark.parametrize("options", [{}, {"error": 1e-6, "budget": 1.0}])
+def test_one_of_error_and_budget_is_needed(options):
+    with pytest.raises(ValueError, match="either error or budget must be given"):
+        zd.tune(BAR, 1.0, **options)
+
+
+@pytest.mark.parametrize("options", [{"error": 0.0}, {"budget": -1.0}])
+def test_bad_values(options):
+    with pytest.raises(ValueError, match="must be greater than 0"):
+        zd.tune(BAR, 1.0, **options)
