@@ -22,7 +22,7 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
         .D = zd_take_doubles(arena, n * r),
         .K = zd_take_doubles(arena, own ? n * n : m * m),
         .gram = zd_take_doubles(arena, own ? r * r : 0),
-        .work = zd_take_doubles(arena, n * n),
+        .work = zd_take_doubles(arena, (n + 1) * n),
     };
 }
 
