@@ -26,7 +26,8 @@ static double bounded(const zd_run *run, double h)
     return fmin(fmin(h, longest), run->settings.t1 - run->t);
 }
 
-/* The first step: from how fast the state changes, and how fast that does. */
+/* The first step: from how fast the state changes, and how fast that does. All times are measured by the former, so that their
+ * unit makes no difference. */
 int zd_control_start(zd_run *run)
 {
     int n = run->rate.size;
@@ -37,13 +38,14 @@ int zd_control_start(zd_run *run)
     int status = run->rate.evaluate(run, run->t, run->y, f0);
     if (status) return status;
     double d0 = root_mean_square(n, run->y, run->control.scale), d1 = root_mean_square(n, f0, run->control.scale);
-    double h0 = bounded(run, d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1);
+    double span = run->settings.t1 - run->settings.t0, time = d0 < 1e-5 || d1 * span < 1e-5 ? 1e-4 * span : d0 / d1;
+    double h0 = bounded(run, 0.01 * time);
     for (int i = 0; i < n; i++) y1[i] = run->y[i] + h0 * f0[i];
     status = run->rate.evaluate(run, run->t + h0, y1, f1);
     if (status) return status;
     for (int i = 0; i < n; i++) f1[i] -= f0[i];
-    double fastest = fmax(d1, root_mean_square(n, f1, run->control.scale) / h0);
-    double h1 = fastest <= 1e-15 ? fmax(1e-6, 1e-3 * h0) : pow(0.01 / fastest, 1.0 / (run->integrator->card.error_order + 1));
+    double fastest = fmax(time * d1, time * time * root_mean_square(n, f1, run->control.scale) / h0);
+    double h1 = fastest <= 1e-15 ? h0 : time * pow(0.01 / fastest, 1.0 / (run->integrator->card.error_order + 1));
     run->control.h = fmin(100 * h0, h1);
     return ZD_DONE;
 }

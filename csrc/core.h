@@ -26,6 +26,11 @@ typedef struct zd_point {
     zd_terms terms;
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *force, *rhs;    /* (nv,), (m,): right sides being put together */
+    double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see measure.c; and 1 / unit */
+    double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
+    double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
+    double *per_size;       /* (m,): 1 / size */
+    int measured;           /* whether these are known */
     int culprit;            /* the coordinate or row that a failed factorization names */
     double defect;          /* what a failed iteration was left with */
 } zd_point;
@@ -42,6 +47,9 @@ void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
 double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
+double zd_max_scaled(int n, const double *x, const double *scale);    /* of |x_i| scale_i, likewise; measure.c */
+int zd_point_measure(zd_point *point);              /* unit and size, from where the point is; measure.c */
+double zd_point_violation(const zd_point *point);   /* largest |Phi| in units of its row's size; needs Phi */
 
 /* Has the terms in `want` computed, those that the system has and that are not known yet. */
 static inline int zd_point_need(zd_point *point, int want)
@@ -81,6 +89,7 @@ typedef struct zd_integrator {
     const void *table;      /* coefficients, for methods that share a stepper */
     void *(*take)(zd_arena *arena, const void *table, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    double stability;       /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
 } zd_integrator;
@@ -123,6 +132,20 @@ typedef struct zd_place {   /* where a run was */
     double *extra;          /* what the state has besides them */
 } zd_place;
 
+typedef struct zd_watch {   /* where a step began, with which its end is compared */
+    int kept;               /* whether there is such */
+    int branch, stability;  /* what is looked at */
+    int looking;            /* whether at the stability of the next step */
+    double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
+    zd_place begin;
+    double *pdot, *vdot;    /* (nq,), (nv,): there */
+    double *rate;           /* (nq,): pdot at the end */
+    double *p, *v, *C;      /* (nq,), (nv,), (mh, nv): at the end, while the point is elsewhere */
+    double speed;           /* |pdot|^2 there, in natural units */
+    int streak;             /* steps in succession that were longer than the method is stable for */
+    double fourth;          /* (omega h)^4, the largest seen */
+} zd_watch;
+
 typedef struct zd_output {
     zd_place before, after; /* the step */
     long next;              /* of settings.t_eval */
@@ -156,7 +179,11 @@ struct zd_run {
     long step, steps;       /* begun; to do, where they are of fixed size */
     zd_control control;     /* where steps are chosen */
     zd_output output;       /* where something between steps is to be saved */
+    zd_watch watch;
+    zd_place whole;         /* where the step that is made in parts began */
+    int parts;              /* of the step being made, if more than one: each is corrected */
     int iterations;         /* most position iterations of a step since the last saved row */
+    int energy_skipped;     /* energy corrections left out since then */
     int status;
     char message[ZD_MESSAGE];
 };
@@ -164,7 +191,7 @@ struct zd_run {
 /* Whether this step is one of every so many, or the last. One of every 1 is not worth a division, the slowest of instructions. */
 static inline int zd_run_is_due(const zd_run *run, long every)
 {
-    return every == 1 || run->step % every == 0 || run->t == run->settings.t1 || run->output.between;
+    return every == 1 || run->step % every == 0 || run->t == run->settings.t1 || run->output.between || run->parts;
 }
 
 /* dynamics.c: what integrators, corrections and recorder ask of a run */
@@ -190,7 +217,15 @@ int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, a
 int zd_control_start(zd_run *run);
 int zd_control_step(zd_run *run);
 
+/* watch.c: whether a step can be believed */
+zd_watch zd_watch_take(const zd_run *run, zd_arena *arena, zd_place begin);
+int zd_watch_begin(zd_run *run);            /* keeps where the run is */
+int zd_watch_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
+
 /* output.c: values between steps */
+void zd_place_keep(const zd_run *run, zd_place *place);
+void zd_place_copy(const zd_run *run, const zd_place *from, zd_place *to);
+int zd_place_return(zd_run *run, const zd_place *place);
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
 int zd_output_is_complete(const zd_run *run);

@@ -2,21 +2,30 @@
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
  */
 #include "core.h"
+#include "linalg/small.h"
 
 static size_t extra_bytes(const zd_run *run)
 {
     return (size_t)(run->rate.size - run->own_size) * sizeof(double);
 }
 
-static void keep(const zd_run *run, zd_place *place)
+void zd_place_keep(const zd_run *run, zd_place *place)
 {
     place->t = run->t;
-    memcpy(place->p, run->point->p, (size_t)run->system.nq * sizeof(double));
-    memcpy(place->v, run->point->v, (size_t)run->system.nv * sizeof(double));
-    memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, place->p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, place->v);
+    if (extra_bytes(run)) memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
 }
 
-static int go_back(zd_run *run, const zd_place *place)
+void zd_place_copy(const zd_run *run, const zd_place *from, zd_place *to)
+{
+    to->t = from->t;
+    memcpy(to->p, from->p, (size_t)run->system.nq * sizeof(double));
+    memcpy(to->v, from->v, (size_t)run->system.nv * sizeof(double));
+    memcpy(to->extra, from->extra, extra_bytes(run));
+}
+
+int zd_place_return(zd_run *run, const zd_place *place)
 {
     run->state = run->y;
     memcpy(run->y + run->own_size, place->extra, extra_bytes(run));
@@ -25,13 +34,13 @@ static int go_back(zd_run *run, const zd_place *place)
 
 void zd_output_before(zd_run *run)
 {
-    keep(run, &run->output.before);
+    zd_place_keep(run, &run->output.before);
 }
 
 static int save_between(zd_run *run, double t, zd_record *record)
 {
     const zd_place *before = &run->output.before;
-    int status = go_back(run, before);
+    int status = zd_place_return(run, before);
     run->output.between = 1;
     if (!status) status = zd_run_integrate(run, t - before->t);
     if (!status) status = zd_run_land(run, t);
@@ -49,12 +58,12 @@ int zd_output_after(zd_run *run, zd_record *record)
 {
     double t1 = run->t;
     int status = ZD_DONE, away = 0;
-    if (is_wanted(run, t1)) keep(run, &run->output.after);
+    if (is_wanted(run, t1)) zd_place_keep(run, &run->output.after);
     while (!status && is_wanted(run, nextafter(t1, -INFINITY))) {
         away = 1;
         status = save_between(run, run->settings.t_eval[run->output.next++], record);
     }
-    if (!status && away) status = go_back(run, &run->output.after);
+    if (!status && away) status = zd_place_return(run, &run->output.after);
     if (status || !is_wanted(run, t1)) return status;
     run->output.next++;
     return zd_record_row(run, record);

@@ -5,7 +5,7 @@
 #include "linalg/small.h"
 #include "registry.h"
 
-static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
+static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
 static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
 
 /* ---- memory ---- */
@@ -73,6 +73,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
+    run.watch = zd_watch_take(&run, arena, take_place(arena, system, (size_t)(size - run.own_size)));
+    run.whole = take_place(arena, system, (size_t)(size - run.own_size));
     if (settings->t_eval) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
         run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
@@ -104,7 +106,21 @@ int zd_run_place(zd_run *run, double t, const double *p, const double *v)
 {
     run->t = t;
     zd_point_move(run->point, t, p, v);
-    return run->formulation->leave(run->solver, run->point, run->y);
+    int status = zd_point_measure(run->point);
+    return status ? status : run->formulation->leave(run->solver, run->point, run->y);
+}
+
+/* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
+static double velocity_violation(const zd_run *run)
+{
+    const zd_point *point = run->point;
+    double speed = zd_max_scaled(run->system.nv, point->v, point->per_unit) + 1 / (run->settings.t1 - run->settings.t0);
+    double largest = 0;
+    for (int k = 0; k < zd_constraints(&run->system); k++) {
+        double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
+        largest = fmax(largest, fabs(run->Psi[k]) / size);
+    }
+    return largest;
 }
 
 /* Refuses a violation of the constraints beyond the tolerance. */
@@ -116,10 +132,10 @@ static int check_constraints(zd_run *run)
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !m) return status;
     zd_point_velocity_violation(point, run->Psi);
-    double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
+    double position = mh ? zd_point_violation(point) : 0, velocity = velocity_violation(run);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
     snprintf(run->message, sizeof run->message,
-             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
+             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g); "
              "zd.assemble finds a consistent start nearby", position, velocity, allowed);
     return ZD_BAD_START;
 }
@@ -135,11 +151,11 @@ static int check_tolerance(zd_run *run)
     for (int k = 0; k < run->system.mh; k++) {
         double rounding = 0;
         for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->system.nv + i] * point->p[i]);
-        reachable = fmax(reachable, rounding);
+        reachable = fmax(reachable, rounding * point->per_size[k]);
     }
     if (projection->tolerance > reachable) return ZD_DONE;
     snprintf(run->message, sizeof run->message,
-             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g",
+             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g of its size",
              projection->tolerance, reachable);
     return ZD_UNREACHABLE;
 }
@@ -175,9 +191,11 @@ static int start(zd_run *run, const double *p0, const double *v0)
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
-    if (status || run->settings.step > 0) return status;
-    status = zd_control_start(run);
-    return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */
+    if (!status && !(run->settings.step > 0)) {
+        status = zd_control_start(run);
+        if (!status) status = zd_run_place(run, run->settings.t0, p0, v0);  /* wherever that has looked */
+    }
+    return status ? status : zd_watch_begin(run);
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)
@@ -223,3 +241,4 @@ double zd_run_progress(const zd_run *run)
 
 const char *zd_run_message(const zd_run *run) { return run->message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->statistics; }
+const double *zd_run_sizes(const zd_run *run) { return run->point->size; }

@@ -3,7 +3,7 @@
 
 #include "core.h"
 
-enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
+enum { CLOCK_EVERY = 16, MOST_PARTS = 8 };     /* steps between looks at the clock; of a step that cannot be corrected */
 
 static double now(void)
 {
@@ -22,6 +22,7 @@ int zd_run_integrate(zd_run *run, double h)
 int zd_run_land(zd_run *run, double t1)
 {
     const zd_formulation *formulation = run->formulation;
+    double h = t1 - run->t;
     run->t = t1;
     run->state = run->y;
     if (run->extras) run->point->known &= ~ZD_ACCELERATED;
@@ -29,14 +30,51 @@ int zd_run_land(zd_run *run, double t1)
     if (!status) status = zd_run_correct(run);
     if (!status) status = formulation->leave(run->solver, run->point, run->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
-    return !status && formulation->settle ? formulation->settle(run->solver, run->point) : status;
+    if (!status && formulation->settle) status = formulation->settle(run->solver, run->point);
+    return status ? status : zd_watch_step(run, h);
+}
+
+/* From where the step began to t1, in equal parts. */
+static int take_parts(zd_run *run, double t1)
+{
+    const double t0 = run->whole.t;
+    int status = zd_place_return(run, &run->whole);
+    if (!status) status = zd_watch_begin(run);
+    for (int part = 1; !status && part <= run->parts; part++) {
+        double t = part == run->parts ? t1 : t0 + (t1 - t0) * part / run->parts;
+        status = zd_run_integrate(run, t - run->t);
+        if (!status) status = zd_run_land(run, t);
+    }
+    return status;
+}
+
+static int is_too_far(int status)
+{
+    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING;
+}
+
+/* A step that has led too far away to be corrected is made in parts; if that does not help, either, it stays so and is named. */
+static int divide_step(zd_run *run, int status, double t1)
+{
+    zd_place_copy(run, &run->watch.begin, &run->whole);
+    for (run->parts = 2; is_too_far(status) && run->parts <= MOST_PARTS; run->parts *= 2) {
+        int again = take_parts(run, t1);
+        if (!again) {
+            run->parts = 0;
+            run->statistics.subdivided++;
+            return ZD_DONE;
+        }
+        status = again;
+    }
+    return status;
 }
 
 static int take_fixed_step(zd_run *run)
 {
     double t1 = zd_run_time(run, run->step);
     int status = zd_run_integrate(run, run->step == run->steps ? t1 - run->t : run->settings.step);
-    return status ? status : zd_run_land(run, t1);
+    if (!status) status = zd_run_land(run, t1);
+    return is_too_far(status) && run->watch.kept ? divide_step(run, status, t1) : status;
 }
 
 static int take_step(zd_run *run)

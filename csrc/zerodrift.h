@@ -30,7 +30,8 @@ enum zd_status {
     ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
     ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
-    ZD_UNSUITED = -15         /* the formulation cannot take this system */
+    ZD_UNSUITED = -15,        /* the formulation cannot take this system */
+    ZD_BRANCH = -16           /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -81,6 +82,8 @@ typedef struct zd_system {
     const void *data;   /* its parameters, or whatever it wants to be handed */
     zd_embed *embed;    /* may be NULL: then g is found numerically */
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
+    const int *lengths;     /* (nq + nv,): which entries of p are lengths, and of v lengths per time; NULL: none, all are pure
+                             * numbers such as angles */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
 
@@ -144,7 +147,7 @@ enum zd_metric { ZD_MASS_METRIC, ZD_IDENTITY_METRIC };
 
 typedef struct zd_projection {      /* (25)-(27) */
     int every;                      /* steps between corrections; 0: off */
-    double tolerance;               /* of max |Phi| */
+    double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
     int max_iterations;
     enum zd_metric metric;
     int positions, velocities;      /* which of the two are corrected */
@@ -188,6 +191,9 @@ typedef struct zd_statistics {
     long velocity_corrections;
     long energy_corrections;
     long energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
+    long damped;                /* position corrections that converged only with shortened iterations */
+    long subdivided;            /* steps of fixed size that were made in parts, as their correction failed */
+    long unstable;              /* steps longer than the method is stable for */
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
     long repartitions;          /* changes of the independent variables between steps */
@@ -200,6 +206,7 @@ typedef struct zd_record {      /* one row per saved instant; memory belongs to 
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */
     double *kinetic, *potential, *input, *energy_violation; /* (capacity,) J; the last three NULL without potential */
     int *iterations;            /* (capacity,) most position iterations of a step since the row before */
+    int *energy_skipped;        /* (capacity,) energy corrections left out since the row before */
 } zd_record;
 
 typedef struct zd_run zd_run;
@@ -216,6 +223,10 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */
 const char *zd_run_message(const zd_run *run);              /* the first failure, one sentence */
 const zd_statistics *zd_run_statistics(const zd_run *run);
+/* (mh,): the size of each row of Phi at the start: what the largest of its coordinates' natural motions makes of it, one radian
+ * of an angle or the mechanism's own length. */
+const double *zd_run_sizes(const zd_run *run);
+double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */
 

@@ -11,5 +11,6 @@ static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
 
 const zd_integrator zd_euler = {
     .card = {"euler", "Euler's explicit method: for comparison.", "Euler, 1768", 1},
+    .stability = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

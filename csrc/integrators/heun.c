@@ -12,5 +12,6 @@ static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_heun = {
     .card = {"heun", "Heun's method: the explicit trapezoidal rule.", "Heun, 1900", 2},
+    .stability = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

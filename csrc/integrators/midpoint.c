@@ -12,5 +12,6 @@ static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_midpoint = {
     .card = {"midpoint", "The explicit midpoint rule.", "Runge, 1895", 2},
+    .stability = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -14,5 +14,6 @@ static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
 
 const zd_integrator zd_rk4 = {
     .card = {"rk4", "The classical explicit Runge-Kutta method.", "section 4", 4},
+    .stability = 2.785,
     ZD_RUNGE_KUTTA(tableau),
 };

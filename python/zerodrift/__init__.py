@@ -13,12 +13,14 @@ from . import systems
 from .checking import check
 from .custom import System
 from .errors import (
+    BranchJump,
     CorrectionFailed,
     CorrectionWarning,
     Diverged,
     InconsistentStart,
     Interrupted,
     SingularSystem,
+    StabilityWarning,
     StaleCore,
     StepFailed,
     UnreachableTolerance,
@@ -32,8 +34,8 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
-    "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
+    "Baumgarte", "BranchJump", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
+    "Interrupted", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
     "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
     "tune", "work_precision",

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _check, _gateway, settings
 from ._system import BaseSystem, core_of
-from .errors import CorrectionWarning, Interrupted
+from .errors import CorrectionWarning, Interrupted, StabilityWarning
 from .solution import Solution
 
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
@@ -203,14 +203,25 @@ def _finish(system, span, chosen, run, record, on_failure, status, seconds) -> S
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
+        energy_skipped=arrays["energy_skipped"], position_size=run.sizes,
         stats=run.statistics | {"seconds": seconds}, status=status, success=status == _gateway.DONE,
         message=_message(run, status), settings=chosen, system=system, t_span=span)
     if on_failure == "raise" and not solution.success:
         _raise(run, status, solution)
-    if skipped := solution.stats["energy_skipped"]:
-        warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the "
-                      "kinetic energy is too small for them", CorrectionWarning, stacklevel=3)
+    _warn(solution)
     return solution
+
+
+def _warn(solution: Solution) -> None:
+    """Of what was off but stopped nothing."""
+    stats = solution.stats
+    if skipped := stats["energy_skipped"]:
+        warnings.warn(f"{skipped} of {stats['steps']} energy corrections were left out: near a turning point the "
+                      "kinetic energy is too small for them; sol.energy_skipped says where", CorrectionWarning, stacklevel=4)
+    if unstable := stats["unstable"]:
+        warnings.warn(f"{unstable} of {stats['steps']} steps were longer than {solution.settings['integrator']!r} is stable for "
+                      f"(omega h up to {stats['omega_h']:.3g}): take shorter ones, or an implicit method",
+                      StabilityWarning, stacklevel=4)
 
 
 def _raise(run: _gateway.Run, status: int, solution: Solution) -> None:

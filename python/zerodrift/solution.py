@@ -38,8 +38,14 @@ class Solution:
         V, the integral of the energy input rate, and Psi_E of (28), in J; None where the system declares no potential.
     iterations : ndarray (k,)
         Most position iterations of a step since the row before.
+    energy_skipped : ndarray (k,)
+        Energy corrections since the row before that were left out: no bounded factor (29) would have removed the error.
+    position_size : ndarray (mh,)
+        The size of each row of Phi, in which `Projection` measures it.
     stats : dict
-        Counts (steps, evaluations, factorizations, ...) and `seconds`, the time spent in the core.
+        Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
+        product of the motion's angular frequency and a step of fixed size, as far as that was looked at: an explicit
+        method needs it small.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -65,6 +71,8 @@ class Solution:
     energy_input: np.ndarray | None
     energy_violation: np.ndarray | None
     iterations: np.ndarray
+    energy_skipped: np.ndarray
+    position_size: np.ndarray
     stats: dict[str, Any]
     status: int
     success: bool

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE, TERMS
+from .base import CALLBACK, DONE, TERMS, lengths
 from .systems import CoreSystem
 
 
@@ -78,12 +78,14 @@ class PythonCore(CoreSystem):
     ``write.not_finite(name, t, value)`` is the error for a term that came out not finite.
     """
 
-    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None]) -> None:
+    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
+                 units: Sequence[str], rates: Sequence[str]) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         for name in names:
             system.provides |= TERMS[name][0]
         system.evaluate = lib.zd_evaluate_in_python
+        system.lengths = self._lengths = lengths(units, rates)
         super().__init__(system, None)
         self.write, self.evaluator = write, None
 

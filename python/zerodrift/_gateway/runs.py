@@ -26,6 +26,7 @@ def count_steps(t0: float, t1: float, step: float) -> int:
     return int(lib.zd_count_steps(t0, t1, step))
 
 
+COUNTS = ("iterations", "energy_skipped")     # the integers of a row
 STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
 
 
@@ -42,19 +43,21 @@ class Record:
     def _add(self, capacity: int) -> None:
         widths = [math.prod(shape) for shape in self._shapes.values()]
         try:
-            block, iterations = np.empty(capacity * sum(widths)), np.empty(capacity, dtype=np.intc)
+            block, counts = np.empty(capacity * sum(widths)), np.empty((2, capacity), dtype=np.intc)
         except (MemoryError, ValueError):
             size = capacity * (sum(widths) + 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
         self.c = ffi.new("zd_record *")
         self.c.capacity = capacity
-        memory, arrays, start = doubles(block, block.size, writable=True), {"iterations": iterations}, 0
+        memory, arrays, start = doubles(block, block.size, writable=True), dict(zip(COUNTS, counts, strict=True)), 0
         for (name, shape), width in zip(self._shapes.items(), widths, strict=True):
             setattr(self.c, name, memory + start)
             arrays[name] = block[start:start + capacity * width].reshape(capacity, *shape)
             start += capacity * width
-        self.c.iterations = counts = ffi.from_buffer("int[]", iterations, require_writable=True)
-        self._blocks.append((self.c, (memory, counts), arrays))
+        integers = ffi.from_buffer("int[]", counts, require_writable=True)
+        for i, name in enumerate(COUNTS):
+            setattr(self.c, name, integers + i * capacity)
+        self._blocks.append((self.c, (memory, integers), arrays))
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
@@ -96,10 +99,15 @@ class Run:
         return text(lib.zd_run_message(self._run))
 
     @property
-    def statistics(self) -> dict[str, int]:
-        """Counts of what the run did."""
+    def statistics(self) -> dict[str, Any]:
+        """Counts of what the run did, and its largest omega h."""
         c = lib.zd_run_statistics(self._run)
-        return {name: getattr(c, name) for name in STATISTICS}
+        return {name: getattr(c, name) for name in STATISTICS} | {"omega_h": lib.zd_run_omega_h(self._run)}
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """The sizes of the rows of Phi (mh,)."""
+        return np.array(ffi.unpack(lib.zd_run_sizes(self._run), self._core.mh) if self._core.mh else [], dtype=float)
 
 
 def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:
