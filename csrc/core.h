@@ -132,7 +132,7 @@ typedef struct zd_place {   /* where a run was */
     double *extra;          /* what the state has besides them */
 } zd_place;
 
-typedef struct zd_watch {   /* where a step began, with which its end is compared */
+typedef struct zd_guard {   /* where a step began, with which its end is compared */
     int kept;               /* whether there is such */
     int branch, stability;  /* what is looked at */
     int looking;            /* whether at the stability of the next step */
@@ -144,7 +144,7 @@ typedef struct zd_watch {   /* where a step began, with which its end is compare
     double speed;           /* |pdot|^2 there, in natural units */
     int streak;             /* steps in succession that were longer than the method is stable for */
     double fourth;          /* (omega h)^4, the largest seen */
-} zd_watch;
+} zd_guard;
 
 typedef struct zd_output {
     zd_place before, after; /* the step */
@@ -179,7 +179,7 @@ struct zd_run {
     long step, steps;       /* begun; to do, where they are of fixed size */
     zd_control control;     /* where steps are chosen */
     zd_output output;       /* where something between steps is to be saved */
-    zd_watch watch;
+    zd_guard guard;
     zd_place whole;         /* where the step that is made in parts began */
     int parts;              /* of the step being made, if more than one: each is corrected */
     int iterations;         /* most position iterations of a step since the last saved row */
@@ -217,10 +217,10 @@ int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, a
 int zd_control_start(zd_run *run);
 int zd_control_step(zd_run *run);
 
-/* watch.c: whether a step can be believed */
-zd_watch zd_watch_take(const zd_run *run, zd_arena *arena, zd_place begin);
-int zd_watch_begin(zd_run *run);            /* keeps where the run is */
-int zd_watch_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
+/* guard.c: whether a step can be believed */
+zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin);
+int zd_guard_begin(zd_run *run);            /* keeps where the run is */
+int zd_guard_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
 
 /* output.c: values between steps */
 void zd_place_keep(const zd_run *run, zd_place *place);

@@ -73,7 +73,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
-    run.watch = zd_watch_take(&run, arena, take_place(arena, system, (size_t)(size - run.own_size)));
+    run.guard = zd_guard_take(&run, arena, take_place(arena, system, (size_t)(size - run.own_size)));
     run.whole = take_place(arena, system, (size_t)(size - run.own_size));
     if (settings->t_eval) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
@@ -195,7 +195,7 @@ static int start(zd_run *run, const double *p0, const double *v0)
         status = zd_control_start(run);
         if (!status) status = zd_run_place(run, run->settings.t0, p0, v0);  /* wherever that has looked */
     }
-    return status ? status : zd_watch_begin(run);
+    return status ? status : zd_guard_begin(run);
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)

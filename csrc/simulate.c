@@ -31,7 +31,7 @@ int zd_run_land(zd_run *run, double t1)
     if (!status) status = formulation->leave(run->solver, run->point, run->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
     if (!status && formulation->settle) status = formulation->settle(run->solver, run->point);
-    return status ? status : zd_watch_step(run, h);
+    return status ? status : zd_guard_step(run, h);
 }
 
 /* From where the step began to t1, in equal parts. */
@@ -39,7 +39,7 @@ static int take_parts(zd_run *run, double t1)
 {
     const double t0 = run->whole.t;
     int status = zd_place_return(run, &run->whole);
-    if (!status) status = zd_watch_begin(run);
+    if (!status) status = zd_guard_begin(run);
     for (int part = 1; !status && part <= run->parts; part++) {
         double t = part == run->parts ? t1 : t0 + (t1 - t0) * part / run->parts;
         status = zd_run_integrate(run, t - run->t);
@@ -56,7 +56,7 @@ static int is_too_far(int status)
 /* A step that has led too far away to be corrected is made in parts; if that does not help, either, it stays so and is named. */
 static int divide_step(zd_run *run, int status, double t1)
 {
-    zd_place_copy(run, &run->watch.begin, &run->whole);
+    zd_place_copy(run, &run->guard.begin, &run->whole);
     for (run->parts = 2; is_too_far(status) && run->parts <= MOST_PARTS; run->parts *= 2) {
         int again = take_parts(run, t1);
         if (!again) {
@@ -74,7 +74,7 @@ static int take_fixed_step(zd_run *run)
     double t1 = zd_run_time(run, run->step);
     int status = zd_run_integrate(run, run->step == run->steps ? t1 - run->t : run->settings.step);
     if (!status) status = zd_run_land(run, t1);
-    return is_too_far(status) && run->watch.kept ? divide_step(run, status, t1) : status;
+    return is_too_far(status) && run->guard.kept ? divide_step(run, status, t1) : status;
 }
 
 static int take_step(zd_run *run)

@@ -147,7 +147,7 @@ static int correct_positions(projection *self, zd_run *run)
 {
     const zd_projection *settings = &run->settings.projection;
     zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations,
-                        run->watch.kept ? TRUSTED : 0, NULL};
+                        run->guard.kept ? TRUSTED : 0, NULL};
     position_problem problem = {self, run, 0};
     int status = iterate(&newton, &problem);
     if (!status || status == ZD_CALLBACK || !problem.begun) return status;

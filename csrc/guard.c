@@ -22,7 +22,7 @@ enum {
     LOOK_EVERY = 8,
 };
 
-zd_watch zd_watch_take(const zd_run *run, zd_arena *arena, zd_place begin)
+zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin)
 {
     const zd_system *system = &run->system;
     const zd_settings *settings = &run->settings;
@@ -30,7 +30,7 @@ zd_watch zd_watch_take(const zd_run *run, zd_arena *arena, zd_place begin)
     int held = !(run->violates & ZD_PHI) || (projection->every && projection->positions);
     int own = (system->provides & ZD_A) != 0;
     double least = NEARBY + 4 * projection->tolerance, limit = run->integrator->stability;
-    return (zd_watch){
+    return (zd_guard){
         .branch = system->mh && held,
         .stability = settings->step > 0 && limit > 0,
         .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
@@ -50,12 +50,12 @@ typedef struct sums {       /* of squares, in natural units */
     double moved, detour, speed;
 } sums;
 
-ZD_INLINE sums compare(const int n, const zd_watch *watch, const double *p, double h, const double *per_unit)
+ZD_INLINE sums compare(const int n, const zd_guard *guard, const double *p, double h, const double *per_unit)
 {
     sums sum = {0, 0, 0};
     for (int i = 0; i < n; i++) {
-        double moved = (p[i] - watch->begin.p[i]) * per_unit[i], rate = watch->rate[i] * per_unit[i];
-        double detour = moved - 0.5 * h * (watch->pdot[i] * per_unit[i] + rate);
+        double moved = (p[i] - guard->begin.p[i]) * per_unit[i], rate = guard->rate[i] * per_unit[i];
+        double detour = moved - 0.5 * h * (guard->pdot[i] * per_unit[i] + rate);
         sum.moved += moved * moved;
         sum.detour += detour * detour;
         sum.speed += rate * rate;
@@ -66,12 +66,12 @@ ZD_INLINE sums compare(const int n, const zd_watch *watch, const double *p, doub
 /* The squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, at the nearest s of 0 ... 1 */
 static double least_detour(const zd_run *run, double h)
 {
-    const zd_watch *watch = &run->watch;
+    const zd_guard *guard = &run->guard;
     const double *per_unit = run->point->per_unit_p;
     double rest = 0, along = 0, turn = 0;
     for (int i = 0; i < run->system.nq; i++) {
-        double a = (run->point->p[i] - watch->begin.p[i] - h * watch->pdot[i]) * per_unit[i];
-        double b = h * (watch->rate[i] - watch->pdot[i]) * per_unit[i];
+        double a = (run->point->p[i] - guard->begin.p[i] - h * guard->pdot[i]) * per_unit[i];
+        double b = h * (guard->rate[i] - guard->pdot[i]) * per_unit[i];
         rest += a * a, along += a * b, turn += b * b;
     }
     double s = turn > 0 ? fmin(1, fmax(0, along / turn)) : 0;
@@ -82,25 +82,25 @@ static double least_detour(const zd_run *run, double h)
 static int is_unresolved(zd_run *run, int *status)
 {
     zd_point *point = run->point;
-    zd_watch *watch = &run->watch;
+    zd_guard *guard = &run->guard;
     int nq = run->system.nq, nv = run->system.nv, unresolved = 0;
     const double t = point->t;
-    memcpy(watch->p, point->p, (size_t)nq * sizeof(double));
-    memcpy(watch->v, point->v, (size_t)nv * sizeof(double));
+    memcpy(guard->p, point->p, (size_t)nq * sizeof(double));
+    memcpy(guard->v, point->v, (size_t)nv * sizeof(double));
     *status = zd_point_need(point, ZD_C);
     if (*status) return 0;
-    memcpy(watch->C, point->terms.C, (size_t)(run->system.mh * nv) * sizeof(double));
-    zd_point_move(point, watch->begin.t, watch->begin.p, watch->begin.v);
+    memcpy(guard->C, point->terms.C, (size_t)(run->system.mh * nv) * sizeof(double));
+    zd_point_move(point, guard->begin.t, guard->begin.p, guard->begin.v);
     *status = zd_point_need(point, ZD_C);
     for (int k = 0; !*status && k < run->system.mh; k++) {
         double turned = 0, before = 0, after = 0;
         for (int i = 0; i < nv; i++) {
-            double a = point->terms.C[k * nv + i] * point->unit[i], b = watch->C[k * nv + i] * point->unit[i];
+            double a = point->terms.C[k * nv + i] * point->unit[i], b = guard->C[k * nv + i] * point->unit[i];
             turned += (b - a) * (b - a), before += a * a, after += b * b;
         }
         unresolved |= !(turned <= fmax(before, after));
     }
-    zd_point_move(point, t, watch->p, watch->v);
+    zd_point_move(point, t, guard->p, guard->v);
     return unresolved;
 }
 
@@ -113,70 +113,70 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
 
 ZD_INLINE void estimate_omega(zd_run *run, double moved, double h)
 {
-    zd_watch *watch = &run->watch;
+    zd_guard *guard = &run->guard;
     const zd_point *point = run->point;
-    double changed = ZD_SIZED(squared_difference, run->system.nv, point->vdot, watch->vdot, point->per_unit);
+    double changed = ZD_SIZED(squared_difference, run->system.nv, point->vdot, guard->vdot, point->per_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
-    if (power > watch->fourth * moved && moved > 0) watch->fourth = power / moved;
-    watch->streak = power > watch->limit * moved ? watch->streak + 1 : 0;
-    if (watch->streak >= STREAK) run->statistics.unstable += watch->streak == STREAK ? STREAK : 1;
+    if (power > guard->fourth * moved && moved > 0) guard->fourth = power / moved;
+    guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
+    if (guard->streak >= STREAK) run->statistics.unstable += guard->streak == STREAK ? STREAK : 1;
 }
 
 static int is_looked_at(const zd_run *run, long step)
 {
-    return run->watch.stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || run->watch.streak);
+    return run->guard.stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || run->guard.streak);
 }
 
 ZD_INLINE int look(zd_run *run)
 {
     int status = zd_point_need(run->point, ZD_A);
-    if (!status && (run->watch.looking || is_looked_at(run, run->step + 1))) status = zd_run_accelerate(run);   /* the next step begins with it */
-    if (!status && run->point->terms.A) zd_point_rate(run->point, run->point->v, run->watch.rate);
+    if (!status && (run->guard.looking || is_looked_at(run, run->step + 1))) status = zd_run_accelerate(run);   /* the next step begins with it */
+    if (!status && run->point->terms.A) zd_point_rate(run->point, run->point->v, run->guard.rate);
     return status;
 }
 
 ZD_INLINE void keep(zd_run *run, double speed)
 {
-    zd_watch *watch = &run->watch;
-    watch->begin.t = run->t;
-    ZD_SIZED(zd_copy, run->system.nq, run->point->p, watch->begin.p);
-    ZD_SIZED(zd_copy, run->system.nv, run->point->v, watch->begin.v);
-    if (run->rate.size > run->own_size) zd_copy(run->rate.size - run->own_size, run->y + run->own_size, watch->begin.extra);
-    if (run->point->terms.A) zd_copy(run->system.nq, watch->rate, watch->pdot);
-    watch->looking = is_looked_at(run, run->step + 1);
-    if (watch->looking) ZD_SIZED(zd_copy, run->system.nv, run->point->vdot, watch->vdot);
-    watch->speed = speed;
-    watch->kept = 1;
+    zd_guard *guard = &run->guard;
+    guard->begin.t = run->t;
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, guard->begin.p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, guard->begin.v);
+    if (run->rate.size > run->own_size) zd_copy(run->rate.size - run->own_size, run->y + run->own_size, guard->begin.extra);
+    if (run->point->terms.A) zd_copy(run->system.nq, guard->rate, guard->pdot);
+    guard->looking = is_looked_at(run, run->step + 1);
+    if (guard->looking) ZD_SIZED(zd_copy, run->system.nv, run->point->vdot, guard->vdot);
+    guard->speed = speed;
+    guard->kept = 1;
 }
 
-int zd_watch_begin(zd_run *run)
+int zd_guard_begin(zd_run *run)
 {
     int status = look(run);
-    if (!status) keep(run, ZD_SIZED(compare, run->system.nq, &run->watch, run->point->p, 0, run->point->per_unit_p).speed);
+    if (!status) keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->point->p, 0, run->point->per_unit_p).speed);
     return status;
 }
 
-int zd_watch_step(zd_run *run, double h)
+int zd_guard_step(zd_run *run, double h)
 {
-    const zd_watch *watch = &run->watch;
-    if (!watch->kept || run->output.between) return ZD_DONE;
+    const zd_guard *guard = &run->guard;
+    if (!guard->kept || run->output.between) return ZD_DONE;
     int status = look(run);
     if (status) return status;
-    const sums sum = ZD_SIZED(compare, run->system.nq, watch, run->point->p, h, run->point->per_unit_p);
-    double allowed = watch->astray * h * h * (watch->speed + sum.speed) + watch->nearby;
-    if (watch->branch && !(sum.detour <= allowed) && !(least_detour(run, h) <= allowed)) return ZD_BRANCH;
-    if (watch->branch && !(sum.moved <= LONG * LONG)) {
+    const sums sum = ZD_SIZED(compare, run->system.nq, guard, run->point->p, h, run->point->per_unit_p);
+    double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
+    if (guard->branch && !(sum.detour <= allowed) && !(least_detour(run, h) <= allowed)) return ZD_BRANCH;
+    if (guard->branch && !(sum.moved <= LONG * LONG)) {
         int unresolved = is_unresolved(run, &status);
         if (status || unresolved) return status ? status : ZD_BRANCH;
         status = look(run);
         if (status) return status;
     }
-    if (watch->looking && !run->parts) estimate_omega(run, sum.moved, h);
+    if (guard->looking && !run->parts) estimate_omega(run, sum.moved, h);
     keep(run, sum.speed);
     return ZD_DONE;
 }
 
 double zd_run_omega_h(const zd_run *run)
 {
-    return sqrt(sqrt(run->watch.fourth));
+    return sqrt(sqrt(run->guard.fourth));
 }
