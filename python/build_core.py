@@ -49,7 +49,9 @@ typedef struct zd_python {
 } zd_python;
 
 int zd_evaluate_in_python(const void *, int, double, const double *, const double *, const zd_terms *);
-extern "Python" int zd_write_in_python(void *evaluator, int want, double t, int elsewhere);
+extern "Python" int zd_write_in_python(void *owner, int want, double t, int elsewhere);
+extern "Python" int zd_event_in_python(void *owner, int event, double t, const double *p, const double *v, double *value);
+extern "Python" int zd_found_in_python(void *owner, int event, double t, const double *p, const double *v);
 """
 
 BRIDGE = """
