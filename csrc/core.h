@@ -152,6 +152,14 @@ typedef struct zd_output {
     int between;            /* whether the run is on its way there: such points are always corrected */
 } zd_output;
 
+typedef struct zd_watch {   /* where there are events, (events,) each */
+    double *before, *now;   /* their values at the ends of the step */
+    double *time;           /* when they happen in it; infinite where they do not */
+    int *found;             /* how often they have */
+    int failed;             /* whether it was an event that could not be evaluated */
+    int ended;              /* which ended the run, counted from 1 */
+} zd_watch;
+
 struct zd_run {
     zd_settings settings;
     zd_system system;
@@ -178,7 +186,8 @@ struct zd_run {
     double t;               /* where the run has got to */
     long step, steps;       /* begun; to do, where they are of fixed size */
     zd_control control;     /* where steps are chosen */
-    zd_output output;       /* where something between steps is to be saved */
+    zd_output output;       /* where something between steps is wanted */
+    zd_watch watch;
     zd_guard guard;
     zd_place whole;         /* where the step that is made in parts began */
     int parts;              /* of the step being made, if more than one: each is corrected */
@@ -228,7 +237,13 @@ void zd_place_copy(const zd_run *run, const zd_place *from, zd_place *to);
 int zd_place_return(zd_run *run, const zd_place *place);
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
+int zd_output_move(zd_run *run, double t);      /* to any time of the step, once its end is kept */
+void zd_output_keep_end(zd_run *run);
 int zd_output_is_complete(const zd_run *run);
+
+/* events.c */
+int zd_events_start(zd_run *run);
+int zd_events_after(zd_run *run);               /* finds those of the step; a terminal one becomes the run's end */
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

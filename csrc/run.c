@@ -44,6 +44,16 @@ static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extr
     };
 }
 
+static zd_watch take_watch(zd_arena *arena, size_t events)
+{
+    return (zd_watch){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .time = zd_take_doubles(arena, events),
+        .found = zd_take(arena, events * sizeof(int)),
+    };
+}
+
 /* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
@@ -75,7 +85,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
     run.guard = zd_guard_take(&run, arena, take_place(arena, system, (size_t)(size - run.own_size)));
     run.whole = take_place(arena, system, (size_t)(size - run.own_size));
-    if (settings->t_eval) {
+    if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
+    if (settings->t_eval || settings->events) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
         run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
     }
@@ -191,6 +202,7 @@ static int start(zd_run *run, const double *p0, const double *v0)
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
+    if (!status && run->settings.events) status = zd_events_start(run);
     if (!status && !(run->settings.step > 0)) {
         status = zd_control_start(run);
         if (!status) status = zd_run_place(run, run->settings.t0, p0, v0);  /* wherever that has looked */

@@ -79,11 +79,11 @@ static int take_fixed_step(zd_run *run)
 
 static int take_step(zd_run *run)
 {
-    if (run->settings.t_eval) zd_output_before(run);
+    if (run->settings.t_eval || run->settings.events) zd_output_before(run);
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
     if (!status) run->statistics.steps++;
-    return status;
+    return !status && run->settings.events ? zd_events_after(run) : status;
 }
 
 static int save(zd_run *run, zd_record *record)
@@ -94,7 +94,7 @@ static int save(zd_run *run, zd_record *record)
 
 static int is_over(const zd_run *run)
 {
-    return run->t == run->settings.t1 || (run->settings.t_eval && zd_output_is_complete(run));
+    return run->t == run->settings.t1 || (run->settings.t_eval && !run->settings.events && zd_output_is_complete(run));
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
@@ -109,6 +109,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
         status = take_step(run);
         if (!status) status = save(run, record);
     }
+    if (!status && run->watch.ended) status = ZD_EVENT;
     if (status && !run->status) run->status = zd_explain(run, status);
     return run->status;
 }

@@ -48,7 +48,11 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
                  point->defect);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
+    case ZD_CALLBACK:
+        if (run->watch.failed) failure = "the evaluation of an event failed";
+        snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed");
+        break;
+    case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }

@@ -16,6 +16,7 @@ enum zd_status {
     ZD_DONE = 0,
     ZD_PAUSED = 1,            /* the time slice is over: call again */
     ZD_FULL = 2,              /* the record is full: give another */
+    ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
     ZD_DEPENDENT = -3,        /* the rows of C are dependent */
@@ -141,6 +142,18 @@ typedef struct zd_kind {
 
 const zd_kind *zd_kind_of(int row);
 
+/* ---- events: instants at which a function of the motion passes through zero ---- */
+
+typedef struct zd_events {
+    int count;
+    const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
+    const int *terminal;    /* (count,) the run ends with so many of this event; 0: with none */
+    void *data;
+    /* The value of an event. Returns 0, or ZD_CALLBACK; the same goes for `found`, which is told where an event happened. */
+    int (*evaluate)(void *data, int event, double t, const double *p, const double *v, double *value);
+    int (*found)(void *data, int event, double t, const double *p, const double *v);
+} zd_events;
+
 /* ---- settings of a run ---- */
 
 enum zd_metric { ZD_MASS_METRIC, ZD_IDENTITY_METRIC };
@@ -172,6 +185,7 @@ typedef struct zd_settings {
     long save_every;
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
     long t_evals;
+    const zd_events *events;        /* NULL: none */
     zd_projection projection;
     zd_baumgarte baumgarte;
     zd_energy energy;
@@ -182,7 +196,7 @@ typedef struct zd_settings {
 typedef struct zd_statistics {
     long steps;
     long rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
-    long output_steps;          /* shorter ones, to times between steps that are to be saved */
+    long output_steps;          /* shorter ones, to times between steps: to be saved, or where an event is looked for */
     long evaluations;           /* calls of the system */
     long factorizations;        /* of leading matrices */
     long solves;                /* with them */
@@ -200,7 +214,7 @@ typedef struct zd_statistics {
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
-    long capacity, rows;
+    long capacity, rows;        /* a run with t_eval asks for one row more than that has, where events may end it */
     double *t;                  /* (capacity,) */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */

@@ -4,6 +4,7 @@ from .base import (
     CALLBACK,
     DONE,
     ERRORS,
+    EVENT,
     FULL,
     INTERRUPTED,
     PAUSED,
@@ -16,14 +17,14 @@ from .base import (
     doubles,
     error_of,
 )
-from .callbacks import PythonCore
+from .callbacks import PythonCore, Watcher
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter",
-    "PythonCore", "Record", "Run", "Variable", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds", "project",
-    "settings", "step",
+    "CALLBACK", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter",
+    "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds",
+    "project", "settings", "step",
 ]
 
 check_fingerprint()
