@@ -9,6 +9,8 @@
  */
 #include "core.h"
 
+enum { HELD = 10, FREE = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
+static const double AT_THE_LIMIT = 0.95;    /* of stability */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
 
 static double root_mean_square(int n, const double *x, const double *scale)
@@ -54,16 +56,31 @@ int zd_control_start(zd_run *run)
     return ZD_DONE;
 }
 
+/* Counts steps as long as stability allows, once there are enough for it to be no chance. */
+static void watch_stiffness(zd_run *run, double lambda_h)
+{
+    zd_control *control = &run->control;
+    if (!(lambda_h > 0)) return;
+    if (lambda_h > AT_THE_LIMIT * run->integrator->decay) {
+        control->held++;
+        control->free = 0;
+        if (control->held >= HELD) run->statistics.stiff += control->held == HELD ? HELD : 1;
+    } else if (++control->free >= FREE) control->held = 0;
+}
+
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
 static int attempt(zd_run *run, double h, double t1, double *norm)
 {
     int status = zd_run_integrate(run, h);
     if (status) return status;
     set_scale(run, run->control.y0, run->y);
-    status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm);
+    double lambda_h;
+    status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm, &lambda_h);
     if (status) return status;
     if (isnan(*norm)) return ZD_NOT_FINITE;
-    return *norm <= 1 ? zd_run_land(run, t1) : ZD_DONE;
+    if (!(*norm <= 1)) return ZD_DONE;
+    watch_stiffness(run, lambda_h);
+    return zd_run_land(run, t1);
 }
 
 static double factor(const zd_run *run, double norm)

@@ -89,9 +89,11 @@ typedef struct zd_integrator {
     const void *table;      /* coefficients, for methods that share a stepper */
     void *(*take)(zd_arena *arena, const void *table, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
-    double stability;       /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
-    /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
-    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
+    double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
+    /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
+     * there, 0: not known; NULL where card.error_order is 0. */
+    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                 double *lambda_h);
 } zd_integrator;
 
 /* ---- a correction: something done to the right side of (6), or to the state after a step ---- */
@@ -124,6 +126,7 @@ typedef struct zd_control {
     double *scale;          /* (size,): what the error is measured in */
     double *y0;             /* (size,): the state before a step */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
+    int held, free;         /* steps that were as long as stability allows; not so, in succession */
 } zd_control;
 
 typedef struct zd_place {   /* where a run was */

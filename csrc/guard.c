@@ -17,6 +17,7 @@
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* detours this small, in natural units, are rounding and tolerances */
 static const double LONG = 0.25;        /* steps, in natural units, that may turn a constraint noticeably */
+static const double RESOLVED = 2;       /* omega h of a motion that steps show somehow: a turn is a bit more than three of them */
 enum {
     STREAK = 3,             /* steps looked at in succession: a single one may have come to where p1 - p0 happens to vanish */
     LOOK_EVERY = 8,
@@ -29,13 +30,13 @@ zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin)
     const zd_projection *projection = &settings->projection;
     int held = !(run->violates & ZD_PHI) || (projection->every && projection->positions);
     int own = (system->provides & ZD_A) != 0;
-    double least = NEARBY + 4 * projection->tolerance, limit = run->integrator->stability;
+    double least = NEARBY + 4 * projection->tolerance, limit = run->integrator->card.stability;
     return (zd_guard){
         .branch = system->mh && held,
-        .stability = settings->step > 0 && limit > 0,
+        .stability = settings->step > 0,
         .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
         .nearby = least * least,
-        .limit = pow(limit, 4),
+        .limit = pow(limit > 0 ? limit : RESOLVED, 4),
         .begin = begin,
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : begin.v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : run->point ? run->point->v : NULL,
@@ -117,9 +118,10 @@ ZD_INLINE void estimate_omega(zd_run *run, double moved, double h)
     const zd_point *point = run->point;
     double changed = ZD_SIZED(squared_difference, run->system.nv, point->vdot, guard->vdot, point->per_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
-    if (power > guard->fourth * moved && moved > 0) guard->fourth = power / moved;
+    if (!(moved > 0)) return;
+    if (power > guard->fourth * moved && power < INFINITY) guard->fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
-    if (guard->streak >= STREAK) run->statistics.unstable += guard->streak == STREAK ? STREAK : 1;
+    if (guard->streak >= STREAK) run->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
 static int is_looked_at(const zd_run *run, long step)

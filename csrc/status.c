@@ -11,10 +11,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     int culprit = point->culprit;
     switch (status) {
     case ZD_NOT_FINITE:
-        snprintf(to, size, run->statistics.unstable ? "the state left the range of doubles: the step is too long for '%s' to be stable (omega h = %.3g, "
+        snprintf(to, size, run->statistics.too_long && run->integrator->card.stability > 0 ? "the state left the range of doubles: the step is too long for '%s' to be stable (omega h = %.3g, "
                  "stable below %.3g); try a smaller step, or an implicit method"
                  : "the state left the range of doubles; try a smaller step or another stabilization",
-                 run->integrator->card.name, zd_run_omega_h(run), run->integrator->stability);
+                 run->integrator->card.name, zd_run_omega_h(run), run->integrator->card.stability);
         break;
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)", culprit);

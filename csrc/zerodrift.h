@@ -99,6 +99,7 @@ typedef struct zd_card {
     const char *equations;   /* "(8), (25)" */
     int order;               /* of an integrator; else 0 */
     int error_order;         /* of its error estimate; 0: there is none, and steps are of fixed size */
+    double stability;        /* the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none */
 } zd_card;
 
 enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
@@ -207,7 +208,8 @@ typedef struct zd_statistics {
     long energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
     long damped;                /* position corrections that converged only with shortened iterations */
     long subdivided;            /* steps of fixed size that were made in parts, as their correction failed */
-    long unstable;              /* steps longer than the method is stable for */
+    long too_long;              /* steps of fixed size, longer than the method is stable for or, if always stable, resolves */
+    long stiff;                 /* steps, of those looked at, that stability rather than the error asked for held down */
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
     long repartitions;          /* changes of the independent variables between steps */

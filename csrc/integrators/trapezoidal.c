@@ -13,6 +13,7 @@
 enum { MAX_ITERATIONS = 20 };
 static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */
 static const double ROUNDING = 4 * 0x1p-52;     /* solved when each defect is this small among the terms it is summed from */
+static const double NEARLY = 1e-12;             /* ... or when it is this small, and only rounding is left */
 static const double STALLED = 0.5;              /* a contraction that only rounding prevents from being better */
 
 typedef struct trapezoidal {
@@ -23,6 +24,7 @@ typedef struct trapezoidal {
     double *varied;     /* (size,): f at a varied y1 */
     double *scale;      /* (size,): largest terms seen in each equation: these have units of their own */
     double *J;          /* (size, size): I - h/2 df/dy, factored */
+    double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
     int *order;         /* (size,) */
     int factored;
     double factored_h;
@@ -44,6 +46,7 @@ static void *take(zd_arena *arena, const void *table, int size)
         .g = zd_take_doubles(arena, n),
         .varied = zd_take_doubles(arena, n),
         .scale = zd_take_doubles(arena, n),
+        .unit = zd_take_doubles(arena, n),
         .J = zd_take_doubles(arena, n * n),
         .order = zd_take(arena, n * sizeof(int)),
     };
@@ -62,9 +65,19 @@ static double increment(const trapezoidal *self, int i)
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
+static void choose_units(trapezoidal *self)
+{
+    for (int i = 0; i < self->size; i++) {
+        int exponent = 0;
+        if (self->scale[i] > 0 && self->scale[i] < INFINITY) (void)frexp(self->scale[i], &exponent);
+        self->unit[i] = ldexp(1, exponent);
+    }
+}
+
 static int factor_matrix(trapezoidal *self)
 {
     int n = self->size;
+    choose_units(self);
     for (int j = 0; j < n; j++) {
         double here = self->y1[j];
         self->y1[j] = here + increment(self, j);
@@ -73,7 +86,7 @@ static int factor_matrix(trapezoidal *self)
         self->y1[j] = here;
         if (status) return status;
         for (int i = 0; i < n; i++)
-            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change;
+            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change * (self->unit[j] / self->unit[i]);
     }
     self->factored = zd_lu_factor(n, self->J, self->order) == n;
     self->factored_h = self->h;
@@ -96,9 +109,10 @@ static int residual(void *context, double *size)
         largest = fmax(largest, fabs(g));
         scale = fmax(scale, self->scale[i]);
     }
-    /* An equation whose terms cancel has rounding beyond its own size: then that of all has to do. */
+    /* What f is summed from may be larger than f: its rounding is then what is left. Where next to nothing is left of f, and of y,
+     * the size of all has to do. */
     int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
-    *size = stalled ? largest / scale : self->defect;
+    *size = !stalled ? self->defect : self->defect < NEARLY ? 0 : largest / scale;
     return ZD_DONE;
 }
 
@@ -112,8 +126,9 @@ static int improve(void *context)
         int status = factor_matrix(self);
         if (status) return status;
     }
+    for (int i = 0; i < self->size; i++) self->g[i] /= self->unit[i];
     zd_lu_solve(self->size, self->J, self->order, self->g);
-    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i];
+    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i] * self->unit[i];
     return ZD_DONE;
 }
 

@@ -15,8 +15,8 @@ import numpy as np
 from . import _check, _gateway, certified, settings
 from ._system import BaseSystem
 from .compare import states_of
-from .errors import CorrectionWarning, Interrupted
-from .simulation import progress_of, simulate
+from .errors import CorrectionWarning, Interrupted, StabilityWarning
+from .simulation import doubts, progress_of, simulate
 from .solution import Solution
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
@@ -275,7 +275,8 @@ class Bench:
     def _row(self, setting: Setting, before: Row | None) -> Row:
         """A run measured; if it was before, only its time."""
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", CorrectionWarning)      # it is the row's message
+            for category in (CorrectionWarning, StabilityWarning):      # they are the row's message
+                warnings.simplefilter("ignore", category)
             solution = simulate(self.system, self.span, *self.start, **setting.settings, on_failure="return")
         if solution.status == _gateway.INTERRUPTED:
             raise KeyboardInterrupt
@@ -298,7 +299,8 @@ class Bench:
 
 def _message(solution: Solution) -> str:
     skipped = solution.stats["energy_skipped"]
-    return solution.message + (f"; {skipped} energy corrections left out" if skipped else "")
+    doubted = [sentence for category, sentence in doubts(solution) if category is StabilityWarning]
+    return "; ".join([solution.message, *([f"{skipped} energy corrections left out"] if skipped else []), *doubted])
 
 
 def _largest(values: np.ndarray | None) -> float:

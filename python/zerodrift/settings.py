@@ -168,7 +168,10 @@ def formulations() -> dict[str, _gateway.Card]:
 
 
 def integrators() -> dict[str, _gateway.Card]:
-    """The integrators there are, by name; `order` is the order of the method.
+    """The integrators there are, by name.
+
+    `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
+    grow, 0 where there is none.
 
     Examples
     --------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from .solution import Solution
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
 FIRST_BLOCK = 1024  # rows, where it is not known how many there will be
 DEFAULT_CONTROL = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}
+WORTHLESS = 0.5     # part of the energy that is numerical
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, estimates are round-off
 
 
@@ -239,14 +240,40 @@ def _finish(system, span, chosen, run, record, watcher, on_failure, status, seco
 
 def _warn(solution: Solution) -> None:
     """Of what was off but stopped nothing."""
-    stats = solution.stats
+    for category, sentence in doubts(solution):
+        warnings.warn(sentence, category, stacklevel=4)
+
+
+def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    """What was off in a run but did not stop it: warnings and their sentences."""
+    stats, integrator = solution.stats, solution.settings["integrator"]
+    steps = stats["steps"]
     if skipped := stats["energy_skipped"]:
-        warnings.warn(f"{skipped} of {stats['steps']} energy corrections were left out: near a turning point the "
-                      "kinetic energy is too small for them; sol.energy_skipped says where", CorrectionWarning, stacklevel=4)
-    if unstable := stats["unstable"]:
-        warnings.warn(f"{unstable} of {stats['steps']} steps were longer than {solution.settings['integrator']!r} is stable for "
-                      f"(omega h up to {stats['omega_h']:.3g}): take shorter ones, or an implicit method",
-                      StabilityWarning, stacklevel=4)
+        yield CorrectionWarning, (f"{skipped} of {steps} energy corrections were left out: near a turning point the kinetic "
+                                  "energy is too small for them; sol.energy_skipped says where")
+    if not solution.success:
+        return
+    if too_long := stats["too_long"]:
+        stable = settings.integrators()[integrator].stability
+        what = f"is stable for ({stable:g})" if stable else "resolves: what moves so fast is stable, but wrong"
+        yield StabilityWarning, (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
+                                 f"than {integrator!r} {what}; take shorter ones{', or an implicit method' if stable else ''}")
+    if stats["stiff"]:
+        yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
+                                 f"of its {steps} steps; an implicit method takes longer ones")
+    if (part := _numerical_energy(solution)) > WORTHLESS:
+        yield StabilityWarning, (f"the energy is off by {part:.3g} of its largest: the motion is more numerical than mechanical; "
+                                 "take shorter steps, or a method of higher order")
+
+
+def _numerical_energy(solution: Solution) -> float:
+    """The largest error of the energy balance, of the largest energy there was."""
+    if solution.energy_violation is None or not len(solution.t):
+        return 0.0
+    energy, error = (solution.kinetic_energy + np.abs(solution.potential_energy)).max(), np.abs(solution.energy_violation).max()
+    if not np.isfinite(energy):
+        return np.inf
+    return float(error / energy) if energy > 0 else 0.0
 
 
 def _where(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:

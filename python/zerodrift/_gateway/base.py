@@ -52,6 +52,7 @@ class Card(NamedTuple):
     equations: str
     order: int
     error_order: int
+    stability: float
 
 
 class Variable(NamedTuple):
@@ -114,7 +115,8 @@ def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
 def cards(table: str) -> tuple[Card, ...]:
     """The rows of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
-    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order, row.error_order) for row in rows)
+    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order, row.error_order, row.stability)
+                 for row in rows)
 
 
 def error_of(status: int, message: str) -> Exception:
