@@ -147,6 +147,7 @@ typedef struct zd_guard {   /* where a step began, with which its end is compare
     double speed;           /* |pdot|^2 there, in natural units */
     int streak;             /* steps in succession that were longer than the method is stable for */
     double fourth;          /* (omega h)^4, the largest seen */
+    double kinetic;         /* energy, likewise */
 } zd_guard;
 
 typedef struct zd_output {

@@ -112,6 +112,12 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
     return sum;
 }
 
+static void see_energy(zd_run *run)
+{
+    double kinetic = (run->point->known & ZD_M) ? zd_point_kinetic(run->point) : 0;
+    run->guard.kinetic = fmax(run->guard.kinetic, kinetic);
+}
+
 ZD_INLINE void estimate_omega(zd_run *run, double moved, double h)
 {
     zd_guard *guard = &run->guard;
@@ -174,6 +180,7 @@ int zd_guard_step(zd_run *run, double h)
         if (status) return status;
     }
     if (guard->looking && !run->parts) estimate_omega(run, sum.moved, h);
+    if (guard->looking && zd_has_energy(&run->system)) see_energy(run);
     keep(run, sum.speed);
     return ZD_DONE;
 }
@@ -181,4 +188,9 @@ int zd_guard_step(zd_run *run, double h)
 double zd_run_omega_h(const zd_run *run)
 {
     return sqrt(sqrt(run->guard.fourth));
+}
+
+double zd_run_kinetic(const zd_run *run)
+{
+    return run->guard.kinetic;
 }

@@ -242,6 +242,7 @@ const zd_statistics *zd_run_statistics(const zd_run *run);
 /* (mh,): the size of each row of Phi at the start: what the largest of its coordinates' natural motions makes of it, one radian
  * of an angle or the mechanism's own length. */
 const double *zd_run_sizes(const zd_run *run);
+double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step of fixed size */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */

@@ -296,24 +296,24 @@ def test_energy_corrections_left_out_are_counted_and_said():
     assert np.isfinite(sol.v).all()
 
 
-@pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning")
+@pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning", "ignore::zerodrift.StabilityWarning")
 @settings(deadline=None, max_examples=150)
-@given(st.floats(-20, 3), st.floats(0.01, 3.0), st.integers(1, 40), st.sampled_from(["euler", "heun", "rk4", "trapezoidal"]))
+@given(st.floats(-20, 1), st.floats(0.01, 3.0), st.integers(1, 40), st.sampled_from(["euler", "heun", "rk4", "trapezoidal"]))
 def test_energy_corrections_are_bounded_and_counted_where_they_cannot_work(rate, angle, steps, integrator):
     """From nearly no kinetic energy to plenty, over turning points: a factor between 0.7 and 1.3, or none, which the row says."""
     pendulum = zd.systems.pendulum(angle=angle, rate=10.0**rate)
-    h, p, v = 0.05, pendulum.p0, pendulum.v0
+    h, p, v, largest = 0.02, pendulum.p0, pendulum.v0, 9.81 + 0.5 * 10.0 ** (2 * rate)
     for k in range(steps):
-        without, scaled = (zd.simulate(pendulum, ((k * h), (k + 1) * h), p, v, step=h, integrator=integrator, energy=energy)
+        without, scaled = (zd.simulate(pendulum, (k * h, (k + 1) * h), p, v, step=h, integrator=integrator, energy=energy)
                            for energy in (None, True))
-        assert np.isfinite(scaled.v).all()
         speed, corrected = (np.linalg.norm(sol.v[-1]) for sol in (without, scaled))
-        error, kinetic = without.energy_violation[-1], without.kinetic_energy[-1]
+        error, kinetic, skipped = without.energy_violation[-1], without.kinetic_energy[-1], scaled.energy_skipped[-1]
+        assert np.isfinite(scaled.v).all()
         assert np.sqrt(0.5) * speed * (1 - 1e-12) <= corrected <= np.sqrt(1.5) * speed * (1 + 1e-12)
-        if corrected != speed or not scaled.energy_skipped[-1]:
-            assert abs(scaled.energy_violation[-1]) <= tol.ENERGY * (kinetic + 9.81 * 2 + abs(error))
-        assert scaled.energy_skipped[-1] == scaled.stats["energy_skipped"]
-        assert scaled.stats["energy_skipped"] == (abs(error) > 0.5 * kinetic) or abs(error) < tol.ENERGY * 9.81 * 2
+        assert skipped == scaled.stats["energy_skipped"]
+        assert skipped == (abs(error) > 0.5 * kinetic) or abs(error) <= tol.ENERGY * largest
+        assert abs(scaled.energy_violation[-1]) <= tol.ENERGY * 2 * largest or skipped
+        assert corrected == speed or not skipped
         p, v = scaled.p[-1], scaled.v[-1]
 
 

@@ -39,13 +39,14 @@ def test_no_run_changes_branch(formulation, integrator):
     assert all(ends.values())
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 def test_a_step_too_long_is_made_in_parts(bar):
     """And then is what the parts would have been."""
     start = bar.p0, 10 * bar.v0
-    sol = zd.simulate(bar, 0.2, *start, step=0.2, integrator="heun")
+    sol = zd.simulate(bar, 0.32, *start, step=0.32)
     assert sol.stats["subdivided"] == 1
     assert sol.stats["steps"] == 1
-    parts = [zd.simulate(bar, 0.2, *start, step=0.2 / n, integrator="heun").p[-1] for n in (2, 4, 8)]
+    parts = [zd.simulate(bar, 0.32, *start, step=0.32 / n).p[-1] for n in (2, 4, 8)]
     assert min(np.abs(sol.p[-1] - part).max() for part in parts) < 1e-12
 
 
@@ -58,6 +59,7 @@ def test_where_parts_do_not_help_the_run_stops_with_what_is_left(bar):
         motion(bar, 8.0, 16, stabilization=zd.Projection(tol=1e-15, max_iterations=1))
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 def test_a_branch_that_would_be_left_is_named():
     """The crank is thrown so that one step carries links far around; what is found there is another assembly or nonsense."""
     bar, found = zd.systems.four_bar(crank_rate=40.0), []
@@ -69,10 +71,11 @@ def test_a_branch_that_would_be_left_is_named():
     assert issubclass(zd.BranchJump, zd.CorrectionFailed)
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 def test_chosen_steps_do_not_change_branch_either():
     for rate in (1.0, 20.0, -35.0):
         bar = zd.systems.four_bar(crank_rate=rate)
-        sol = zd.simulate(bar, 2.0, rtol=0.5, atol=0.5, first_step=1.0, integrator="dormand_prince")
+        sol = zd.simulate(bar, 2.0, rtol=0.5, atol=0.5, first_step=1.0, integrator="dormand_prince", on_failure="return")
         assert (side(sol) == side(sol)[0]).all()
 
 

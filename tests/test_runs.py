@@ -75,6 +75,7 @@ def test_threads_with_different_settings_do_not_meet(bar):
         assert_same_bits(one, other)
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("every", [2, 7, 100, 1000])
 def test_saving_less_changes_no_bit(system, formulation, integrator, every):
     options = {"formulation": formulation, "integrator": integrator}
@@ -116,6 +117,7 @@ def test_a_shorter_last_step(system, integrator):
     assert_close(last.v[-1], sol.v[-1], tol.STEPPED)
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize(("end", "step", "steps"), [(1.0, 0.1, 10), (0.3, 0.1, 3), (8.0, 0.05, 160), (1.0, 1 / 3, 3),
                                                     (1.0, 2.0, 1), (1.0, 0.0999999, 11), (1.0, 0.15, 7)])
 def test_a_whole_number_of_steps_is_recognized(end, step, steps):

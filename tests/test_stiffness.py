@@ -14,9 +14,10 @@ EXPLICIT = [name for name in INTEGRATORS if CARDS[name].stability]
 
 
 def oscillating(omega_h, integrator, damping=0.0, steps=STEPS):
-    """A damped oscillator without a potential, and what was said of its motion."""
+    """A damped oscillator that declares no potential, and what was said of its motion."""
     system = zd.System(1, mass=[[1.0]], force=lambda p, v: -OMEGA**2 * p - 2 * damping * OMEGA * v, p0=[0.1])
-    return listened(system, omega_h / OMEGA, steps, integrator)
+    with np.errstate(all="ignore"):
+        return listened(system, omega_h / OMEGA, steps, integrator)
 
 
 def listened(system, h, steps, integrator, **options):
@@ -44,11 +45,11 @@ def test_beyond_its_limit_each_explicit_method_grows_and_says_so(integrator, dam
     if integrator not in EXPLICIT:
         pytest.skip("stable at any omega h")
     limit = CARDS[integrator].stability
-    sol, said = oscillating(1.5 * max(limit, 3.4), integrator, damping)
-    assert not sol.success or "is stable for" in said[0]
+    sol, said = oscillating(1.5 * max(limit, 3.4), integrator, damping, steps=40)
+    assert sol.success
+    assert "is stable for" in said[0]
     assert sol.stats["too_long"] > 0
-    if not sol.success:
-        assert f"too long for '{integrator}' to be stable" in sol.message
+    assert np.abs(sol.p[-1]) > 10 * np.abs(sol.p[0])
     sol, said = oscillating(0.5 * limit, integrator, damping)
     assert sol.success
     assert not said
@@ -99,9 +100,8 @@ def test_a_stiff_spring_in_a_mechanism():
 
 
 def test_what_blows_up_is_told_why():
-    system = zd.System(1, mass=[[1.0]], force=lambda p: -1e6 * p, p0=[0.1])
-    with pytest.raises(zd.Diverged, match=r"too long for 'rk4' to be stable \(omega h = 10, stable below 2\.79\)"):
-        zd.simulate(system, 10.0, step=0.01)
+    with pytest.raises(zd.Diverged, match=r"too long for 'rk4' to be stable \(omega h = 10, stable below 2\.7\d\)"):
+        zd.simulate(zd.systems.oscillator(stiffness=1e6), 10.0, step=0.01)
 
 
 def test_energy_that_is_numerical_is_said():

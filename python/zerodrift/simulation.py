@@ -271,6 +271,7 @@ def _numerical_energy(solution: Solution) -> float:
     if solution.energy_violation is None or not len(solution.t):
         return 0.0
     energy, error = (solution.kinetic_energy + np.abs(solution.potential_energy)).max(), np.abs(solution.energy_violation).max()
+    energy = max(energy, solution.stats["largest_kinetic"])      # the rows may all be at turning points
     if not np.isfinite(energy):
         return np.inf
     return float(error / energy) if energy > 0 else 0.0

@@ -46,8 +46,8 @@ class Solution:
         The size of each row of Phi, in which `Projection` measures it.
     stats : dict
         Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
-        product of the motion's angular frequency and a step of fixed size, as far as that was looked at: an explicit
-        method needs it small.
+        product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
+        `largest_kinetic`, in J, are looked at every few steps.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool

@@ -110,7 +110,8 @@ class Run:
     def statistics(self) -> dict[str, Any]:
         """Counts of what the run did, and its largest omega h."""
         c = lib.zd_run_statistics(self._run)
-        return {name: getattr(c, name) for name in STATISTICS} | {"omega_h": lib.zd_run_omega_h(self._run)}
+        return {name: getattr(c, name) for name in STATISTICS} | {
+            "omega_h": lib.zd_run_omega_h(self._run), "largest_kinetic": lib.zd_run_kinetic(self._run)}
 
     @property
     def sizes(self) -> np.ndarray:
