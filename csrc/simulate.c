@@ -14,7 +14,9 @@ static double now(void)
 
 int zd_run_integrate(zd_run *run, double h)
 {
-    int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
+    const zd_integrator *integrator = run->integrator;
+    int status = integrator->step_of_run ? integrator->step_of_run(run->stepper, run, h)
+               : integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
 }

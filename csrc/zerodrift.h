@@ -31,7 +31,8 @@ enum zd_status {
     ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
     ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
-    ZD_UNSUITED = -15         /* the formulation cannot take this system */
+    ZD_UNSUITED = -15,        /* the formulation cannot take this system */
+    ZD_UNSUITED_INTEGRATOR = -16    /* nor can the integrator */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -102,6 +103,7 @@ enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
 int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
+int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
 
 /* ---- built-in systems ---- */
 

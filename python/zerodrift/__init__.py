@@ -23,6 +23,7 @@ from .errors import (
     StepFailed,
     UnreachableTolerance,
     UnsuitedFormulation,
+    UnsuitedIntegrator,
     ZerodriftError,
 )
 from .operations import acceleration, assemble, project
@@ -34,8 +35,8 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
+    "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
+    "check", "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
     "tune", "work_precision",
 ]
 _LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
