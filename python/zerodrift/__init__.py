@@ -36,10 +36,11 @@ __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
-    "check", "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
-    "tune", "work_precision",
+    "check", "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate",
+    "stability_map", "systems", "tune", "work_precision",
 ]
-_LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
+# Imported at first use
+_LATER = {"reference": "certified", "stability_map": "stability", "tune": "tuning", "work_precision": "benchmarking"}
 
 
 def __getattr__(name: str) -> Any:
