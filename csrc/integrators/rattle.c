@@ -12,9 +12,12 @@
  * (2) has d = Mdot v - dT/dp, so that F = f - d + Mdot v: Mdot, along the motion, comes from differences of M. Their error,
  * (RESOLUTION h w)^4, is far below what it is needed for. A system without d is one whose M does not vary: F = f, N = M.
  *
- * w is found by Newton's iteration with the leading matrix of the formulation at p0, that of the acceleration there:
+ * w is found by Newton's iteration with the leading matrix of the formulation at p0, that of the acceleration there,
  *
- *     M0 x + C0^T (h/2 lambda) = M0 v0 + h/2 F(t0, p0, w) - N w,    C0 x = -Phi(t1, p0 + h w) / h,    w <- w + x
+ *     M0 x + C0^T (h/2 lambda) = M0 v0 + h/2 F(t0, p0, w) - N w,    C0 x = -Phi(t1, p0 + h w) / h,    w <- w + H x
+ *
+ * and H, the identity at first, learns from what each change did to x what that matrix leaves out: C. G. Broyden, Math. Comp. 19
+ * (1965) 577.
  */
 #include "../core.h"
 #include "../linalg/small.h"
@@ -22,14 +25,16 @@
 
 enum { MAX_ITERATIONS = 60 };
 static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
+static const double LEAST = 0.1;                /* of s^T s, that s^T H y is: else nothing is learned from it */
 static const double ROUNDING = 2 * 0x1p-52;     /* of w: nothing to be changed */
-static const double SMALL = 1e-9;               /* of w + p / h: a change that may be rounding, if it does not shrink any more */
+static const double SMALL = 1e-12;              /* of w + p / h: a change that may be rounding, if it does not shrink any more */
 
 typedef struct rattle {
     int n, m, varies;
     zd_point *probe;        /* wherever terms are wanted, but for p0, whose leading matrix is in use */
     double *p0, *p, *moved; /* (n,) */
     double *v0, *w, *x;     /* (n,) */
+    double *H, *s, *y;      /* (n, n), (n,), (n,): the last change s of w took y out of x */
     double *start, *mean;   /* (n,): M0 v0 and N w */
     double *F, *Mdot;       /* (n,), (n, n) */
     double *rhs;            /* (m,) */
@@ -59,6 +64,9 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .v0 = zd_take_doubles(arena, n),
         .w = zd_take_doubles(arena, n),
         .x = zd_take_doubles(arena, n),
+        .H = zd_take_doubles(arena, n * n),
+        .s = zd_take_doubles(arena, n),
+        .y = zd_take_doubles(arena, n),
         .start = zd_take_doubles(arena, n),
         .mean = zd_take_doubles(arena, n),
         .F = zd_take_doubles(arena, n),
@@ -132,10 +140,28 @@ static int residual(void *context, double *size)
     return ZD_DONE;
 }
 
+/* H <- H + (s - H y) s^T H / s^T H y */
+static void learn(rattle *self)
+{
+    int n = self->n;
+    double *y = self->y, *Hy = self->F, *sH = self->mean;       /* these two are free now */
+    zd_subtract(n, self->y, self->x, y);
+    multiply(n, 1, self->H, y, 0, Hy);
+    for (int j = 0; j < n; j++) sH[j] = 0;
+    for (int i = 0; i < n; i++) zd_add_scaled(n, sH, self->s[i], self->H + i * n);
+    double whole = zd_dot(n, sH, y);
+    if (!(fabs(whole) > LEAST * zd_dot(n, self->s, self->s))) return;
+    for (int i = 0; i < n; i++) zd_add_scaled(n, self->H + i * n, (self->s[i] - Hy[i]) / whole, sH);
+}
+
 static int improve(void *context)
 {
     rattle *self = context;
-    zd_add_scaled(self->n, self->w, 1, self->x);
+    int n = self->n;
+    learn(self);
+    multiply(n, 1, self->H, self->x, 0, self->s);
+    zd_add_scaled(n, self->w, 1, self->s);
+    zd_copy(n, self->x, self->y);
     return ZD_DONE;
 }
 
@@ -149,6 +175,8 @@ static int find_positions(rattle *self)
     multiply(self->n, 1, run->point->terms.M, self->v0, 0, self->start);
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * run->point->vdot[i];
     self->before = INFINITY;
+    for (int i = 0; i < self->n * self->n; i++) self->H[i] = i % (self->n + 1) == 0;
+    memset(self->s, 0, (size_t)self->n * sizeof(double));      /* no change yet to learn from */
     status = zd_newton_solve(&newton, self, &iterations, &left);
     run->statistics.implicit_iterations += iterations;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
