@@ -17,13 +17,14 @@ from .base import (
     error_of,
 )
 from .callbacks import PythonCore
+from .native import NativeCore, address_of, load_library
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter",
-    "PythonCore", "Record", "Run", "Variable", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds", "project",
-    "settings", "step",
+    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "NativeCore",
+    "Parameter", "PythonCore", "Record", "Run", "Variable", "acceleration", "address_of", "cards", "count_steps", "doubles",
+    "error_of", "kinds", "load_library", "project", "settings", "step",
 ]
 
 check_fingerprint()
