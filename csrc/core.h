@@ -117,6 +117,11 @@ typedef struct zd_control {
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
 } zd_control;
 
+typedef struct zd_last {    /* the step being made, to be looked at once more where it fails */
+    double t, h;
+    double *y;              /* (size,): where it began */
+} zd_last;
+
 typedef struct zd_place {   /* where a run was */
     double t;
     double *p, *v;          /* (nq,), (nv,) */
@@ -154,6 +159,7 @@ struct zd_run {
     double energy0;         /* E0 of (28) */
     double t;               /* where the run has got to */
     long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_last last;
     zd_control control;     /* where steps are chosen */
     zd_output output;       /* where something between steps is to be saved */
     int iterations;         /* most position iterations of a step since the last saved row */
@@ -194,6 +200,9 @@ int zd_control_step(zd_run *run);
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
 int zd_output_is_complete(const zd_run *run);
+
+/* not_finite.c: the term that is to blame for a failure, and where; 0: none is */
+int zd_run_not_finite(zd_run *run, int status, double *t);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

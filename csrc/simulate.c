@@ -14,6 +14,9 @@ static double now(void)
 
 int zd_run_integrate(zd_run *run, double h)
 {
+    run->last.t = run->t;
+    run->last.h = h;
+    memcpy(run->last.y, run->y, (size_t)run->rate.size * sizeof(double));
     int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
