@@ -113,13 +113,12 @@ typedef struct zd_active {
 typedef struct zd_control {
     double h;               /* the next step */
     double *scale;          /* (size,): what the error is measured in */
-    double *y0;             /* (size,): the state before a step */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
 } zd_control;
 
-typedef struct zd_last {    /* the step being made, to be looked at once more where it fails */
+typedef struct zd_last {    /* the step being made: its size, and where it began */
     double t, h;
-    double *y;              /* (size,): where it began */
+    double *y, *p, *v;      /* (size,), (nq,), (nv,) */
 } zd_last;
 
 typedef struct zd_place {   /* where a run was */
@@ -191,6 +190,7 @@ double zd_run_time(const zd_run *run, long step);
 /* simulate.c: the two halves of a step */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
+void zd_run_return(zd_run *run);                /* point and y to where the step began */
 
 /* control.c: a step whose size the error decides */
 int zd_control_start(zd_run *run);

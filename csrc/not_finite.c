@@ -50,11 +50,11 @@ static int watch_step(zd_run *run, double *t)
 {
     watched self = {.system = run->system};
     zd_statistics statistics = run->statistics;
-    memcpy(run->y, run->last.y, (size_t)run->rate.size * sizeof(double));
+    zd_run_return(run);
     run->system.evaluate = evaluate;
     run->system.data = &self;
     run->point->known = 0;
-    run->integrator->step(run->stepper, &run->rate, run->last.t, run->last.h, run->y, &run->statistics);
+    run->integrator->step(run->stepper, &run->rate, run->t, run->last.h, run->y, &run->statistics);
     run->system = self.system;
     run->statistics = statistics;
     if (self.term) *t = self.t;

@@ -28,7 +28,6 @@ static zd_control take_control(zd_arena *arena, size_t size)
 {
     return (zd_control){
         .scale = zd_take_doubles(arena, size),
-        .y0 = zd_take_doubles(arena, size),
         .y1 = zd_take_doubles(arena, size),
         .f0 = zd_take_doubles(arena, size),
         .f1 = zd_take_doubles(arena, size),
@@ -73,6 +72,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
     run.last.y = zd_take_doubles(arena, (size_t)size);
+    run.last.p = zd_take_doubles(arena, (size_t)system->nq);
+    run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
     if (settings->t_eval) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));

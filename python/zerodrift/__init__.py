@@ -35,10 +35,13 @@ __all__ = [
     "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
-    "tune", "work_precision",
+    "corrections", "formulations", "get_include", "integrators", "load", "native", "numba_signature", "plot", "project",
+    "reference", "simulate", "systems", "tune", "work_precision",
 ]
-_LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
+_LATER = {      # imported at first use
+    "get_include": "compiled", "native": "compiled", "numba_signature": "compiled", "reference": "certified", "tune": "tuning",
+    "work_precision": "benchmarking",
+}
 
 
 def __getattr__(name: str) -> Any:
