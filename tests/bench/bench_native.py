@@ -1,6 +1,7 @@
 """What a compiled system of one's own costs, as ratios to the built-in one within one run.
 
-Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and numba for one row. It writes ``results/native.csv``.
+Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and numba for one row. It writes
+``results/native.csv``.
 """
 
 import csv
