@@ -13,11 +13,14 @@ from . import systems
 from .checking import check
 from .custom import System
 from .errors import (
+    CacheWarning,
+    CompilationFailed,
     CorrectionFailed,
     CorrectionWarning,
     Diverged,
     InconsistentStart,
     Interrupted,
+    NoCompilerWarning,
     SingularSystem,
     StaleCore,
     StepFailed,
@@ -32,15 +35,15 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
-    "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
+    "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
+    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed",
+    "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
     "corrections", "formulations", "get_include", "integrators", "load", "native", "numba_signature", "plot", "project",
-    "reference", "simulate", "systems", "tune", "work_precision",
+    "reference", "simulate", "symbolic", "systems", "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
-    "get_include": "compiled", "native": "compiled", "numba_signature": "compiled", "reference": "certified", "tune": "tuning",
-    "work_precision": "benchmarking",
+    "get_include": "compiled", "native": "compiled", "numba_signature": "compiled", "reference": "certified",
+    "symbolic": "symbolics.define", "tune": "tuning", "work_precision": "benchmarking",
 }
 
 
