@@ -150,7 +150,7 @@ class CWriter(Writer):
         scratch = sum(number in places for block in blocks.kept for number in block.operations)
         text = "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
-            "#include <math.h>", '#include "zerodrift.h"', "",
+            "#include <math.h>", '#include <zerodrift/system.h>', "",
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
