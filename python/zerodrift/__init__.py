@@ -36,8 +36,8 @@ from .solution import Solution, load
 __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
-    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed",
-    "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
+    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
     "corrections", "formulations", "get_include", "integrators", "load", "native", "numba_signature", "plot", "project",
     "reference", "simulate", "symbolic", "systems", "tune", "work_precision",
 ]

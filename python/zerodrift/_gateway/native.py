@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import ffi
+from .._core import ffi, lib
 from .base import TERMS, doubles
 from .systems import CoreSystem, Kind
 

@@ -71,8 +71,9 @@ def _note(source: str, command: list[str]) -> str:
     """The name of what the cache says of a source: whatever the library depends on is in it."""
     program = Path(command[0]).resolve()
     stamp = program.stat()
-    return digest_of("library", source, (Path(get_include()) / "zerodrift" / "system.h").read_text(), command, str(program), stamp.st_size,
-                     stamp.st_mtime_ns, FLAGS, sys.platform, platform.machine())
+    header = (Path(get_include()) / "zerodrift" / "system.h").read_text()
+    return digest_of("library", source, header, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS, sys.platform,
+                     platform.machine())
 
 
 def digest_of(*parts: Any) -> str:
