@@ -35,13 +35,16 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
-    "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "symbolic",
-    "systems", "tune", "work_precision",
+    "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
+    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
+    "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native", "numba_signature", "plot",
+    "project", "reference", "simulate", "symbolic", "systems", "tune", "work_precision",
 ]
-_LATER = {"reference": "certified", "symbolic": "symbolics.define", "tune": "tuning", "work_precision": "benchmarking"}
+_LATER = {      # imported at first use
+    "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
+    "reference": "certified", "symbolic": "symbolics.define", "tune": "tuning", "work_precision": "benchmarking",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -1,8 +1,8 @@
 """Shared libraries from C sources, kept from one process to the next.
 
-The cache is a folder of libraries, each named by a hash of what it holds, and of notes that say which of them belongs to a source,
-a compiler and its flags. Files are written beside their place and moved there, so that no process sees half of one; a library
-that is not what its name says is built anew.
+The cache is a folder of libraries, each named by a hash of what it holds, and of notes that say which of them belongs to a
+source, a compiler and its flags. Files are written beside their place and moved there, so that no process sees half of one; a
+library that is not what its name says is built anew.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _gateway
+from ..compiled import get_include
 from ..errors import CacheWarning, CompilationFailed
 
 FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
@@ -44,12 +45,6 @@ def looked_for() -> str:
     """Where `compiler` looks, for messages."""
     given = os.environ.get("CC", "").strip()
     return f"CC={given}" if given else ", ".join(CANDIDATES)
-
-
-def include() -> Path:
-    """The folder of zerodrift.h: the package, or in a source tree csrc."""
-    package = Path(__file__).resolve().parents[1]
-    return package if (package / "zerodrift.h").is_file() else package.parents[1] / "csrc"
 
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> ctypes.CDLL | None:
@@ -76,8 +71,9 @@ def _note(source: str, command: list[str]) -> str:
     """The name of what the cache says of a source: whatever the library depends on is in it."""
     program = Path(command[0]).resolve()
     stamp = program.stat()
-    return digest_of("library", source, (include() / "zerodrift.h").read_text(), command, str(program), stamp.st_size,
-                     stamp.st_mtime_ns, FLAGS, sys.platform, platform.machine())
+    header = (Path(get_include()) / "zerodrift" / "system.h").read_text()
+    return digest_of("library", source, header, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS, sys.platform,
+                     platform.machine())
 
 
 def digest_of(*parts: Any) -> str:
@@ -90,7 +86,7 @@ def _build(source: str, command: list[str]) -> str:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         path, product = Path(folder) / "system.c", Path(folder) / "system.so"
         path.write_text(source)
-        done = subprocess.run([*command, *FLAGS, f"-I{include()}", "-o", product.name, path.name, "-lm"], cwd=folder,
+        done = subprocess.run([*command, *FLAGS, f"-I{get_include()}", "-o", product.name, path.name, "-lm"], cwd=folder,
                               capture_output=True, text=True, errors="replace", check=False)
         if done.returncode or not product.is_file():
             raise CompilationFailed(_complaint(command, done, source))
