@@ -38,12 +38,12 @@ __all__ = [
     "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
     "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
     "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "get_include", "integrators", "load", "native", "numba_signature", "plot", "project",
-    "reference", "simulate", "symbolic", "systems", "tune", "work_precision",
+    "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native", "numba_signature", "plot",
+    "project", "reference", "simulate", "symbolic", "systems", "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
-    "get_include": "compiled", "native": "compiled", "numba_signature": "compiled", "reference": "certified",
-    "symbolic": "symbolics.define", "tune": "tuning", "work_precision": "benchmarking",
+    "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
+    "reference": "certified", "symbolic": "symbolics.define", "tune": "tuning", "work_precision": "benchmarking",
 }
 
 

@@ -63,10 +63,24 @@ class Blocks:
         for term, numbers in self.outputs.items():
             for number in numbers:
                 users[number].add(term)
+        self._propagate(users)
+        self._join_sines(users)
+        self._propagate(users)
+        return [frozenset(terms) for terms in users]
+
+    def _propagate(self, users: list[set[str]]) -> None:
         for number in reversed(range(len(users))):
             for argument in self.lowering.operands(self.lowering.operations[number]):
                 users[argument] |= users[number]
-        return [frozenset(terms) for terms in users]
+
+    def _join_sines(self, users: list[set[str]]) -> None:
+        """Sine and cosine of an angle go together: compilers compute both in one go."""
+        seen: dict[int, int] = {}
+        for number, operation in enumerate(self.lowering.operations):
+            if operation.code == "call" and operation.arguments[0].__name__ in ("sin", "cos") and users[number]:
+                other = seen.setdefault(operation.arguments[1], number)
+                users[number] |= users[other]
+                users[other] |= users[number]
 
     def _stored(self) -> dict[int, int]:
         outside = {number for numbers in self.outputs.values() for number in numbers}

@@ -1,8 +1,8 @@
 """Shared libraries from C sources, kept from one process to the next.
 
-The cache is a folder of libraries, each named by a hash of what it holds, and of notes that say which of them belongs to a source,
-a compiler and its flags. Files are written beside their place and moved there, so that no process sees half of one; a library
-that is not what its name says is built anew.
+The cache is a folder of libraries, each named by a hash of what it holds, and of notes that say which of them belongs to a
+source, a compiler and its flags. Files are written beside their place and moved there, so that no process sees half of one; a
+library that is not what its name says is built anew.
 """
 
 from __future__ import annotations

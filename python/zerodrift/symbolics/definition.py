@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
-from sympy.physics.mechanics import dynamicsymbols
 
 from .. import _check
 from .derivation import Given
@@ -30,7 +30,7 @@ class Definition:
     def __init__(self, coordinates: Any, kinetic: Any, potential: Any, force: Any, constraints: Any, nonholonomic: Any,
                  speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass: Any, bias: Any,
                  points: Any) -> None:
-        self.time = dynamicsymbols._t if time is None else time
+        self.time = _time() if time is None else time
         self.coordinates = _variables("coordinates", coordinates)
         self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
         self._check_times()
@@ -64,7 +64,8 @@ class Definition:
         if speeds is not None:
             found = _variables("speeds", list(speeds) if isinstance(speeds, Mapping) else speeds)
             if kinematics is None and len(found) != len(self.coordinates):
-                raise ValueError(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: then kinematics is needed")
+                raise ValueError(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: "
+                                 "then kinematics is needed")
             return found
         if kinematics is not None:
             raise TypeError("kinematics goes with speeds: name these")
@@ -88,8 +89,9 @@ class Definition:
             return list(matrix * sympy.Matrix(self.speeds))
         if matrix.shape == (len(self.coordinates), 1):
             return list(matrix)
-        raise ValueError(f"kinematics must have one expression for each of {len(self.coordinates)} coordinates, or be a matrix of "
-                         f"shape {(len(self.coordinates), len(self.speeds))}, not {matrix.shape}")
+        shape = len(self.coordinates), len(self.speeds)
+        raise ValueError(f"kinematics must have one expression for each of {shape[0]} coordinates, or be a matrix of "
+                         f"shape {shape}, not {matrix.shape}")
 
     def _force(self, given: Any, kinematics: Any) -> list[Any] | None:
         if given is None:
@@ -178,8 +180,9 @@ class Definition:
                 raise ValueError(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
 
     def _check_stages(self, given: Given) -> None:
-        if len(given.holonomic) + len(given.nonholonomic) > given.nv:
-            raise ValueError(f"{len(given.holonomic) + len(given.nonholonomic)} constraints are too many for {given.nv} velocities")
+        m = len(given.holonomic) + len(given.nonholonomic)
+        if m > given.nv:
+            raise ValueError(f"{m} constraints are too many for {given.nv} velocities")
         for i, row in enumerate(given.holonomic):
             if row.stage >= MOVING:
                 raise ValueError(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")
@@ -200,7 +203,8 @@ class Definition:
 
     def drawing(self, reader: Reader) -> list[list[Node]]:
         """The points, as nodes."""
-        points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(self.expressions["points"])]
+        given = self.expressions["points"]
+        points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(given)]
         if points and (len(points[0]) not in (2, 3) or any(len(point) != len(points[0]) for point in points)):
             raise ValueError("points must all have two or three coordinates")
         return points
@@ -211,8 +215,14 @@ class Definition:
         return [f"{letter}: {', '.join(names)}" for letter, names in rows if names]
 
 
+def _time() -> sympy.Symbol:
+    """That of dynamicsymbols, which who uses them has imported."""
+    vector = sys.modules.get("sympy.physics.vector")
+    return vector.dynamicsymbols._t if vector else sympy.Symbol("t")
+
+
 def _variables(what: str, given: Any) -> list[Any]:
-    found = [given] if isinstance(given, sympy.Basic) and not isinstance(given, Sequence | sympy.MatrixBase | sympy.Tuple) else list(given)
+    found = [given] if isinstance(given, sympy.Expr) else list(given)
     for each in found:
         if not isinstance(each, sympy.Symbol | AppliedUndef | sympy.Derivative):
             raise TypeError(f"{what} must be symbols or functions of time, not {each!r}")

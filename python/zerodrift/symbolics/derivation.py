@@ -1,7 +1,7 @@
 """The terms of (1)-(6) from energies, forces and constraints. Nothing is solved or inverted on the way.
 
-With coordinates p, their rates r = pdot = A v (1), kinetic energy T(p, r, t), potential V(p, t), generalized forces Q that belong to v,
-and D for the derivative along the motion at constant v (t' = 1, p' = A v, r' = Adot v):
+With coordinates p, their rates r = pdot = A v (1), kinetic energy T(p, r, t), potential V(p, t), generalized forces Q that
+belong to v, and D for the derivative along the motion at constant v (t' = 1, p' = A v, r' = Adot v):
 
     M  = A^T T_rr A             d = A^T (D T_r - T_p)           f = Q - A^T V_p
     C  = Phi_p A                Phi_t                           xi = -D (C v + Phi_t)

@@ -150,14 +150,16 @@ class CWriter(Writer):
         scratch = sum(number in places for block in blocks.kept for number in block.operations)
         text = "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
-            "#include <math.h>", '#include <zerodrift/system.h>', "",
+            "#include <math.h>", "#include <zerodrift/system.h>", "",
+            "const int zd_interface_version = ZD_INTERFACE_VERSION;", "",
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
-            "                         const zd_terms *out)", "{", *indented(self._locals(body) + body + ["return ZD_DONE;"]), "}", ""])
+            "                         const zd_terms *out)",
+            "{", *indented([*self._locals(), *body, "return ZD_DONE;"]), "}", ""])
         return text, count, scratch + bool(blocks.kept)
 
-    def _locals(self, body: list[str]) -> list[str]:
+    def _locals(self) -> list[str]:
         used = {(operation.arguments[0], operation.arguments[1]) for number, operation in enumerate(self.operations)
                 if operation.code == "leaf" and self.blocks.users[number]}
         lines = ["const double *restrict const k = data;", "(void)k, (void)t, (void)p, (void)v;"]

@@ -35,7 +35,8 @@ class Progress:
             self._say()
 
     def _say(self) -> None:
-        print(f"zerodrift: {self._name}: {self._what} ({time.monotonic() - self._start:.0f} s so far)", file=sys.stderr, flush=True)
+        spent = time.monotonic() - self._start
+        print(f"zerodrift: {self._name}: {self._what} ({spent:.0f} s so far)", file=sys.stderr, flush=True)
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self._over.set()

@@ -99,10 +99,7 @@ class _Reading:
     def _number(self, e: Any) -> Node:
         if not e.is_finite:
             raise self.refusal(e, "which is no finite number")
-        if e.is_Rational:
-            value = int(e) if e.is_Integer else Fraction(int(e.p), int(e.q))
-        else:
-            value = float(e)
+        value = Fraction(int(e.p), int(e.q)) if e.is_Rational else float(e)
         try:
             float(value)
         except OverflowError:
