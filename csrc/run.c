@@ -28,7 +28,6 @@ static zd_control take_control(zd_arena *arena, size_t size)
 {
     return (zd_control){
         .scale = zd_take_doubles(arena, size),
-        .y0 = zd_take_doubles(arena, size),
         .y1 = zd_take_doubles(arena, size),
         .f0 = zd_take_doubles(arena, size),
         .f1 = zd_take_doubles(arena, size),
@@ -82,6 +81,9 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
+    run.last.y = zd_take_doubles(arena, (size_t)size);
+    run.last.p = zd_take_doubles(arena, (size_t)system->nq);
+    run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
     if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
     if (settings->t_eval || settings->events) {
@@ -129,6 +131,7 @@ static int check_constraints(zd_run *run)
     zd_point_velocity_violation(point, run->Psi);
     double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
+    if (zd_first_not_finite(&run->system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
     snprintf(run->message, sizeof run->message,
              "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
              "zd.assemble finds a consistent start nearby", position, velocity, allowed);

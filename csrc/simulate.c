@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "core.h"
+#include "linalg/small.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
 
@@ -12,8 +13,26 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void remember(zd_run *run, double h)
+{
+    run->last.t = run->t;
+    run->last.h = h;
+    zd_copy(run->rate.size, run->y, run->last.y);
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, run->last.p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, run->last.v);
+}
+
+void zd_run_return(zd_run *run)
+{
+    run->t = run->last.t;
+    run->state = run->y;
+    zd_copy(run->rate.size, run->last.y, run->y);
+    zd_point_move(run->point, run->last.t, run->last.p, run->last.v);
+}
+
 int zd_run_integrate(zd_run *run, double h)
 {
+    remember(run, h);
     int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
