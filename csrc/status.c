@@ -50,10 +50,8 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 /* Numbers that are no numbers surface first in some factorization: the cause is named, not the place. */
 static int cause_of(const zd_run *run, int status)
 {
-    const zd_point *point = run->point;
     if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
-    int finite = isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
-    return finite ? status : ZD_NOT_FINITE;
+    return zd_point_is_finite(run->point) ? status : ZD_NOT_FINITE;
 }
 
 int zd_explain(zd_run *run, int status)
