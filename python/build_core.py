@@ -8,7 +8,8 @@ from pathlib import Path
 from cffi import FFI
 
 ROOT = Path(__file__).resolve().parent.parent
-FLAGS = ["-O3", "-std=c11", "-ffp-contract=off", "-fvisibility=hidden"]
+# Python's own flags come before these; among them is -fwrapv, which costs a third of the speed.
+FLAGS = ["-O3", "-std=c11", "-ffp-contract=off", "-fvisibility=hidden", "-fno-wrapv"]
 # For development: ZERODRIFT_CFLAGS adds to these, for instance warnings as errors, sanitizers, coverage.
 EXTRA = os.environ.get("ZERODRIFT_CFLAGS", "").split()
 
