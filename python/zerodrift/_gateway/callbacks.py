@@ -71,6 +71,9 @@ def zd_write_in_python(evaluator, want, t, elsewhere):
     return ffi.from_handle(evaluator).write(want, t, elsewhere)
 
 
+CALLBACK_CODE = Evaluator.write.__code__    # below it runs what users wrote
+
+
 class PythonCore(CoreSystem):
     """A system whose terms `write` computes.
 
