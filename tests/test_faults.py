@@ -1,5 +1,6 @@
 """Ctrl-C, exceptions and the end of memory at any moment; threads; fork: nothing crashes, leaks or is lost that was computed."""
 
+import contextlib
 import dataclasses
 import gc
 import multiprocessing
@@ -179,7 +180,7 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
     monkeypatch.setattr(simulation, "FIRST_BLOCK", 8)
 
     def call():
-        return zd.simulate(written, 0.4, rtol=1e-7, on_failure=on_failure, integrator="dormand_prince", progress=lambda part: None)
+        return zd.simulate(written, 0.2, rtol=1e-7, integrator="dormand_prince", on_failure=on_failure, progress=lambda part: 0)
 
     partial = over = 0
     for presser, outcome, whole in pressed_everywhere(call, monkeypatch, 150):
@@ -189,7 +190,8 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
             assert isinstance(outcome, KeyboardInterrupt)
         elif presser.advanced:
             kept = outcome if isinstance(outcome, zd.Solution) else outcome.solution
-            assert "interrupted from the keyboard" in (kept.message if on_failure == "return" and kept is outcome else str(outcome))
+            assert "interrupted from the keyboard" in (kept.message if kept is outcome else str(outcome))
+            assert kept is not outcome or on_failure == "return"
             partial += len(kept.t) > 1
             assert_same_bits(whole, kept, slice(len(kept.t)))
         else:
@@ -213,22 +215,23 @@ def pressed_after(seconds, call):
 
 
 @posix
-@pytest.mark.parametrize("what", ["reference", "work_precision", "tune", "simulate"])
+@pytest.mark.parametrize("what", ["simulate", "reference", "work_precision", "tune"])
 def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
+    known = zd.reference(bar, 0.5, error=None)
     call = {
+        "simulate": lambda: zd.simulate(pendulum(), 3.0, step=1e-3),
         "reference": lambda: zd.reference(bar, 2.0, error=None),
         "work_precision": lambda: zd.work_precision(bar, 0.5, reference=known, rounds=3),
         "tune": lambda: zd.tune(bar, 0.5, error=1e-6, formulations=["schur"]),
-        "simulate": lambda: zd.simulate(pendulum(), 3.0, step=1e-3),
     }[what]
-    known = zd.reference(bar, 0.5, error=None)
+    kept = 0
     for seconds in np.random.default_rng(2002).uniform(0.001, 0.25, size=12):
         outcome = pressed_after(seconds, call)
-        assert not isinstance(outcome, KeyboardInterrupt) or seconds < 0.01 or what in ("reference", "tune") \
-            or isinstance(outcome, zd.Interrupted)
         if isinstance(outcome, zd.Interrupted):
             assert "interrupted from the keyboard" in str(outcome)
             assert repr(outcome.solution)
+            kept += 1
+    assert kept or what == "reference"      # which has nothing to show before its end, but for runs of its own
 
 
 def test_another_handler_of_ctrl_c_is_left_alone(bar):
@@ -245,10 +248,8 @@ def test_another_handler_of_ctrl_c_is_left_alone(bar):
 
 def test_a_ctrl_c_that_a_callable_swallows_is_heard_all_the_same():
     def swallow():
-        try:
+        with contextlib.suppress(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
-        except KeyboardInterrupt:
-            pass
 
     with pytest.raises(zd.Interrupted) as caught:
         zd.simulate(pendulum(At(2000, swallow)), 1000.0, step=0.01)
@@ -339,9 +340,9 @@ def limited(code, mebibytes):
     pages = int(open("/proc/self/statm").read().split()[0])
     resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + {mebibytes} * 2**20,) * 2)
     """
-    result = subprocess.run([sys.executable, "-c", textwrap.dedent(limit) + textwrap.dedent(code)], capture_output=True, text=True,
-                            check=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
-    return result.stdout
+    code = textwrap.dedent(limit) + textwrap.dedent(code)
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,
+                          env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}).stdout
 
 
 @linux
