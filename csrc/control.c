@@ -77,6 +77,7 @@ int zd_control_step(zd_run *run)
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(run->settings.t1));
     for (;;) {
         double h = bounded(run, run->control.h), t1 = h == run->settings.t1 - t ? run->settings.t1 : t + h;
+        if (!(t1 > t)) return ZD_TINY_STEP;
         int status = attempt(run, t1 - t, t1, &norm);
         if (!status && norm <= 1) {
             run->control.h = h * fmin(largest, factor(run, norm));

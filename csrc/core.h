@@ -41,6 +41,7 @@ void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); 
 void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
+int zd_point_is_finite(const zd_point *point);      /* its p and v */
 double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
 
 /* Has the terms in `want` computed, those that the system has and that are not known yet. */
@@ -165,6 +166,7 @@ struct zd_run {
     double no_input;
     double energy0;         /* E0 of (28) */
     double t;               /* where the run has got to */
+    int begun;              /* whether the row of the start has been saved, if wanted */
     long step, steps;       /* begun; to do, where they are of fixed size */
     zd_last last;
     zd_control control;     /* where steps are chosen */
@@ -190,8 +192,12 @@ int zd_run_accelerate(zd_run *run);         /* vdot, lambda at the point */
 int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic);   /* (28) */
 int zd_run_correct(zd_run *run);            /* all corrections that are on, in their order */
 
-/* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
+/* arguments.c: refuses what no caller should hand in, with a sentence; for a run also when it begins, ends and saves */
+int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size);
+int zd_check_run(const zd_system *system, const zd_settings *settings, char *message, int size);
+
+/* run.c: the memory of a run; NULL if there is none, which status and message then say */
+zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings, int *status, char *message, int size);
 int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);

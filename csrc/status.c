@@ -66,7 +66,7 @@ static int cause_of(zd_run *run, int status, double *t)
     zd_point *point = run->point;
     *t = point->t;
     if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
-    int finite = isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
+    int finite = zd_point_is_finite(point);
     int term = zd_run_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
     if (term) point->culprit = term;
     return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;

@@ -90,7 +90,7 @@ typedef struct zd_statistics {
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
-    long capacity, rows;        /* a run with t_eval asks for one row more than that has, where events may end it */
+    long capacity, rows;        /* with t_eval: room for all the times that are left, and one more where there are events */
     double *t;                  /* (capacity,) */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */
@@ -103,7 +103,7 @@ typedef struct zd_run zd_run;
 /* Steps from t0 to t1: a span within rounding of a whole number of steps has that many, else a shorter one is added. */
 double zd_count_steps(double t0, double t1, double step);
 
-/* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`. */
+/* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`, of at least one character. */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size);
 void zd_run_free(zd_run *run);
