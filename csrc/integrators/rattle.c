@@ -218,6 +218,7 @@ static int step_of_run(void *memory, zd_run *run, double h)
     self->t0 = run->t;
     self->t1 = run->t + h;
     self->probe->statistics = &run->statistics;
+    self->probe->known = 0;     /* the step may be one made again, to be watched */
     run->state = run->y;
     status = run->formulation->enter(run->solver, run->point, run->t, run->y);
     if (!status && along) status = zd_run_rate(run, run->t, run->y, self->rate0);
