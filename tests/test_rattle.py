@@ -168,6 +168,15 @@ def test_order_two_against_another_method(make, stabilization):
         assert abs(np.log2(errors[1] / errors[2]) - 2) <= tol.ORDER, quantity
 
 
+def test_a_bias_may_stand_in_the_force():
+    with_bias = chain()
+    m = np.array([[2.0, 1.0], [1.0, 1.0]])
+    without = zd.System(2, mass=lambda p: m * np.cos(p[:, None] - p), p0=with_bias.p0, v0=with_bias.v0,
+                        force=lambda p, v: -9.81 * np.diag(m) * np.sin(p) - m * np.sin(p[:, None] - p) @ v**2)
+    one, other = (zd.simulate(system, 1.0, step=0.01, integrator="rattle") for system in (with_bias, without))
+    np.testing.assert_allclose(other.p, one.p, atol=1e-11)      # rounding of the iteration, which a hundred steps multiply
+
+
 def test_energy_input_is_integrated_along():
     """With the order of the method, for friction and moving constraints at once."""
     system = driven_pendulum()

@@ -10,7 +10,7 @@
  * step still is symmetric and of second order.
  *
  * (2) has d = Mdot v - dT/dp, so that F = f - d + Mdot v: Mdot, along the motion, comes from differences of M. Their error,
- * (RESOLUTION h w)^4, is far below what it is needed for. A system without d is one whose M does not vary: F = f, N = M.
+ * (RESOLUTION h w)^4, is far below what it is needed for. Where M does not vary, F = f and N = M.
  *
  * w is found by Newton's iteration with the leading matrix of the formulation at p0, that of the acceleration there,
  *
@@ -202,9 +202,22 @@ static int find_velocities(rattle *self)
     return run->formulation->leave(run->solver, point, run->y);
 }
 
+/* A system may also have its Mdot v in f and no d: then M shows it. */
+static int notice_variation(rattle *self, int *varies)
+{
+    zd_point_move(self->probe, self->t1, self->p, self->w);
+    int status = zd_point_need(self->probe, ZD_M);
+    *varies = memcmp(self->probe->terms.M, self->run->point->terms.M, (size_t)(self->n * self->n) * sizeof(double)) != 0;
+    return status;
+}
+
 static int solve_step(rattle *self)
 {
     int status = find_positions(self);
+    if (!status && !self->varies) {
+        status = notice_variation(self, &self->varies);
+        if (!status && self->varies) status = find_positions(self);
+    }
     return status ? status : find_velocities(self);
 }
 
