@@ -46,6 +46,7 @@ void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); 
 void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
+int zd_point_is_finite(const zd_point *point);      /* its p and v */
 double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
 double zd_max_scaled(int n, const double *x, const double *scale);    /* of |x_i| scale_i, likewise; measure.c */
 int zd_point_measure(zd_point *point);              /* unit and size, from where the point is; measure.c */
@@ -87,8 +88,11 @@ typedef struct zd_rate {
 typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
-    void *(*take)(zd_arena *arena, const void *table, int size);
+    int (*suits)(const zd_system *system);      /* NULL: it takes any */
+    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
+    int (*step_of_run)(void *self, zd_run *run, double h);
     double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
      * there, 0: not known; NULL where card.error_order is 0. */
@@ -124,10 +128,14 @@ typedef struct zd_active {
 typedef struct zd_control {
     double h;               /* the next step */
     double *scale;          /* (size,): what the error is measured in */
-    double *y0;             /* (size,): the state before a step */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
     int held, free;         /* steps that were as long as stability allows; not so, in succession */
 } zd_control;
+
+typedef struct zd_last {    /* the step being made: its size, and where it began */
+    double t, h;
+    double *y, *p, *v;      /* (size,), (nq,), (nv,) */
+} zd_last;
 
 typedef struct zd_place {   /* where a run was */
     double t;
@@ -140,8 +148,7 @@ typedef struct zd_guard {   /* where a step began, with which its end is compare
     int branch, stability;  /* what is looked at */
     int looking;            /* whether at the stability of the next step */
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
-    zd_place begin;
-    double *pdot, *vdot;    /* (nq,), (nv,): there */
+    double *pdot, *vdot;    /* (nq,), (nv,): there; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
     double *p, *v, *C;      /* (nq,), (nv,), (mh, nv): at the end, while the point is elsewhere */
     double speed;           /* |pdot|^2 there, in natural units */
@@ -188,7 +195,9 @@ struct zd_run {
     double no_input;
     double energy0;         /* E0 of (28) */
     double t;               /* where the run has got to */
+    int begun;              /* whether the row of the start has been saved, if wanted */
     long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_last last;
     zd_control control;     /* where steps are chosen */
     zd_output output;       /* where something between steps is wanted */
     zd_watch watch;
@@ -216,28 +225,33 @@ int zd_run_accelerate(zd_run *run);         /* vdot, lambda at the point */
 int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic);   /* (28) */
 int zd_run_correct(zd_run *run);            /* all corrections that are on, in their order */
 
-/* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings);
+/* arguments.c: refuses what no caller should hand in, with a sentence; for a run also when it begins, ends and saves */
+int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size);
+int zd_check_run(const zd_system *system, const zd_settings *settings, char *message, int size);
+
+/* run.c: the memory of a run; NULL if there is none, which status and message then say */
+zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings, int *status, char *message, int size);
 int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);
 
 /* simulate.c: the two halves of a step */
+int zd_run_make_step(zd_run *run, double h);    /* as the integrator does it */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
+void zd_run_return(zd_run *run);                /* point and y to where the step began */
 
 /* control.c: a step whose size the error decides */
 int zd_control_start(zd_run *run);
 int zd_control_step(zd_run *run);
 
 /* guard.c: whether a step can be believed */
-zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin);
+zd_guard zd_guard_take(const zd_run *run, zd_arena *arena);
 int zd_guard_begin(zd_run *run);            /* keeps where the run is */
 int zd_guard_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
 
 /* output.c: values between steps */
 void zd_place_keep(const zd_run *run, zd_place *place);
-void zd_place_copy(const zd_run *run, const zd_place *from, zd_place *to);
 int zd_place_return(zd_run *run, const zd_place *place);
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
@@ -248,6 +262,9 @@ int zd_output_is_complete(const zd_run *run);
 /* events.c */
 int zd_events_start(zd_run *run);
 int zd_events_after(zd_run *run);               /* finds those of the step; a terminal one becomes the run's end */
+
+/* not_finite.c: the term that is to blame for a failure, and where; 0: none is */
+int zd_run_not_finite(zd_run *run, int status, double *t);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

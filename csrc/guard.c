@@ -23,7 +23,7 @@ enum {
     LOOK_EVERY = 8,
 };
 
-zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin)
+zd_guard zd_guard_take(const zd_run *run, zd_arena *arena)
 {
     const zd_system *system = &run->system;
     const zd_settings *settings = &run->settings;
@@ -37,8 +37,7 @@ zd_guard zd_guard_take(const zd_run *run, zd_arena *arena, zd_place begin)
         .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
         .nearby = least * least,
         .limit = pow(limit > 0 ? limit : RESOLVED, 4),
-        .begin = begin,
-        .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : begin.v,
+        .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : run->last.v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : run->point ? run->point->v : NULL,
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
@@ -51,11 +50,11 @@ typedef struct sums {       /* of squares, in natural units */
     double moved, detour, speed;
 } sums;
 
-ZD_INLINE sums compare(const int n, const zd_guard *guard, const double *p, double h, const double *per_unit)
+ZD_INLINE sums compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *per_unit)
 {
     sums sum = {0, 0, 0};
     for (int i = 0; i < n; i++) {
-        double moved = (p[i] - guard->begin.p[i]) * per_unit[i], rate = guard->rate[i] * per_unit[i];
+        double moved = (p[i] - p0[i]) * per_unit[i], rate = guard->rate[i] * per_unit[i];
         double detour = moved - 0.5 * h * (guard->pdot[i] * per_unit[i] + rate);
         sum.moved += moved * moved;
         sum.detour += detour * detour;
@@ -71,7 +70,7 @@ static double least_detour(const zd_run *run, double h)
     const double *per_unit = run->point->per_unit_p;
     double rest = 0, along = 0, turn = 0;
     for (int i = 0; i < run->system.nq; i++) {
-        double a = (run->point->p[i] - guard->begin.p[i] - h * guard->pdot[i]) * per_unit[i];
+        double a = (run->point->p[i] - run->last.p[i] - h * guard->pdot[i]) * per_unit[i];
         double b = h * (guard->rate[i] - guard->pdot[i]) * per_unit[i];
         rest += a * a, along += a * b, turn += b * b;
     }
@@ -91,7 +90,7 @@ static int is_unresolved(zd_run *run, int *status)
     *status = zd_point_need(point, ZD_C);
     if (*status) return 0;
     memcpy(guard->C, point->terms.C, (size_t)(run->system.mh * nv) * sizeof(double));
-    zd_point_move(point, guard->begin.t, guard->begin.p, guard->begin.v);
+    zd_point_move(point, run->last.t, run->last.p, run->last.v);
     *status = zd_point_need(point, ZD_C);
     for (int k = 0; !*status && k < run->system.mh; k++) {
         double turned = 0, before = 0, after = 0;
@@ -146,10 +145,6 @@ ZD_INLINE int look(zd_run *run)
 ZD_INLINE void keep(zd_run *run, double speed)
 {
     zd_guard *guard = &run->guard;
-    guard->begin.t = run->t;
-    ZD_SIZED(zd_copy, run->system.nq, run->point->p, guard->begin.p);
-    ZD_SIZED(zd_copy, run->system.nv, run->point->v, guard->begin.v);
-    if (run->rate.size > run->own_size) zd_copy(run->rate.size - run->own_size, run->y + run->own_size, guard->begin.extra);
     if (run->point->terms.A) zd_copy(run->system.nq, guard->rate, guard->pdot);
     guard->looking = is_looked_at(run, run->step + 1);
     if (guard->looking) ZD_SIZED(zd_copy, run->system.nv, run->point->vdot, guard->vdot);
@@ -160,7 +155,7 @@ ZD_INLINE void keep(zd_run *run, double speed)
 int zd_guard_begin(zd_run *run)
 {
     int status = look(run);
-    if (!status) keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->point->p, 0, run->point->per_unit_p).speed);
+    if (!status) keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->last.p, run->point->p, 0, run->point->per_unit_p).speed);
     return status;
 }
 
@@ -170,7 +165,7 @@ int zd_guard_step(zd_run *run, double h)
     if (!guard->kept || run->output.between) return ZD_DONE;
     int status = look(run);
     if (status) return status;
-    const sums sum = ZD_SIZED(compare, run->system.nq, guard, run->point->p, h, run->point->per_unit_p);
+    const sums sum = ZD_SIZED(compare, run->system.nq, guard, run->last.p, run->point->p, h, run->point->per_unit_p);
     double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
     if (guard->branch && !(sum.detour <= allowed) && !(least_detour(run, h) <= allowed)) return ZD_BRANCH;
     if (guard->branch && !(sum.moved <= LONG * LONG)) {

@@ -17,14 +17,6 @@ void zd_place_keep(const zd_run *run, zd_place *place)
     if (extra_bytes(run)) memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
 }
 
-void zd_place_copy(const zd_run *run, const zd_place *from, zd_place *to)
-{
-    to->t = from->t;
-    memcpy(to->p, from->p, (size_t)run->system.nq * sizeof(double));
-    memcpy(to->v, from->v, (size_t)run->system.nv * sizeof(double));
-    memcpy(to->extra, from->extra, extra_bytes(run));
-}
-
 int zd_place_return(zd_run *run, const zd_place *place)
 {
     run->state = run->y;

@@ -14,17 +14,21 @@ from .checking import check
 from .custom import System
 from .errors import (
     BranchJump,
+    CacheWarning,
+    CompilationFailed,
     CorrectionFailed,
     CorrectionWarning,
     Diverged,
     InconsistentStart,
     Interrupted,
+    NoCompilerWarning,
     SingularSystem,
     StabilityWarning,
     StaleCore,
     StepFailed,
     UnreachableTolerance,
     UnsuitedFormulation,
+    UnsuitedIntegrator,
     ZerodriftError,
 )
 from .operations import acceleration, assemble, project
@@ -34,14 +38,20 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "BranchJump", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
-    "Interrupted", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate",
-    "stability_map", "systems", "tune", "work_precision",
+    "Baumgarte", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged",
+    "EnergyCorrection",
+    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning",
+    "StaleCore",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
+    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
+    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
+    "work_precision",
 ]
-# Imported at first use
-_LATER = {"reference": "certified", "stability_map": "stability", "tune": "tuning", "work_precision": "benchmarking"}
+_LATER = {      # imported at first use
+    "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
+    "reference": "certified", "stability_map": "stability", "symbolic": "symbolics.define", "tune": "tuning",
+    "work_precision": "benchmarking",
+}
 
 
 def __getattr__(name: str) -> Any:

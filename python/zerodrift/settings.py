@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from . import _check, _gateway
+from ._system import BaseSystem, core_of
 
 
 def _keep(settings: Any, **checked: float) -> None:
@@ -167,8 +168,8 @@ def formulations() -> dict[str, _gateway.Card]:
     return _Names(_FORMULATIONS)
 
 
-def integrators() -> dict[str, _gateway.Card]:
-    """The integrators there are, by name.
+def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
+    """The integrators there are, by name, or those that can take a system.
 
     `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
     grow, 0 where there is none.
@@ -178,8 +179,13 @@ def integrators() -> dict[str, _gateway.Card]:
     >>> import zerodrift as zd
     >>> zd.integrators()["rk4"].order
     4
+    >>> "rattle" in zd.integrators(zd.systems.rolling_disc())
+    False
     """
-    return _Names(_INTEGRATORS)
+    if system is None:
+        return _Names(_INTEGRATORS)
+    core = core_of(system)
+    return _Names({name: card for row, (name, card) in enumerate(_INTEGRATORS.items()) if core.suits(row)})
 
 
 def corrections() -> dict[str, _gateway.Card]:
