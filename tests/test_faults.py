@@ -421,6 +421,7 @@ def succeeding():
 
 
 @linux
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("what", [diverging, raising, refused, stopped, succeeding])
 def test_nothing_leaks(what):
     for _ in range(50):

@@ -27,6 +27,7 @@ typedef struct trapezoidal {
     double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
     int *order;         /* (size,) */
     int factored;
+    double least;           /* increment, in 2^26ths: where some y and f are but rounding, differences need more than these say */
     double factored_h;
     const zd_rate *rate;    /* of the step being solved, as are the next three */
     double t1, h;
@@ -61,7 +62,7 @@ static int rate_at_end(trapezoidal *self, double *f)
 /* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
 static double increment(const trapezoidal *self, int i)
 {
-    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), self->scale[i]));
+    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), fmax(self->scale[i], self->least)));
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
@@ -69,7 +70,8 @@ static void choose_units(trapezoidal *self)
 {
     for (int i = 0; i < self->size; i++) {
         int exponent = 0;
-        if (self->scale[i] > 0 && self->scale[i] < INFINITY) (void)frexp(self->scale[i], &exponent);
+        double size = fmax(self->scale[i], self->least);
+        if (size > 0 && size < INFINITY) (void)frexp(size, &exponent);
         self->unit[i] = ldexp(1, exponent);
     }
 }
@@ -132,6 +134,17 @@ static int improve(void *context)
     return ZD_DONE;
 }
 
+static int solve_step(trapezoidal *self, zd_statistics *statistics)
+{
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
+    int iterations;
+    double left;
+    self->before = INFINITY;
+    int status = zd_newton_solve(&newton, self, &iterations, &left);
+    statistics->implicit_iterations += iterations;
+    return status;
+}
+
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
 {
     trapezoidal *self = memory;
@@ -139,17 +152,19 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     self->rate = rate;
     self->t1 = t + h;
     self->h = h;
-    self->before = INFINITY;
     memcpy(self->y0, y, bytes);
     int status = rate->evaluate(rate->context, t, y, self->f0);
     if (status) return status;
     for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
 
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
-    int iterations;
-    double left;
-    status = zd_newton_solve(&newton, self, &iterations, &left);
-    statistics->implicit_iterations += iterations;
+    self->least = 0;
+    status = solve_step(self, statistics);
+    if (status == ZD_NO_CONVERGENCE || status == ZD_NO_STEP) {
+        self->factored = 0;
+        self->least = 1e-3 * zd_max_abs(self->size, y);
+        for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
+        status = solve_step(self, statistics);
+    }
     if (status) return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
     memcpy(y, self->y1, bytes);
     return ZD_DONE;

@@ -60,7 +60,7 @@ def simulate(
         chooses its steps by its error estimate, if it has one.
     rtol, atol : float, optional
         Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
-        at most one. Left out: 1e-6 and 1e-9.
+        at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y: of all tolerances it alone depends on them.
     first_step, max_step : float, optional
         Where steps are chosen: the first, and the largest, in s.
     t_eval : array_like (k,), optional
