@@ -32,6 +32,7 @@ enum zd_status {
     ZD_DONE = 0,
     ZD_PAUSED = 1,            /* the time slice is over: call again */
     ZD_FULL = 2,              /* the record is full: give another */
+    ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
     ZD_DEPENDENT = -3,        /* the rows of C are dependent */

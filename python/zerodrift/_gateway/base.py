@@ -30,7 +30,7 @@ ERRORS = {
     lib.ZD_UNSUITED: errors.UnsuitedFormulation,
     lib.ZD_NO_MEMORY: MemoryError,
 }
-DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
+DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
 # The terms a system may have: bit, shape in terms of its sizes.
