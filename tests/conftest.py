@@ -1,6 +1,14 @@
 """Tests that ask for `system`, `formulation` or `integrator` run once for each row of the core's tables."""
 
+import atexit
+import os
+import shutil
+import tempfile
+
 import pytest
+
+os.environ["ZERODRIFT_CACHE"] = tempfile.mkdtemp(prefix="zerodrift-tests-")    # before anything is compiled: tests start afresh
+atexit.register(shutil.rmtree, os.environ["ZERODRIFT_CACHE"], ignore_errors=True)
 
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
