@@ -7,12 +7,16 @@ import tempfile
 
 import pytest
 
-os.environ["ZERODRIFT_CACHE"] = tempfile.mkdtemp(prefix="zerodrift-tests-")    # before anything is compiled: tests start afresh
-atexit.register(shutil.rmtree, os.environ["ZERODRIFT_CACHE"], ignore_errors=True)
-
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
 TABLES = {"formulation": FORMULATIONS, "integrator": INTEGRATORS}
+
+
+def pytest_configure():
+    """What tests compile is not looked for, nor kept, among what the user has compiled."""
+    folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
+    os.environ["ZERODRIFT_CACHE"] = folder
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
 
 
 def pytest_generate_tests(metafunc):

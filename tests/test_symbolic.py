@@ -65,7 +65,7 @@ def chaplygin_sleigh():
 def rolling_disc():
     """With angular velocities along the axes of the disc's frame for speeds."""
     core = SYSTEMS["rolling_disc"]
-    x, y, z, yaw, lean, spin = p = dynamicsymbols("x y z yaw lean spin")
+    _, _, z, yaw, lean, _ = p = dynamicsymbols("x y z yaw lean spin")
     vx, vy, vz, w1, w2, w3 = v = dynamicsymbols("vx vy vz w1:4")
     m, R, g = sp.symbols("m R g", positive=True)
     rates = [q.diff(T) for q in p]

@@ -22,7 +22,8 @@ FUNCTIONS = [
     sp.sin(Q), sp.cos(A * Q), sp.tan(Q), sp.cot(Q), sp.sec(Q), sp.csc(Q), sp.asin(Q / 2), sp.acos(Q / 2), sp.atan(Q),
     sp.atan2(Q, A), sp.atan2(B, Q), sp.sinh(Q), sp.cosh(Q), sp.tanh(Q), sp.coth(Q), sp.sech(Q), sp.asinh(Q), sp.acosh(1 + Q),
     sp.atanh(Q / 2), sp.exp(B * Q), sp.log(Q), sp.log(Q, 10), sp.sqrt(A + Q), 1 / sp.sqrt(Q), Q ** sp.Rational(3, 2),
-    Q ** sp.Rational(-5, 2), sp.cbrt(Q), Q**A, A**Q, Q**2.5, Q**7 / (1 + Q**2) ** 3, Q**-2, sp.Abs(Q), sp.Abs(Q - 1), sp.sign(Q) * Q,
+    Q ** sp.Rational(-5, 2), sp.cbrt(Q), Q**A, A**Q, Q**2.5, Q**7 / (1 + Q**2) ** 3, Q**-2, sp.Abs(Q), sp.Abs(Q - 1),
+    sp.sign(Q) * Q,
     sp.Max(Q, 0.5), sp.Min(Q, A, Q**2), sp.floor(3 * Q) * Q, sp.Mod(5 * Q, A), sp.frac(3 * Q), sp.Heaviside(Q - 0.2) * Q**2,
     sp.erf(Q), sp.erfc(Q), sp.sinc(Q), sp.sqrt(Q**2 + A**2),
     sp.Piecewise((Q**2, Q < 0.5), (sp.sin(Q), (Q >= 0.5) & (Q < 1.2)), (A, True)),
@@ -86,8 +87,9 @@ def test_functions_of_time(signal):
         assert zd.check(system, t=t), zd.check(system, t=t)
 
 
-HOSTILE = ["lambda", "gamma", "y0", "I", "E", "pi", "k", "s", "p", "v", "t0", "want", "out", "data", "M", "ZD_M", "double", "int main()",
-           "p[0]", "x*/y", "/*", "//", "ä", "λ", "速度", "a b", "a\nb", "a\\", "%s", "\"", "'", "{0}", "x12", "def", "None", "??/", "return;"]
+HOSTILE = ["lambda", "gamma", "y0", "I", "E", "pi", "k", "s", "p", "v", "t0", "want", "out", "data", "M", "ZD_M", "double",
+           "int main()", "p[0]", "x*/y", "/*", "//", "ä", "λ", "速度", "a b", "a\nb", "a\\", "%s", "\"", "'", "{0}", "x12",
+           "def", "None", "??/", "return;"]
 
 
 def test_hostile_names_are_only_names(place):
@@ -95,8 +97,9 @@ def test_hostile_names_are_only_names(place):
     n = len(HOSTILE)
     p, v = [sp.Symbol(name) for name in HOSTILE], [sp.Symbol(f"{name}'") for name in HOSTILE]
     k = [sp.Symbol(f"{name} ") for name in HOSTILE]
-    system = place(lambda: zd.symbolic(p, speeds=v, kinetic=sum(x**2 for x in v) / 2, parameters={x: i + 1.0 for i, x in enumerate(k)},
-                                       potential=sum(a * sp.sin(b) for a, b in zip(k, p, strict=True)), p0=np.ones(n), name="*/ \n"))
+    values, V = {x: i + 1.0 for i, x in enumerate(k)}, sum(a * sp.sin(b) for a, b in zip(k, p, strict=True))
+    system = place(lambda: zd.symbolic(p, speeds=v, kinetic=sum(x**2 for x in v) / 2, potential=V, parameters=values,
+                                       p0=np.ones(n), name="*/ \n"))
     assert_close(system.evaluate().f, -np.cos(1.0) * np.arange(1.0, n + 1), tol.SAME)
     assert [x.name for x in system.coordinates] == HOSTILE
     assert_close(place(lambda: system.with_parameters(**{"lambda ": 100.0})).evaluate().f[0], -100 * np.cos(1.0), tol.SAME)
