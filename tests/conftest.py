@@ -1,10 +1,22 @@
 """Tests that ask for `system`, `formulation` or `integrator` run once for each row of the core's tables."""
 
+import atexit
+import os
+import shutil
+import tempfile
+
 import pytest
 
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
 TABLES = {"formulation": FORMULATIONS, "integrator": INTEGRATORS}
+
+
+def pytest_configure():
+    """What tests compile is not looked for, nor kept, among what the user has compiled."""
+    folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
+    os.environ["ZERODRIFT_CACHE"] = folder
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
 
 
 def pytest_generate_tests(metafunc):
