@@ -38,10 +38,10 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
     "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
-    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
-    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
-    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
-    "work_precision",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError",
+    "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load",
+    "models", "native", "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems",
+    "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
     "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",

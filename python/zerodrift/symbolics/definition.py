@@ -31,6 +31,8 @@ class Definition:
                  speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass: Any, bias: Any,
                  points: Any) -> None:
         self.time = _time() if time is None else time
+        if not isinstance(self.time, sympy.Symbol):
+            raise TypeError(f"time must be a symbol, not {time!r}")
         self.coordinates = _variables("coordinates", coordinates)
         self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
         self._check_times()
@@ -54,8 +56,6 @@ class Definition:
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
 
     def _check_times(self) -> None:
-        if not isinstance(self.time, sympy.Symbol):
-            raise TypeError(f"time must be a symbol, not {self.time!r}")
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):
                 raise ValueError(f"coordinate {q} is no function of {self.time} alone")
