@@ -12,19 +12,22 @@ static int finish(zd_run *run, int status, char *message, int size)
     return status;
 }
 
-static int no_memory(char *message, int size)
+/* What is held may bring in more rows than there are velocities; formulations rely on there being no more. */
+static int too_many(const zd_system *system, char *message, int size)
 {
-    snprintf(message, (size_t)size, "there is no memory for this operation");
-    return ZD_NO_MEMORY;
+    snprintf(message, (size_t)size, "the constraints are dependent (row %d follows from those before it)", system->nv);
+    return ZD_DEPENDENT;
 }
 
 int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size)
 {
     zd_settings settings = {.formulation = formulation};
-    zd_run *run = zd_run_lay_out(system, &settings);
-    if (!run) return no_memory(message, message_size);
-    int status = zd_run_place(run, t, p, v);
+    int status = zd_check_method(system, &settings, message, message_size);
+    if (status) return status;
+    zd_run *run = zd_run_lay_out(system, &settings, &status, message, message_size);
+    if (!run) return status;
+    status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
     if (!status && !isfinite(zd_max_abs(system->nv, run->point->vdot))) status = ZD_NOT_FINITE;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
@@ -36,10 +39,12 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
 static int project_stage(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
-    if (!run) return no_memory(message, message_size);
+    if (zd_constraints(system) > system->nv) return too_many(system, message, message_size);
+    int status;
+    zd_run *run = zd_run_lay_out(system, settings, &status, message, message_size);
+    if (!run) return status;
     run->violates = ZD_PHI | ZD_C;
-    int status = zd_run_place(run, t, p, v);
+    status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_correct(run);
     memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
@@ -52,9 +57,8 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 {
     zd_settings stage = *settings;
     zd_held held;
-    int status = ZD_DONE;
-    message[0] = '\0';
-    if (settings->projection.positions) {
+    int status = zd_check_method(system, settings, message, message_size);
+    if (!status && settings->projection.positions) {
         stage.projection.velocities = 0;
         zd_system holding = hold_p ? zd_hold_positions(&held, system, hold_p, p) : *system;     /* (25a) has all rows of C */
         status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
@@ -70,9 +74,11 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 
 int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
-    if (!run) return no_memory(message, message_size);
-    int status = zd_run_place(run, settings->t0, p, v);
+    int status = zd_check_method(system, settings, message, message_size);
+    if (status) return status;
+    zd_run *run = zd_run_lay_out(system, settings, &status, message, message_size);
+    if (!run) return status;
+    status = zd_run_place(run, settings->t0, p, v);
     if (!status) status = zd_run_start_energy(run);
     if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
     if (!status) status = zd_run_land(run, settings->t1);

@@ -121,6 +121,11 @@ double zd_point_potential(const zd_point *point)
     return point->terms.V ? *point->terms.V : 0;
 }
 
+int zd_point_is_finite(const zd_point *point)
+{
+    return isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
+}
+
 double zd_max_abs(int n, const double *x)
 {
     return ZD_SIZED(zd_largest, n, x);

@@ -43,6 +43,16 @@ static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extr
     };
 }
 
+static zd_watch take_watch(zd_arena *arena, size_t events)
+{
+    return (zd_watch){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .time = zd_take_doubles(arena, events),
+        .found = zd_take(arena, events * sizeof(int)),
+    };
+}
+
 /* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
@@ -54,7 +64,6 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .formulation = zd_formulation_of(settings->formulation),
         .integrator = zd_integrator_of(settings->integrator),
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
-        .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
     run.own_size = run.formulation->state_size(system);
     int size = enable_corrections(&run, arena, run.own_size);
@@ -65,8 +74,9 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     }
     run.violates = run.formulation->violates;
     run.solver = run.formulation->take(arena, system);
-    run.stepper = run.integrator->take(arena, run.integrator->table, size);
-    run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
+    const zd_system *its = here ? &here->system : system;
+    run.stepper = run.integrator->take(arena, run.integrator->table, its, size);
+    run.point = zd_point_take(arena, its, here ? &here->statistics : NULL);
     run.state = run.y = zd_take_doubles(arena, (size_t)size);
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
@@ -75,7 +85,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.last.p = zd_take_doubles(arena, (size_t)system->nq);
     run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
-    if (settings->t_eval) {
+    if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
+    if (settings->t_eval || settings->events) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
         run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
     }
@@ -86,13 +97,15 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     return here;
 }
 
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings)
+zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings, int *status, char *message, int size)
 {
-    if (!zd_formulation_of(settings->formulation) || !zd_integrator_of(settings->integrator)) return NULL;
     zd_arena counting = {NULL, 0};
     take_run(&counting, system, settings);
     zd_arena arena = {zd_allocate(counting.used), 0};
-    return arena.base ? take_run(&arena, system, settings) : NULL;
+    *status = arena.base ? ZD_DONE : ZD_NO_MEMORY;
+    if (arena.base) return take_run(&arena, system, settings);
+    snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
+    return NULL;
 }
 
 void zd_run_free(zd_run *run)
@@ -173,11 +186,13 @@ int zd_run_start_energy(zd_run *run)
 
 static int start(zd_run *run, const double *p0, const double *v0)
 {
-    int status = check_constraints(run);
+    int status = !zd_suits(&run->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
+               : zd_point_is_finite(run->point) ? check_constraints(run) : ZD_NOT_FINITE;
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
+    if (!status && run->settings.events) status = zd_events_start(run);
     if (status || run->settings.step > 0) return status;
     status = zd_control_start(run);
     return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */
@@ -194,10 +209,11 @@ static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
-    *status = run ? ZD_DONE : ZD_NO_MEMORY;
-    snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
+    *status = zd_check_run(system, settings, message, message_size);
+    if (*status) return NULL;
+    zd_run *run = zd_run_lay_out(system, settings, status, message, message_size);
     if (!run) return NULL;
+    run->steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_place(run, settings->t0, p0, v0);
     if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;

@@ -18,8 +18,21 @@ enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
 int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
+int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
 
 const zd_kind *zd_kind_of(int row);
+
+/* ---- events: instants at which a function of the motion passes through zero ---- */
+
+typedef struct zd_events {
+    int count;
+    const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
+    const int *terminal;    /* (count,) the run ends with so many of this event; 0: with none */
+    void *data;
+    /* The value of an event. Returns 0, or ZD_CALLBACK; the same goes for `found`, which is told where an event happened. */
+    int (*evaluate)(void *data, int event, double t, const double *p, const double *v, double *value);
+    int (*found)(void *data, int event, double t, const double *p, const double *v);
+} zd_events;
 
 /* ---- settings of a run ---- */
 
@@ -52,6 +65,7 @@ typedef struct zd_settings {
     long save_every;
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
     long t_evals;
+    const zd_events *events;        /* NULL: none */
     zd_projection projection;
     zd_baumgarte baumgarte;
     zd_energy energy;
@@ -62,7 +76,7 @@ typedef struct zd_settings {
 typedef struct zd_statistics {
     long steps;
     long rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
-    long output_steps;          /* shorter ones, to times between steps that are to be saved */
+    long output_steps;          /* shorter ones, to times between steps: to be saved, or where an event is looked for */
     long evaluations;           /* calls of the system */
     long factorizations;        /* of leading matrices */
     long solves;                /* with them */
@@ -77,7 +91,7 @@ typedef struct zd_statistics {
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
-    long capacity, rows;
+    long capacity, rows;        /* with t_eval: room for all the times that are left, and one more where there are events */
     double *t;                  /* (capacity,) */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */
@@ -90,7 +104,7 @@ typedef struct zd_run zd_run;
 /* Steps from t0 to t1: a span within rounding of a whole number of steps has that many, else a shorter one is added. */
 double zd_count_steps(double t0, double t1, double step);
 
-/* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`. */
+/* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`, of at least one character. */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size);
 void zd_run_free(zd_run *run);

@@ -32,6 +32,7 @@ enum zd_status {
     ZD_DONE = 0,
     ZD_PAUSED = 1,            /* the time slice is over: call again */
     ZD_FULL = 2,              /* the record is full: give another */
+    ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
     ZD_DEPENDENT = -3,        /* the rows of C are dependent */
@@ -47,7 +48,8 @@ enum zd_status {
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
     ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
     ZD_UNSUITED = -15,        /* the formulation cannot take this system */
-    ZD_BAD_TERM = -16         /* a term of the system is not finite where the state is */
+    ZD_BAD_TERM = -16,        /* a term of the system is not finite where the state is */
+    ZD_UNSUITED_INTEGRATOR = -17    /* the integrator cannot take this system */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

@@ -28,9 +28,10 @@ ERRORS = {
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_UNSUITED: errors.UnsuitedFormulation,
+    lib.ZD_UNSUITED_INTEGRATOR: errors.UnsuitedIntegrator,
     lib.ZD_NO_MEMORY: MemoryError,
 }
-DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
+DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
 # The terms a system may have: bit, shape in terms of its sizes.

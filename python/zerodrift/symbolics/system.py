@@ -129,9 +129,6 @@ class SymbolicSystem(BaseSystem):
     def __reduce__(self) -> tuple[Any, ...]:
         return SymbolicSystem, (self._code, self.parameters, self.p0, self.v0, self.name)
 
-    def _described(self) -> dict[str, Any]:
-        return {**super()._described(), "parameters": self.parameters}
-
 
 # ---- without a compiler ----
 
