@@ -51,8 +51,8 @@ _LATER = {      # imported at first use
 
 
 def __getattr__(name: str) -> Any:
-    if name == "plot":      # matplotlib is imported when something is drawn
-        return importlib.import_module(".plot", __name__)
+    if name in ("models", "plot"):      # SymPy and matplotlib are imported when they are used
+        return importlib.import_module(f".{name}", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
