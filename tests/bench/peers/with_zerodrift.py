@@ -73,21 +73,24 @@ def sweeps(chain):
         few = kind == "Python system"
         label = f"zerodrift, {kind}: {formulation}"
         for integrator in ("rk4", "dop853"):
-            found[f"{label}, {integrator}, fixed steps"] = [(kind, formulation, integrator, k, None)
+            found[f"{label}, {integrator}, fixed steps"] = [(kind, formulation, integrator, k, None, False)
                                                             for k in (STEPS[:10] if few else STEPS)]
-        found[f"{label}, dop853, chosen steps"] = [(kind, formulation, "dop853", None, tolerance)
+        found[f"{label}, dop853, chosen steps"] = [(kind, formulation, "dop853", None, tolerance, False)
                                                    for tolerance in (TOLERANCES[::2] if few else TOLERANCES)]
+        if not few and formulation == "schur":
+            found[f"{label}, rk4, fixed steps, energy"] = [(kind, formulation, "rk4", k, None, True) for k in STEPS]
     return found
 
 
 def solve(chain, setting):
     """Angles (k, n) at the outputs, and seconds of the whole call of `simulate`."""
-    kind, formulation, integrator, steps, tolerance = setting
+    kind, formulation, integrator, steps, tolerance, energy = setting
     system = system_of(chain, kind)
     fine = ({"step": SPACING / steps, "save_every": steps} if steps
             else {"rtol": tolerance, "atol": tolerance, "t_eval": chain.outputs})
     start = time.process_time()
-    solution = zd.simulate(system, chain.t_end, chain.p0, chain.v0, formulation=formulation, integrator=integrator, **fine)
+    solution = zd.simulate(system, chain.t_end, chain.p0, chain.v0, formulation=formulation, integrator=integrator, energy=energy,
+                           **fine)
     return solution.p, time.process_time() - start
 
 
