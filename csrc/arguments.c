@@ -90,6 +90,8 @@ static const char *wrong_course(const zd_settings *settings)
         {!settings->t_eval && settings->save_every < 1, "rows are saved every so many steps"},
         {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator needs a step: it estimates no error"},
         {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol are finite, atol not 0"},
+        {settings->events && (settings->events->count < 0 || !settings->events->evaluate || !settings->events->found),
+         "events have functions for their values and for where they are found"},
         {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step are at least 0"},
     };
     const char *wrong = FIRST_BROKEN(times);

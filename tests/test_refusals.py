@@ -121,3 +121,10 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
     for p, v in ((np.nan, 0.0), (0.0, np.inf)):
         with pytest.raises(zd.Diverged):
             _gateway.Run(core, handed(), np.array([p]), np.array([v]))
+
+
+def test_events_without_functions_are_refused_by_the_core(bar):
+    watcher = _gateway.Watcher(bar._core, ())
+    watcher.c.count = -1
+    with pytest.raises(zd.ZerodriftError, match="events have functions for their values"):
+        _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
