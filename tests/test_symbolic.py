@@ -15,7 +15,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import tolerances as tol
 import zerodrift as zd
 from support import FORMULATIONS, SYSTEMS, assert_close, consistent_states, violated_states
-from zerodrift.symbolics import progress
+from zerodrift.symbolics import blocks, progress
 
 T = dynamicsymbols._t
 LENGTHS, MASSES = sp.symbols("l1:4"), sp.symbols("m1:4")
@@ -116,9 +116,43 @@ def test_the_motion_is_that_of_the_system_in_c(pair, formulation):
     assert_close(mine.energy_input, core.energy_input, 1e-10)
 
 
+@pytest.mark.parametrize("groups", [0, 1, 2])
+def test_what_is_not_kept_is_computed_again(pair, groups, monkeypatch):
+    """Where more groups of subexpressions are shared than can be kept, the rest is computed at every call."""
+    monkeypatch.setattr(blocks, "GROUPS", groups)
+    monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
+    mine, core = WRITTEN[pair[1].name].__wrapped__(), pair[1]
+    a, b = (zd.simulate(system, 0.2, step=0.01) for system in (mine, core))
+    assert_close(a.p, b.p, 1e-12)
+    assert (mine._code.scratch == 0) == (groups == 0)
+
+
 def test_what_was_derived_passes_every_check(pair):
     report = zd.check(pair[0])
     assert report, report
+
+
+def test_a_closed_chain_of_ten_links():
+    """In absolute angles its terms are known in closed form: sums over the links of cosines and sines of differences."""
+    n, rng = 10, np.random.default_rng(7)
+    a, lengths, masses = dynamicsymbols(f"a:{n}"), rng.uniform(0.5, 1.5, n), rng.uniform(0.5, 1.5, n)
+    parameters = dict(zip([*sp.symbols(f"l:{n}"), *sp.symbols(f"m:{n}"), GRAVITY], [*lengths, *masses, 9.81], strict=True))
+    kinetic = potential = x = y = sp.S.Zero
+    for angle, length, mass in zip(a, sp.symbols(f"l:{n}"), sp.symbols(f"m:{n}"), strict=True):
+        xm, ym = x + length * sp.cos(angle) / 2, y + length * sp.sin(angle) / 2
+        kinetic += mass * (xm.diff(T) ** 2 + ym.diff(T) ** 2 + (length * angle.diff(T)) ** 2 / 12) / 2
+        potential += mass * GRAVITY * ym
+        x, y = x + length * sp.cos(angle), y + length * sp.sin(angle)
+    system = zd.symbolic(a, kinetic=kinetic, potential=potential, constraints=[x, y], parameters=parameters)
+    p, v = rng.normal(size=n), rng.normal(size=n)
+    ahead = (np.triu(np.ones((n, n)), 1) + np.eye(n) / 2) * lengths[:, None]        # arm of link i under the weight of link j
+    arms = ahead * masses @ ahead.T
+    difference = p[:, None] - p
+    terms = system.evaluate(p, v)
+    assert_close(terms.M, arms * np.cos(difference) + np.diag(masses * lengths**2 / 12), tol.SAME)
+    assert_close(terms.d, (arms * np.sin(difference)) @ v**2, tol.SAME)
+    assert_close(terms.f, -9.81 * (ahead @ masses) * np.cos(p), tol.SAME)
+    assert_close(terms.xi, np.array([np.cos(p), np.sin(p)]) @ (lengths * v**2), tol.SAME)
 
 
 def test_names_and_sizes():

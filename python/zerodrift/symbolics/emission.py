@@ -58,10 +58,11 @@ class Writer:
 
     def value(self, number: int) -> str:
         """What an operation's value is called, or its expression where it is used but once."""
-        if number not in self.names:
-            operation = self.operations[number]
-            self.names[number] = self.leaf(*operation.arguments) if operation.code == "leaf" else (
-                self.number(operation.arguments[0]) if operation.code == "number" else self.expression(operation))
+        operation = self.operations[number]
+        if operation.code == "leaf":
+            return self.leaf(*operation.arguments)
+        if operation.code == "number":
+            return self.number(operation.arguments[0])
         return self.names[number]
 
     def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
@@ -257,7 +258,8 @@ class PythonWriter(Writer):
             lines += [f"if not want.isdisjoint({sorted(block.terms)!r}):",
                       *indented(self.statements(block.operations, "x{}".format, "") or ["pass"])]
         for term, numbers in self.blocks.outputs.items():
-            own = [number for block in self.blocks.own if block.terms == {term} for number in block.operations]
+            own = self.statements([number for block in self.blocks.own if block.terms == {term} for number in block.operations],
+                                  "x{}".format, "")
             entries = [f"out[{term!r}][{i}] = {unwrapped(self.value(number))}" for i, number in enumerate(numbers)]
-            lines += [f"if {term!r} in want:", *indented(self.statements(own, "x{}".format, "") + entries or ["pass"])]
+            lines += [f"if {term!r} in want:", *indented(own + entries)]
         return "\n".join(["def evaluate(want, t, p, v, k, out):", *indented(lines or ["pass"]), ""])
