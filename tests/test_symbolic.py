@@ -15,7 +15,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import tolerances as tol
 import zerodrift as zd
 from support import FORMULATIONS, SYSTEMS, assert_close, consistent_states, violated_states
-from zerodrift.symbolics import progress
+from zerodrift.symbolics import blocks, progress
 
 T = dynamicsymbols._t
 LENGTHS, MASSES = sp.symbols("l1:4"), sp.symbols("m1:4")
@@ -114,6 +114,17 @@ def test_the_motion_is_that_of_the_system_in_c(pair, formulation):
     assert_close(mine.p, core.p, 1e-12)
     assert_close(mine.multipliers, core.multipliers, 1e-10)
     assert_close(mine.energy_input, core.energy_input, 1e-10)
+
+
+@pytest.mark.parametrize("groups", [0, 1, 2])
+def test_what_is_not_kept_is_computed_again(pair, groups, monkeypatch):
+    """Where more groups of subexpressions are shared than can be kept, the rest is computed at every call."""
+    monkeypatch.setattr(blocks, "GROUPS", groups)
+    monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
+    mine, core = WRITTEN[pair[1].name].__wrapped__(), pair[1]
+    a, b = (zd.simulate(system, 0.2, step=0.01) for system in (mine, core))
+    assert_close(a.p, b.p, 1e-12)
+    assert (mine._code.scratch == 0) == (groups == 0)
 
 
 def test_what_was_derived_passes_every_check(pair):

@@ -97,6 +97,9 @@ def test_values_and_the_start_are_no_part_of_what_is_compiled(cache, compiler):
 
 def test_another_definition_is_derived_anew(cache):
     made()
+    spare = zd.symbolic([Q], **(GIVEN | {"parameters": {"spare": 1.0, "a": 2.0}}))
+    assert list(spare.parameters) == ["spare", "a"]
+    assert zd.symbolic([Q], **(GIVEN | {"parameters": {"a": 2.0}})).parameters == {"a": 2.0}
     other = zd.symbolic([Q], **(GIVEN | {"potential": A * sp.sin(Q)}))
     assert other.evaluate([0.5]).f == pytest.approx(-2.0 * 0.8775825618903728)
 

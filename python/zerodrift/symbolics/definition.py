@@ -51,7 +51,7 @@ class Definition:
             "kinetic": kinetic, "potential": potential, "force": self._force(force, kinematics), "holonomic": holonomic,
             "nonholonomic": rows, "kinematics": self._kinematics(kinematics), "mass": _matrix("mass", mass),
             "bias": None if bias is None else list(bias), "points": [tuple(point) for point in points],
-            "names": self.constraint_names, "parameters": self._parameters}
+            "names": self.constraint_names, "parameters": [list(self.values), self._parameters]}
         self.coordinate_names = tuple(_name(q) for q in self.coordinates)
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
 
