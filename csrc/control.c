@@ -57,7 +57,7 @@ static int attempt(zd_run *run, double h, double t1, double *norm)
 {
     int status = zd_run_integrate(run, h);
     if (status) return status;
-    set_scale(run, run->control.y0, run->y);
+    set_scale(run, run->last.y, run->y);
     status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm);
     if (status) return status;
     if (isnan(*norm)) return ZD_NOT_FINITE;
@@ -75,8 +75,6 @@ int zd_control_step(zd_run *run)
 {
     double t = run->t, norm = 0, largest = LARGEST;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(run->settings.t1));
-    size_t bytes = (size_t)run->rate.size * sizeof(double);
-    memcpy(run->control.y0, run->y, bytes);
     for (;;) {
         double h = bounded(run, run->control.h), t1 = h == run->settings.t1 - t ? run->settings.t1 : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;
@@ -90,8 +88,6 @@ int zd_control_step(zd_run *run)
         run->control.h = h * (status ? AFTER_FAILURE : factor(run, norm));
         largest = 1;
         if (!(run->control.h > tiny)) return status ? status : ZD_TINY_STEP;
-        memcpy(run->y, run->control.y0, bytes);
-        run->t = t;
-        run->state = run->y;
+        zd_run_return(run);
     }
 }

@@ -114,9 +114,13 @@ typedef struct zd_active {
 typedef struct zd_control {
     double h;               /* the next step */
     double *scale;          /* (size,): what the error is measured in */
-    double *y0;             /* (size,): the state before a step */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
 } zd_control;
+
+typedef struct zd_last {    /* the step being made: its size, and where it began */
+    double t, h;
+    double *y, *p, *v;      /* (size,), (nq,), (nv,) */
+} zd_last;
 
 typedef struct zd_place {   /* where a run was */
     double t;
@@ -129,6 +133,14 @@ typedef struct zd_output {
     long next;              /* of settings.t_eval */
     int between;            /* whether the run is on its way there: such points are always corrected */
 } zd_output;
+
+typedef struct zd_watch {   /* where there are events, (events,) each */
+    double *before, *now;   /* their values at the ends of the step */
+    double *time;           /* when they happen in it; infinite where they do not */
+    int *found;             /* how often they have */
+    int failed;             /* whether it was an event that could not be evaluated */
+    int ended;              /* which ended the run, counted from 1 */
+} zd_watch;
 
 struct zd_run {
     zd_settings settings;
@@ -156,8 +168,10 @@ struct zd_run {
     double t;               /* where the run has got to */
     int begun;              /* whether the row of the start has been saved, if wanted */
     long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_last last;
     zd_control control;     /* where steps are chosen */
-    zd_output output;       /* where something between steps is to be saved */
+    zd_output output;       /* where something between steps is wanted */
+    zd_watch watch;
     int iterations;         /* most position iterations of a step since the last saved row */
     int status;
     char message[ZD_MESSAGE];
@@ -191,6 +205,7 @@ double zd_run_time(const zd_run *run, long step);
 /* simulate.c: the two halves of a step */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
+void zd_run_return(zd_run *run);                /* point and y to where the step began */
 
 /* control.c: a step whose size the error decides */
 int zd_control_start(zd_run *run);
@@ -199,7 +214,16 @@ int zd_control_step(zd_run *run);
 /* output.c: values between steps */
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
+int zd_output_move(zd_run *run, double t);      /* to any time of the step, once its end is kept */
+void zd_output_keep_end(zd_run *run);
 int zd_output_is_complete(const zd_run *run);
+
+/* events.c */
+int zd_events_start(zd_run *run);
+int zd_events_after(zd_run *run);               /* finds those of the step; a terminal one becomes the run's end */
+
+/* not_finite.c: the term that is to blame for a failure, and where; 0: none is */
+int zd_run_not_finite(zd_run *run, int status, double *t);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

@@ -29,6 +29,7 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
     if (!run) return status;
     status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
+    if (!status && !isfinite(zd_max_abs(system->nv, run->point->vdot))) status = ZD_NOT_FINITE;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);

@@ -28,7 +28,6 @@ static zd_control take_control(zd_arena *arena, size_t size)
 {
     return (zd_control){
         .scale = zd_take_doubles(arena, size),
-        .y0 = zd_take_doubles(arena, size),
         .y1 = zd_take_doubles(arena, size),
         .f0 = zd_take_doubles(arena, size),
         .f1 = zd_take_doubles(arena, size),
@@ -41,6 +40,16 @@ static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extr
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .extra = zd_take_doubles(arena, extras),
+    };
+}
+
+static zd_watch take_watch(zd_arena *arena, size_t events)
+{
+    return (zd_watch){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .time = zd_take_doubles(arena, events),
+        .found = zd_take(arena, events * sizeof(int)),
     };
 }
 
@@ -71,8 +80,12 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
+    run.last.y = zd_take_doubles(arena, (size_t)size);
+    run.last.p = zd_take_doubles(arena, (size_t)system->nq);
+    run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
-    if (settings->t_eval) {
+    if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
+    if (settings->t_eval || settings->events) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
         run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
     }
@@ -119,6 +132,7 @@ static int check_constraints(zd_run *run)
     zd_point_velocity_violation(point, run->Psi);
     double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
+    if (zd_first_not_finite(&run->system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
     snprintf(run->message, sizeof run->message,
              "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
              "zd.assemble finds a consistent start nearby", position, velocity, allowed);
@@ -176,6 +190,7 @@ static int start(zd_run *run, const double *p0, const double *v0)
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
+    if (!status && run->settings.events) status = zd_events_start(run);
     if (status || run->settings.step > 0) return status;
     status = zd_control_start(run);
     return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */

@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "core.h"
+#include "linalg/small.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
 
@@ -12,8 +13,26 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void remember(zd_run *run, double h)
+{
+    run->last.t = run->t;
+    run->last.h = h;
+    zd_copy(run->rate.size, run->y, run->last.y);
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, run->last.p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, run->last.v);
+}
+
+void zd_run_return(zd_run *run)
+{
+    run->t = run->last.t;
+    run->state = run->y;
+    zd_copy(run->rate.size, run->last.y, run->y);
+    zd_point_move(run->point, run->last.t, run->last.p, run->last.v);
+}
+
 int zd_run_integrate(zd_run *run, double h)
 {
+    remember(run, h);
     int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
@@ -42,11 +61,11 @@ static int take_fixed_step(zd_run *run)
 
 static int take_step(zd_run *run)
 {
-    if (run->settings.t_eval) zd_output_before(run);
+    if (run->settings.t_eval || run->settings.events) zd_output_before(run);
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
     if (!status) run->statistics.steps++;
-    return status;
+    return !status && run->settings.events ? zd_events_after(run) : status;
 }
 
 static int save(zd_run *run, zd_record *record)
@@ -57,14 +76,15 @@ static int save(zd_run *run, zd_record *record)
 
 static int is_over(const zd_run *run)
 {
-    return run->t == run->settings.t1 || (run->settings.t_eval && zd_output_is_complete(run));
+    return run->t == run->settings.t1 || (run->settings.t_eval && !run->settings.events && zd_output_is_complete(run));
 }
 
-/* A step may bring all the times that are left of t_eval. */
+/* A step may bring all the times that are left of t_eval, and the end by an event. */
 static int has_room(const zd_run *run, const zd_record *record)
 {
     long left = record->capacity - record->rows;
-    return run->settings.t_eval ? left >= run->settings.t_evals - run->output.next : left > 0;
+    if (!run->settings.t_eval) return left > 0;
+    return left >= run->settings.t_evals - run->output.next + (run->settings.events != NULL);
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
@@ -83,6 +103,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
         status = take_step(run);
         if (!status) status = save(run, record);
     }
+    if (!status && run->watch.ended) status = ZD_EVENT;
     if (status && !run->status) run->status = zd_explain(run, status);
     return run->status;
 }

@@ -235,7 +235,7 @@ def work_precision(
     span = _check.span(t_span)
     formulations, integrators = _names("formulations", formulations), _names("integrators", integrators)
     stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
-    steps = _default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
+    steps = default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
     tolerances = TOLERANCES if tolerances is None else [_check.number("tolerances", tol, above=0) for tol in tolerances]
     combinations = [
         Setting(formulation, integrator, *fineness, stabilization, corrected)
@@ -319,7 +319,8 @@ def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[fl
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
 
 
-def _default_steps(system, span, p0, v0) -> list[float]:
+def default_steps(system, span, p0, v0) -> list[float]:
+    """Fixed steps around the mean one of an accurate run, in s."""
     method = max(settings.integrators().values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method)
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

@@ -63,3 +63,15 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, message: str, solution: Solution | WorkPrecision) -> None:
         super().__init__(message)
         self.solution = solution
+
+
+class CompilationFailed(ZerodriftError):
+    """The C compiler refused the source of a symbolic system."""
+
+
+class NoCompilerWarning(UserWarning):
+    """There is no C compiler: a symbolic system is evaluated in Python, some hundred times slower."""
+
+
+class CacheWarning(UserWarning):
+    """The folder for compiled systems cannot be written; they are compiled once in every process."""

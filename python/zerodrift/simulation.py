@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _check, _gateway, settings
+from . import events as _events
 from ._keyboard import Keyboard
 from ._system import BaseSystem, core_of
 from .errors import CorrectionWarning, Interrupted
@@ -34,6 +35,7 @@ def simulate(
     first_step: float | None = None,
     max_step: float | None = None,
     t_eval: Any = None,
+    events: Any = None,
     formulation: str = "schur",
     integrator: str = "rk4",
     stabilization: str | settings.Stabilization = "projection",
@@ -63,6 +65,11 @@ def simulate(
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
         corrected.
+    events : callable or list of callables, optional
+        Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
+        the beginning of a step to its end. An attribute `direction` of 1 or -1 takes only those from below or from above;
+        `terminal`, True or a number, ends the run when the event has happened once or that often. What is zero at the start
+        is no event.
     formulation : str
         One of `formulations()`: which equations of motion are solved.
     integrator : str
@@ -101,19 +108,35 @@ def simulate(
     (161, 3)
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
+
+    The run ends when the crank has come round to the horizontal twice; where the coupler is at rest is noted on the way:
+
+    >>> import numpy as np
+    >>> def round(t, p, v):
+    ...     return np.sin(p[0])
+    >>> round.direction, round.terminal = 1, 2
+    >>> def rest(t, p, v):
+    ...     return v[1]
+    >>> sol = zd.simulate(bar, 8.0, step=0.01, events=[round, rest])
+    >>> sol.message
+    'at t = 2.16071475 (step 217 of 800): ended by event 0'
+    >>> sol.t_events[1].round(4)
+    array([0.1287, 0.6498, 1.4803, 2.0013])
     """
     core, span = core_of(system), _check.span(t_span)
     control = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
     chosen = {**_steps(span, step, integrator, control), **_chosen(system, formulation, integrator, stabilization, energy),
               **_saved(span, save_every, t_eval)}
     _check.choice("on_failure", on_failure, ("raise", "return"))
+    watched = _events.events(events)
     p0, v0 = system._start(p0, v0)
+    watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), _rows(span, chosen)
-    with Keyboard(_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
-        run = _gateway.Run(core, options, p0, v0)
+    with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
+        run = _gateway.Run(core, options, p0, v0, watcher)
         record = _gateway.Record(core, rows)
         outcome = _drive(run, record, progress, keyboard)
-        solution = _solution(system, span, chosen, run, record, outcome)
+        solution = _solution(system, span, chosen, run, record, watcher, outcome)
     return _finished(solution, run, outcome, on_failure, keyboard)
 
 
@@ -216,15 +239,17 @@ def _message(run: _gateway.Run, outcome: _Outcome) -> str:
             return run.message
 
 
-def _solution(system, span, chosen, run, record, outcome) -> Solution:
+def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
     arrays = record.take()
+    t_events, p_events, v_events = _where(watcher)
     return Solution(
         t=arrays["t"], p=arrays["p"], v=arrays["v"], multipliers=arrays["multipliers"],
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
-        stats=run.statistics | {"seconds": outcome.seconds}, status=outcome.status, success=outcome.status == _gateway.DONE,
-        message=_message(run, outcome), settings=chosen, system=system, t_span=span)
+        stats=run.statistics | {"seconds": outcome.seconds}, status=outcome.status,
+        success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
+        system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
 
 
 def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solution:
@@ -240,6 +265,14 @@ def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solutio
         warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the "
                       "kinetic energy is too small for them", CorrectionWarning, stacklevel=3)
     return solution
+
+
+def _where(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:
+    """The t, p and v of all events, one array for each event."""
+    if watcher is None:
+        return None, None, None
+    arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
+    return tuple(zip(*arrays, strict=True)) or ((), (), ())
 
 
 def _raise(run: _gateway.Run, solution: Solution) -> None:
@@ -260,7 +293,7 @@ def _carrying(error: BaseException, solution: Solution, note: str | None = None)
 def _rows(span: tuple[float, float], chosen: dict[str, Any]) -> int:
     """Rows of the record, with the start; where steps are chosen, as many as a first block has."""
     if "t_eval" in chosen:
-        return len(chosen["t_eval"])
+        return len(chosen["t_eval"]) + 1    # an event may end it in between
     if chosen["step"] is None:
         return FIRST_BLOCK
     steps = _gateway.count_steps(*span, chosen["step"])

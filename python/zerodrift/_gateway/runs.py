@@ -9,6 +9,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, doubles, error_of, text
+from .callbacks import Watcher
 from .systems import CoreSystem
 
 
@@ -74,21 +75,28 @@ class Record:
 class Run:
     """A run of the core."""
 
-    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray) -> None:
-        core = core.for_run()
+    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None) -> None:
+        self._core = core = core.for_run()
+        self._watcher = watcher
+        if watcher:
+            options.events = watcher.c
         status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
-            raise core.error or error_of(status[0], text(message))
-        self._run, self._core = ffi.gc(run, lib.zd_run_free), core
+            raise self._raised or error_of(status[0], text(message))
+        self._run = ffi.gc(run, lib.zd_run_free)
 
     def advance(self, record: Record, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
         return lib.zd_run_advance(self._run, record.c, seconds)
 
     def error(self, status: int) -> BaseException:
-        """The exception that stands for a failed status: what a system written in Python raised, or our own."""
-        return self._core.error or error_of(status, self.message)
+        """The exception that stands for a failed status: what was raised in Python, or our own."""
+        return self._raised or error_of(status, self.message)
+
+    @property
+    def _raised(self) -> BaseException | None:
+        return self._core.error or (self._watcher and self._watcher.error)
 
     @property
     def progress(self) -> float:
