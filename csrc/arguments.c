@@ -69,6 +69,17 @@ static const char *wrong_corrections(const zd_system *system, const zd_settings 
     return FIRST_BROKEN(rules);
 }
 
+static const char *wrong_events(const zd_events *events)
+{
+    if (!events) return NULL;
+    const rule rules[] = {
+        {events->count < 0 || events->count > LARGEST, "a run has at most 8192 events"},
+        {!events->evaluate || !events->found, "events have a function that evaluates them and one that is told of them"},
+        {events->count > 0 && (!events->direction || !events->terminal), "each event has a direction, and whether it is terminal"},
+    };
+    return FIRST_BROKEN(rules);
+}
+
 static double latest(const zd_settings *settings) { return fmax(fabs(settings->t0), fabs(settings->t1)); }
 
 static int is_increasing_within(const double *t, long count, double t0, double t1)
@@ -102,6 +113,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     const char *wrong = wrong_system(system);
     if (!wrong) wrong = wrong_rows(settings);
     if (!wrong) wrong = wrong_corrections(system, settings);
+    if (!wrong) wrong = wrong_events(settings->events);
     snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
     return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
 }

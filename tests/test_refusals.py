@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from zerodrift._core import ffi
 
 import zerodrift as zd
 from zerodrift import _gateway
@@ -121,3 +122,17 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
     for p, v in ((np.nan, 0.0), (0.0, np.inf)):
         with pytest.raises(zd.Diverged):
             _gateway.Run(core, handed(), np.array([p]), np.array([v]))
+
+
+@pytest.mark.parametrize(("changed", "sentence"), [
+    ({"count": -1}, "at most 8192 events"),
+    ({"count": 9000}, "at most 8192 events"),
+    ({"evaluate": ffi.NULL}, "a function that evaluates them"),
+    ({"count": 1, "direction": ffi.NULL}, "a direction"),
+], ids=["negative", "many", "no function", "no direction"])
+def test_events_that_the_core_refuses(bar, changed, sentence):
+    watcher = _gateway.Watcher(bar._core, [])
+    for name, value in changed.items():
+        setattr(watcher.c, name, value)
+    with pytest.raises(zd.ZerodriftError, match=sentence):
+        _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
