@@ -80,8 +80,11 @@ typedef struct zd_rate {
 typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
-    void *(*take)(zd_arena *arena, const void *table, int size);
+    int (*suits)(const zd_system *system);      /* NULL: it takes any */
+    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
+    int (*step_of_run)(void *self, zd_run *run, double h);
     /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
 } zd_integrator;
@@ -203,6 +206,7 @@ int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);
 
 /* simulate.c: the two halves of a step */
+int zd_run_make_step(zd_run *run, double h);    /* as the integrator does it */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
 void zd_run_return(zd_run *run);                /* point and y to where the step began */

@@ -54,7 +54,7 @@ static int watch_step(zd_run *run, double *t)
     run->system.evaluate = evaluate;
     run->system.data = &self;
     run->point->known = 0;
-    run->integrator->step(run->stepper, &run->rate, run->t, run->last.h, run->y, &run->statistics);
+    zd_run_make_step(run, run->last.h);
     run->system = self.system;
     run->statistics = statistics;
     if (self.term) *t = self.t;

@@ -74,8 +74,9 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     }
     run.violates = run.formulation->violates;
     run.solver = run.formulation->take(arena, system);
-    run.stepper = run.integrator->take(arena, run.integrator->table, size);
-    run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
+    const zd_system *its = here ? &here->system : system;
+    run.stepper = run.integrator->take(arena, run.integrator->table, its, size);
+    run.point = zd_point_take(arena, its, here ? &here->statistics : NULL);
     run.state = run.y = zd_take_doubles(arena, (size_t)size);
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
@@ -185,7 +186,8 @@ int zd_run_start_energy(zd_run *run)
 
 static int start(zd_run *run, const double *p0, const double *v0)
 {
-    int status = zd_point_is_finite(run->point) ? check_constraints(run) : ZD_NOT_FINITE;
+    int status = !zd_suits(&run->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
+               : zd_point_is_finite(run->point) ? check_constraints(run) : ZD_NOT_FINITE;
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);

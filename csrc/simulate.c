@@ -30,10 +30,17 @@ void zd_run_return(zd_run *run)
     zd_point_move(run->point, run->last.t, run->last.p, run->last.v);
 }
 
+int zd_run_make_step(zd_run *run, double h)
+{
+    const zd_integrator *integrator = run->integrator;
+    return integrator->step_of_run ? integrator->step_of_run(run->stepper, run, h)
+         : integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
+}
+
 int zd_run_integrate(zd_run *run, double h)
 {
     remember(run, h);
-    int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
+    int status = zd_run_make_step(run, h);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
 }

@@ -42,6 +42,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", run->formulation->card.name,
                  run->system.nq, run->system.nv);
         break;
+    case ZD_UNSUITED_INTEGRATOR:
+        snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s",
+                 run->integrator->card.name, run->system.mn ? "are nonholonomic constraints" : "is a kinematic matrix");
+        break;
     case ZD_TINY_STEP:
         snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
                  run->settings.atol);

@@ -18,6 +18,7 @@ enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
 int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
+int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
 
 const zd_kind *zd_kind_of(int row);
 

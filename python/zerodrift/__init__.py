@@ -26,6 +26,7 @@ from .errors import (
     StepFailed,
     UnreachableTolerance,
     UnsuitedFormulation,
+    UnsuitedIntegrator,
     ZerodriftError,
 )
 from .operations import acceleration, assemble, project
@@ -37,8 +38,8 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
     "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
-    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble",
-    "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
+    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
     "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
     "work_precision",
 ]

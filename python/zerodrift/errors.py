@@ -33,6 +33,10 @@ class UnsuitedFormulation(ZerodriftError, ValueError):
     """The formulation cannot take this system."""
 
 
+class UnsuitedIntegrator(ZerodriftError, ValueError):
+    """The integrator cannot take this system."""
+
+
 class SingularSystem(ZerodriftError, ArithmeticError):
     """The mass matrix is not positive definite, or the constraints are dependent."""
 

@@ -74,7 +74,7 @@ def tune(
     budget : float, optional
         Largest time of a run in s, of this machine. Either `error` or `budget` is given.
     formulations, integrators : iterable of str, optional
-        Among which to choose; left out: all.
+        Among which to choose; left out: all that can take the system.
     progress : bool or callable
         As in `simulate`; it shows the first sweep, which is most of the work.
     rounds : int

@@ -48,7 +48,8 @@ enum zd_status {
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
     ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
     ZD_UNSUITED = -15,        /* the formulation cannot take this system */
-    ZD_BAD_TERM = -16         /* a term of the system is not finite where the state is */
+    ZD_BAD_TERM = -16,        /* a term of the system is not finite where the state is */
+    ZD_UNSUITED_INTEGRATOR = -17    /* the integrator cannot take this system */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

@@ -28,6 +28,7 @@ ERRORS = {
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_UNSUITED: errors.UnsuitedFormulation,
+    lib.ZD_UNSUITED_INTEGRATOR: errors.UnsuitedIntegrator,
     lib.ZD_NO_MEMORY: MemoryError,
 }
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK

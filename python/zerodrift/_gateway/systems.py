@@ -74,6 +74,10 @@ class CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""
         return self
 
+    def suits(self, integrator: int) -> bool:
+        """Whether that row of the table of integrators can take the system."""
+        return bool(lib.zd_suits(self.c, integrator))
+
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v)."""
         core = self.for_run()
