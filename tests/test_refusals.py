@@ -136,3 +136,10 @@ def test_events_that_the_core_refuses(bar, changed, sentence):
         setattr(watcher.c, name, value)
     with pytest.raises(zd.ZerodriftError, match=sentence):
         _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
+
+
+def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():
+    edge = zd.systems.knife_edge()
+    options = handed(integrator=list(zd.integrators()).index("rattle"))
+    with pytest.raises(zd.ZerodriftError, match="rattle"):
+        _gateway.step(edge._core, options, edge.p0.copy(), edge.v0.copy())
