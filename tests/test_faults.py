@@ -253,7 +253,7 @@ def test_a_ctrl_c_that_a_callable_swallows_is_heard_all_the_same():
 
     with pytest.raises(zd.Interrupted) as caught:
         zd.simulate(pendulum(At(2000, swallow)), 1000.0, step=0.01)
-    assert len(caught.value.solution.t) > 10
+    assert 10 < len(caught.value.solution.t) < 99_000
 
 
 # ---- threads and processes ----
