@@ -204,13 +204,15 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
 def pressed_after(seconds, call):
     """A call's outcome, Ctrl-C meanwhile."""
     before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
-    signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
-        return call()
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        try:
+            return call()
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)     # it may be pressed here, too
     except KeyboardInterrupt as error:
         return error
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
 
 
