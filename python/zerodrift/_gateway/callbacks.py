@@ -126,13 +126,14 @@ class PythonCore(CoreSystem):
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
-                 units: Sequence[str], rates: Sequence[str]) -> None:
+                 units: Sequence[str] | None = None, rates: Sequence[str] = ()) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         for name in names:
             system.provides |= TERMS[name][0]
         system.evaluate = lib.zd_evaluate_in_python
-        system.lengths = self._lengths = lengths(units, rates)
+        self._lengths = ffi.NULL if units is None else lengths(units, rates)
+        system.lengths = self._lengths
         super().__init__(system, None)
         self.write, self.evaluator = write, None
 
