@@ -325,6 +325,17 @@ def test_a_library_compiled_anew_is_loaded_anew(folder, tmp_path):
     assert np.array_equal(first.evaluate().M, heavy)
 
 
+def test_a_library_may_be_overwritten_while_it_is_used(library, tmp_path):
+    """Not even its pages in memory are those of the file."""
+    copy = Path(shutil.copy(library, tmp_path / "pendulum.so"))
+    system = zd.native(copy, symbol="pendulum")
+    before = motion(system)
+    copy.write_bytes(b"something else")
+    same_bits(motion(system), before)
+    with pytest.raises(ValueError, match=r"pendulum\.so is no shared library"):
+        pendulum(copy)
+
+
 def test_parameters_are_handed_over_in_order(library):
     heavy = pendulum(library).with_parameters(mass=3.0)
     assert heavy.evaluate().M[0, 0] == 3.0

@@ -38,10 +38,10 @@ __version__ = "0.1.0"
 __all__ = [
     "Baumgarte", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection",
     "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
-    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
-    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
-    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
-    "work_precision",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError",
+    "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load",
+    "models", "native", "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems",
+    "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
     "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
@@ -51,8 +51,8 @@ _LATER = {      # imported at first use
 
 
 def __getattr__(name: str) -> Any:
-    if name == "plot":      # matplotlib is imported when something is drawn
-        return importlib.import_module(".plot", __name__)
+    if name in ("models", "plot"):      # SymPy and matplotlib are imported when they are used
+        return importlib.import_module(f".{name}", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
