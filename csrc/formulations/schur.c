@@ -19,7 +19,7 @@
 
 #include "../linalg/small.h"
 
-static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
+static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 enum { DEPENDENT_BELOW = 1024 };    /* units of rounding left of a row after taking out the others: then it is one of them */
 
 typedef struct schur {

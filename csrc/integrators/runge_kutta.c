@@ -6,7 +6,7 @@
 
 #include "../linalg/small.h"
 
-enum { LOOK_EVERY = 8 };    /* steps between looks at stiffness, where these cost an evaluation */
+enum { LOOK_EVERY = 32 };    /* steps between looks at stiffness, where these cost an evaluation */
 
 typedef struct runge_kutta {
     const zd_tableau *tableau;

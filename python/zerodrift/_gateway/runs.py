@@ -46,7 +46,7 @@ class Record:
         try:
             for name, shape in self._shapes.items():
                 array = np.empty((capacity, *shape))
-                columns[name] = array, doubles(array, array.size, writable=True)
+                columns[name] = array, ffi.from_buffer("double[]", array, require_writable=True)
             counts = {name: np.empty(capacity, dtype=np.intc) for name in COUNTS}
         except (MemoryError, ValueError):
             columns.clear()     # the traceback keeps this frame, but what it took is needed
@@ -63,11 +63,14 @@ class Record:
 
     def take(self) -> dict[str, np.ndarray]:
         """The rows written so far. Several blocks are joined column by column and let go, as memory may be short."""
+        if len(self._blocks) == 1:
+            c, columns = self._blocks.pop()
+            return {name: array[: c.rows] for name, (array, _) in columns.items()}
         return {name: self._joined(name) for name in (*self._shapes, *COUNTS)}
 
     def _joined(self, name: str) -> np.ndarray:
         parts = [columns[name][0][: c.rows] for c, columns in self._blocks]
-        joined = parts[0] if len(parts) == 1 else np.concatenate(parts)
+        joined = np.concatenate(parts)
         for _, columns in self._blocks:
             del columns[name]
         return joined
