@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "core.h"
+#include "rank.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
@@ -18,14 +19,16 @@ static int no_memory(char *message, int size)
     return ZD_NO_MEMORY;
 }
 
-int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
+int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size)
 {
-    zd_settings settings = {.formulation = formulation};
-    zd_run *run = zd_run_lay_out(system, &settings);
+    zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
+    int status;
+    zd_run *run = zd_run_open(system, &settings, t, p, v, &status);
     if (!run) return no_memory(message, message_size);
-    int status = zd_run_place(run, t, p, v);
+    if (!status) status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
+    if (!status && zd_rank_contradicts(run->point)) status = ZD_CONTRADICTION;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
@@ -35,10 +38,10 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
 static int project_stage(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
+    int status;
+    zd_run *run = zd_run_open(system, settings, t, p, v, &status);
     if (!run) return no_memory(message, message_size);
     run->violates = ZD_PHI | ZD_C;
-    int status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_correct(run);
     memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
@@ -50,6 +53,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
 {
     zd_settings stage = *settings;
+    stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
     zd_held held;
     int status = ZD_DONE;
     message[0] = '\0';
@@ -69,9 +73,10 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 
 int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
+    int status;
+    zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status);
     if (!run) return no_memory(message, message_size);
-    int status = zd_run_place(run, settings->t0, p, v);
+    if (!status) status = zd_run_place(run, settings->t0, p, v);
     if (!status) status = zd_run_start_energy(run);
     if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
     if (!status) status = zd_run_land(run, settings->t1);

@@ -3,10 +3,12 @@
 
 #include "core.h"
 #include "linalg/small.h"
+#include "rank.h"
 #include "registry.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
 static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
+static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
 
 /* ---- memory ---- */
 
@@ -44,8 +46,9 @@ static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extr
     };
 }
 
-/* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
-static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
+/* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
+ * arena to learn the size, then for good. */
+static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
 {
     zd_run *here = zd_take(arena, sizeof *here);
     if (here) here->system = *system;       /* the point refers to it */
@@ -57,7 +60,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
         .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
-    run.own_size = run.formulation->state_size(system);
+    run.own_size = run.formulation->state_size(independent);
     int size = enable_corrections(&run, arena, run.own_size);
     run.extras = size - run.own_size;
     if (zd_has_input(system)) {
@@ -65,7 +68,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         size++;
     }
     run.violates = run.formulation->violates;
-    run.solver = run.formulation->take(arena, system);
+    run.solver = run.formulation->take(arena, independent);
     run.stepper = run.integrator->take(arena, run.integrator->table, size);
     run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
     run.state = run.y = zd_take_doubles(arena, (size_t)size);
@@ -84,13 +87,52 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     return here;
 }
 
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings)
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The system with so many constraints and no more. What it brings itself is for all of them. */
+static zd_system with_rows(const zd_system *system, int rows, int holonomic)
+{
+    if (rows == zd_constraints(system)) return *system;
+    zd_system independent = *system;
+    independent.mh = holonomic;
+    independent.mn = rows - holonomic;
+    independent.provides &= ~ZD_COMPLEMENT;
+    independent.embed = NULL;
+    return independent;
+}
+
+static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic)
 {
     if (!zd_formulation_of(settings->formulation) || !zd_integrator_of(settings->integrator)) return NULL;
+    zd_system independent = with_rows(system, rows, holonomic);
     zd_arena counting = {NULL, 0};
-    take_run(&counting, system, settings);
+    take_run(&counting, system, settings, &independent);
     zd_arena arena = {zd_allocate(counting.used), 0};
-    return arena.base ? take_run(&arena, system, settings) : NULL;
+    return arena.base ? take_run(&arena, system, settings, &independent) : NULL;
+}
+
+/* Laid out as if all constraints counted; and where some turn out to be redundant, again for those that are not. */
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status)
+{
+    int rows = least(zd_constraints(system), system->nv), holonomic = least(system->mh, rows);
+    for (;;) {
+        zd_run *run = lay_out(system, settings, rows, holonomic);
+        *status = run ? ZD_DONE : ZD_NO_MEMORY;
+        if (!run) return NULL;
+        run->t = t;
+        zd_point_move(run->point, t, p, v);
+        *status = zd_rank_start(run->point, settings->on_singular);
+        const zd_rank *rank = run->point->rank;
+        int counted = least(rank->limit, system->nv);
+        run->statistics.rank = counted;
+        if (*status || counted == rows) return run;
+        rows = counted;
+        holonomic = least(rank->holonomic_limit, rows);
+        zd_run_free(run);
+    }
 }
 
 void zd_run_free(zd_run *run)
@@ -144,12 +186,9 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
-/* Formulations need not notice: some read half of M, some only parts of it. */
-static int check_mass(zd_run *run)
+static int check_symmetry(zd_point *point)
 {
-    zd_point *point = run->point;
-    int n = run->system.nv, status = zd_point_need(point, ZD_M);
-    if (status) return status;
+    int n = point->system->nv;
     const double *M = point->terms.M;
     double largest = zd_max_abs(n * n, M);
     for (int i = 0; i < n; i++)
@@ -157,7 +196,50 @@ static int check_mass(zd_run *run)
             point->culprit = i;
             if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
         }
-    point->culprit = zd_cholesky(n, M, run->factor);
+    return ZD_DONE;
+}
+
+static double unit(int n, const double *M, int i)
+{
+    return M[i * n + i] > 0 ? sqrt(M[i * n + i]) : 1;
+}
+
+/* factor <- M in units that make its diagonal one where there is any mass, + the sum of `rows` rows of C in these units, each of length
+ * one, times itself */
+static void weigh(const zd_run *run, int rows, double *factor)
+{
+    int n = run->system.nv;
+    const double *M = run->point->terms.M;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) factor[i * n + j] = M[i * n + j] / (unit(n, M, i) * unit(n, M, j));
+    for (int k = 0; k < rows; k++) {
+        const double *c = run->point->C + k * n;
+        double length = 0;
+        for (int i = 0; i < n; i++) length += c[i] * c[i] / (unit(n, M, i) * unit(n, M, i));
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) factor[i * n + j] += c[i] * c[j] / (unit(n, M, i) * unit(n, M, j) * length);
+    }
+}
+
+/* M may be singular where constraints hold what has no mass: x^T M x > 0 for all other x that C x = 0 allows, and never negative. */
+static int check_mass(zd_run *run)
+{
+    zd_point *point = run->point;
+    int n = run->system.nv, status = zd_point_need(point, ZD_M);
+    if (!status) status = check_symmetry(point);
+    if (status) return status;
+    double *factor = run->factor;
+    point->culprit = zd_cholesky(n, point->terms.M, factor);
+    if (point->culprit == n) return ZD_DONE;
+    if (run->formulation->inverts_mass) return ZD_NOT_DEFINITE;
+    status = zd_rank_find(point);
+    if (status) return status;
+    weigh(run, 0, factor);
+    for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
+    point->culprit = zd_cholesky(n, factor, factor);
+    if (point->culprit < n) return ZD_NOT_DEFINITE;
+    weigh(run, point->rows, factor);
+    point->culprit = zd_cholesky(n, factor, factor);
     return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
 }
 
@@ -173,6 +255,7 @@ static int start(zd_run *run, const double *p0, const double *v0)
     int status = check_constraints(run);
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
+    if (!status && zd_rank_contradicts(run->point)) status = ZD_CONTRADICTION;
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
     if (status || run->settings.step > 0) return status;
@@ -191,11 +274,12 @@ static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size)
 {
-    zd_run *run = zd_run_lay_out(system, settings);
+    int why;
+    zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, &why);
     *status = run ? ZD_DONE : ZD_NO_MEMORY;
     snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
     if (!run) return NULL;
-    int why = zd_run_place(run, settings->t0, p0, v0);
+    if (!why) why = zd_run_place(run, settings->t0, p0, v0);
     if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;
 }
@@ -223,3 +307,4 @@ double zd_run_progress(const zd_run *run)
 
 const char *zd_run_message(const zd_run *run) { return run->message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->statistics; }
+int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->point->rank, rows); }

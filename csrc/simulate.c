@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "core.h"
+#include "rank.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
 
@@ -44,6 +45,8 @@ static int take_step(zd_run *run)
     if (run->settings.t_eval) zd_output_before(run);
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
+    if (run->point->rank->dropped) run->statistics.rank_drops++;
+    run->point->rank->dropped = 0;
     if (!status) run->statistics.steps++;
     return status;
 }

@@ -18,7 +18,7 @@ enum zd_status {
     ZD_FULL = 2,              /* the record is full: give another */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
-    ZD_DEPENDENT = -3,        /* the rows of C are dependent */
+    ZD_DEPENDENT = -3,        /* rows of C that count are dependent, to the formulation's own precision */
     ZD_SINGULAR = -4,         /* a leading matrix is singular */
     ZD_NO_CONVERGENCE = -5,   /* the position correction did not reach its tolerance */
     ZD_NO_STEP = -6,          /* the equations of an implicit step were not solved */
@@ -30,7 +30,9 @@ enum zd_status {
     ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
     ZD_NOT_SYMMETRIC = -13,   /* M is not */
     ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
-    ZD_UNSUITED = -15         /* the formulation cannot take this system */
+    ZD_UNSUITED = -15,        /* the formulation cannot take this system */
+    ZD_BIFURCATION = -16,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
+    ZD_CONTRADICTION = -17    /* constraints that follow from others ask for something else */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -160,6 +162,9 @@ typedef struct zd_energy {          /* (28), (29) */
     int every;                      /* 0: off */
 } zd_energy;
 
+/* What to do where constraints that are independent elsewhere are not: a bifurcation. */
+enum zd_on_singular { ZD_STOP, ZD_CONTINUE };   /* the latter: on the branch of least acceleration */
+
 typedef struct zd_settings {
     int formulation, integrator;    /* rows of the tables */
     double t0, t1;                  /* s */
@@ -172,6 +177,7 @@ typedef struct zd_settings {
     zd_projection projection;
     zd_baumgarte baumgarte;
     zd_energy energy;
+    enum zd_on_singular on_singular;
 } zd_settings;
 
 /* ---- a run ---- */
@@ -191,6 +197,8 @@ typedef struct zd_statistics {
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
     long repartitions;          /* changes of the independent variables between steps */
+    long rank;                  /* of C; less than m where constraints are redundant */
+    long rank_drops;            /* steps in which it was less for a while */
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
@@ -216,10 +224,12 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */
 const char *zd_run_message(const zd_run *run);              /* the first failure, one sentence */
 const zd_statistics *zd_run_statistics(const zd_run *run);
+/* The constraints that follow from others wherever the system goes; their number. rows (m,), increasing. */
+int zd_run_redundant(const zd_run *run, int *rows);
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */
 
-int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
+int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size);
 /* Corrects p and v in place as settings->projection says, holding coordinates and velocities where hold_p, hold_v are
  * nonzero (either may be NULL); iterations may be NULL. */

@@ -9,6 +9,7 @@
 #include "../core.h"
 #include "../linalg/small.h"
 #include "../newton.h"
+#include "../rank.h"
 
 typedef struct projection {
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
@@ -56,14 +57,14 @@ static int position_residual(void *context, double *size)
 
 static int solve_with_identity(projection *self, zd_run *run, const double *rhs, double *x)
 {
-    int status = zd_point_need(run->point, ZD_C);
+    int status = zd_rank_find(run->point);
     if (status) return status;
     zd_point unit = *run->point;
     unit.terms.M = self->identity;
     run->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
     run->point->culprit = unit.culprit;
-    if (!status) zd_schur.solve(self->plain, NULL, rhs, x, NULL);
+    if (!status) zd_rank_solve(&unit, &zd_schur, self->plain, NULL, rhs, x, NULL);
     return status;
 }
 
@@ -73,7 +74,7 @@ static int solve(projection *self, zd_run *run, const double *rhs, double *x)
     run->statistics.solves++;
     if (self->plain) return solve_with_identity(self, run, rhs, x);
     int status = zd_run_factor(run);
-    if (!status) run->formulation->solve(run->solver, NULL, rhs, x, NULL);
+    if (!status) zd_run_solve(run, NULL, rhs, x, NULL);
     return status;
 }
 

@@ -9,6 +9,7 @@
 #include "dependent.h"
 
 #include "../linalg/lu.h"
+#include "../rank.h"
 
 typedef struct augmented {
     int n, m;
@@ -53,9 +54,11 @@ static void fill(augmented *self, const double *M, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
-    int size = self->n + self->m;
-    self->scale = scale_of_constraints(self, point->terms.M, point->terms.C);
-    fill(self, point->terms.M, point->terms.C);                         /* (8) */
+    int status = zd_rank_find(point), size = self->n + point->rows;
+    if (status) return status;
+    self->m = point->rows;
+    self->scale = scale_of_constraints(self, point->terms.M, point->C);
+    fill(self, point->terms.M, point->C);                               /* (8) */
     int column = zd_lu_factor(size, self->G, self->order);
     if (column == size) return ZD_DONE;
     point->culprit = column < self->n ? column : column - self->n;

@@ -9,6 +9,7 @@
 
 #include "../linalg/lu.h"
 #include "../newton.h"
+#include "../rank.h"
 
 enum { MAX_ITERATIONS = 20 };
 static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
@@ -21,6 +22,7 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
         .nv = (int)nv,
         .mh = (int)mh,
         .k = (int)k,
+        .embed = system->embed,
         .index = zd_take(arena, k * sizeof(int)),
         .order = zd_take(arena, (mh + nq) * sizeof(int)),
         .K = zd_take_doubles(arena, nv * nv),
@@ -36,16 +38,25 @@ static double kinematic(const zd_point *point, int i, int j)
     return point->terms.A ? point->terms.A[i * point->system->nv + j] : i == j;
 }
 
+/* C and A at the point, where as many rows of C_H have to count as q was made for. */
+static int need_rows(const zd_embedding *self, zd_point *point)
+{
+    int status = zd_point_need(point, ZD_C | ZD_A);
+    if (status || !self->mh) return status;
+    status = zd_rank_find(point);
+    return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
+}
+
 /* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there. */
 static int factor(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv;
-    int status = zd_point_need(point, ZD_C | ZD_A);
+    int status = need_rows(self, point);
     if (status) return status;
     double gradient = 0;
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
-        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->terms.C[k * nv + j]);
+        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]);
         gradient = fmax(gradient, sum);
     }
     for (int k = 0; k < self->k; k++)
@@ -70,7 +81,7 @@ static int residual(void *context, double *size)
     zd_point *point = it->point;
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
     if (status) return status;
-    double Phi = it->self->mh ? zd_max_abs(it->self->mh, point->terms.Phi) : 0;
+    double Phi = it->self->mh ? zd_max_abs(point->system->mh, point->terms.Phi) : 0;
     *size = Phi > 0 ? Phi / it->self->rounding : 0;
     for (int k = 0; k < it->self->k; k++)
         if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
@@ -84,7 +95,7 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[k];
+    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[zd_rank_row(point, k)];
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);
@@ -116,9 +127,9 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
         zd_point_move(point, t, self->p, point->v);
         return ZD_DONE;
     }
-    if (!system->embed) return place_numerically(self, point, t, q);
+    if (!self->embed) return place_numerically(self, point, t, q);
     memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
-    int status = system->embed(system->data, t, q, self->p);            /* (18) */
+    int status = self->embed(system->data, t, q, self->p);            /* (18) */
     if (!status) zd_point_move(point, t, self->p, point->v);
     return status;
 }
@@ -144,7 +155,7 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = i < mh ? point->terms.C[i * nv + j] : kinematic(point, i - mh, j);
+            self->work[j * columns + i] = i < mh ? point->C[i * nv + j] : kinematic(point, i - mh, j);
     point->culprit = zd_choose_columns(nv, columns, mh, self->work, self->order);
     if (point->culprit < nv) return ZD_DEPENDENT;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;
@@ -155,10 +166,11 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
 {
     const zd_system *system = point->system;
     *changed = 0;
-    if (self->chosen && (system->embed || !self->mh || response(self) <= WORSE * self->reference)) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C | ZD_A);
-    if (system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
-    else if (!status) status = choose(self, point);
+    if (self->chosen && (self->embed || !self->mh || response(self) <= WORSE * self->reference)) return ZD_DONE;
+    int status = need_rows(self, point);
+    if (status) return status;
+    if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
+    else status = choose(self, point);
     if (!status) status = factor(self, point);
     if (status) return status;
     if (self->chosen) point->statistics->repartitions++;

@@ -13,6 +13,7 @@ from . import systems
 from .checking import check
 from .custom import System
 from .errors import (
+    Bifurcation,
     CorrectionFailed,
     CorrectionWarning,
     Diverged,
@@ -32,7 +33,7 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
+    "Baumgarte", "Bifurcation", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
     "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
     "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",

@@ -38,6 +38,7 @@ def simulate(
     energy: bool | settings.EnergyCorrection | None = None,
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,
+    on_singular: str = "stop",
     on_failure: str = "raise",
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
@@ -73,6 +74,10 @@ def simulate(
         Steps between saved rows; start and end are always saved.
     progress : bool or callable
         True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
+    on_singular : {"stop", "continue"}
+        What to do at a bifurcation, where constraints that are independent elsewhere are not, and do not determine the motion:
+        stop, or continue on the branch of least acceleration (in "augmented", "nullspace" and "schur"). Constraints that are
+        redundant wherever the system goes need no choice.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
@@ -102,8 +107,9 @@ def simulate(
     """
     core, span = core_of(system), _check.span(t_span)
     control = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
+    settings.on_singular_row(on_singular)
     chosen = {**_steps(span, step, integrator, control), **_chosen(system, formulation, integrator, stabilization, energy),
-              **_saved(span, save_every, t_eval)}
+              **_saved(span, save_every, t_eval), "on_singular": on_singular}
     _check.choice("on_failure", on_failure, ("raise", "return"))
     p0, v0 = system._start(p0, v0)
     run = _gateway.Run(core, settings.core_settings(span, chosen), p0, v0)
@@ -203,7 +209,7 @@ def _finish(system, span, chosen, run, record, on_failure, status, seconds) -> S
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
-        stats=run.statistics | {"seconds": seconds}, status=status, success=status == _gateway.DONE,
+        stats=run.statistics | {"redundant": run.redundant, "seconds": seconds}, status=status, success=status == _gateway.DONE,
         message=_message(run, status), settings=chosen, system=system, t_span=span)
     if on_failure == "raise" and not solution.success:
         _raise(run, status, solution)
