@@ -209,7 +209,7 @@ ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
         for (int j = 0; j < k; j++) zd_add_scaled(n, q, -self->left[j] * zd_dot(n, self->Q + j * n, q), self->Q + j * n);
         if (k) left = zd_dot(n, q, q);
         if (!(left > DOUBTFUL * whole)) return 1;
-        self->left[k] = 1 / left;
+        if (k < self->m - 1) self->left[k] = 1 / left;
     }
     return 0;
 }
@@ -354,6 +354,7 @@ int zd_rank_start(zd_point *point, enum zd_on_singular on_singular)
     self->may_drop = 1;
     measure(point);
     status = zd_rank_find(point);
+    self->may_drop = on_singular == ZD_CONTINUE;
     if (status || point->rows == self->m) return status;
     if (point->system->provides & ZD_XI) {
         int curved = count_curved(point);
@@ -362,7 +363,6 @@ int zd_rank_start(zd_point *point, enum zd_on_singular on_singular)
         if (!curved) self->holonomic_limit = point->holonomic;
     }
     for (int d = point->rows; d < self->m && self->limit == point->rows; d++) self->redundant[self->row[d]] = 1;
-    self->may_drop = on_singular == ZD_CONTINUE;
     self->dropped = point->rows < self->limit;
     return self->dropped && !self->may_drop ? ZD_BIFURCATION : ZD_DONE;
 }

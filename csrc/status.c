@@ -28,8 +28,8 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->settings.on_singular == ZD_STOP ? "on_singular=\"continue\" takes the branch of least acceleration"
-                                                      : "nor do these independent velocities; 'schur' can go on");
+                 run->formulation->settle ? "nor do independent velocities; 'schur' with on_singular=\"continue\" can go on"
+                                          : "on_singular=\"continue\" takes the branch of least acceleration");
         break;
     case ZD_CONTRADICTION:
         snprintf(to, size, "the constraints contradict each other (%s from the others, and row %d asks for another acceleration)", rows,

@@ -72,7 +72,7 @@ typedef struct zd_terms {
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns 0, or ZD_CALLBACK. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
-/* p = g(q) of (18), on the branch that p is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
+/* p = g(q) of (18), on the branch that p, an estimate of it, is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
 typedef int zd_embed(const void *data, double t, const double *q, double *p);
 
 typedef struct zd_system {

@@ -3,7 +3,7 @@
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be the identity. It starts from the point before, whose branch it therefore stays on.
+ * so that A need not be the identity. It starts from where the velocity of the point before leads, whose branch it stays on.
  */
 #include "embedding.h"
 
@@ -111,12 +111,19 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     problem it = {self, point, q};
     int iterations;
     double left;
-    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
     zd_point_move(point, t, self->p, point->v);
     int status = zd_newton_solve(&newton, &it, &iterations, &left);
     point->statistics->embedding_iterations += iterations;
     point->defect = left * self->rounding;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
+}
+
+/* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. */
+static void predict(zd_embedding *self, zd_point *point, double t)
+{
+    if (point->terms.A && !(point->known & ZD_A)) memset(self->p, 0, (size_t)self->nq * sizeof(double));
+    else zd_point_rate(point, point->v, self->p);
+    for (int i = 0; i < self->nq; i++) self->p[i] = point->p[i] + (t - point->t) * self->p[i];
 }
 
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)
@@ -127,8 +134,8 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
         zd_point_move(point, t, self->p, point->v);
         return ZD_DONE;
     }
+    predict(self, point, t);
     if (!self->embed) return place_numerically(self, point, t, q);
-    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
     int status = self->embed(system->data, t, q, self->p);            /* (18) */
     if (!status) zd_point_move(point, t, self->p, point->v);
     return status;
