@@ -2,7 +2,6 @@
 #include <stdio.h>
 
 #include "core.h"
-#include "rank.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
@@ -28,7 +27,6 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     if (!run) return no_memory(message, message_size);
     if (!status) status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
-    if (!status && zd_rank_contradicts(run->point)) status = ZD_CONTRADICTION;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
@@ -39,7 +37,9 @@ static int project_stage(const zd_system *system, const zd_settings *settings, d
                          int *iterations, char *message, int message_size)
 {
     int status;
-    zd_run *run = zd_run_open(system, settings, t, p, v, &status);
+    zd_system still = *system;
+    still.provides &= ~ZD_XI;       /* nothing here is about accelerations */
+    zd_run *run = zd_run_open(&still, settings, t, p, v, &status);
     if (!run) return no_memory(message, message_size);
     run->violates = ZD_PHI | ZD_C;
     if (!status) status = zd_run_correct(run);

@@ -346,6 +346,26 @@ static int count_curved(zd_point *point)
     return status ? -1 : curved;
 }
 
+static int tell_redundant(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    double *w = self->sample;
+    int status = zd_point_need(point, ZD_XI);
+    if (status) return status;
+    curvature(point, w);
+    for (int d = point->rows; d < self->m; d++) {
+        point->culprit = self->row[d];
+        if (w[d - point->rows] != 0) return ZD_CONTRADICTION;       /* there is no vdot */
+    }
+    int curved = count_curved(point);
+    if (curved < 0) return ZD_CALLBACK;
+    self->limit = point->rows + curved;
+    if (curved) return ZD_DONE;
+    self->holonomic_limit = point->holonomic;
+    for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
+    return ZD_DONE;
+}
+
 int zd_rank_start(zd_point *point, enum zd_on_singular on_singular)
 {
     zd_rank *self = point->rank;
@@ -356,30 +376,10 @@ int zd_rank_start(zd_point *point, enum zd_on_singular on_singular)
     status = zd_rank_find(point);
     self->may_drop = on_singular == ZD_CONTINUE;
     if (status || point->rows == self->m) return status;
-    if (point->system->provides & ZD_XI) {
-        int curved = count_curved(point);
-        if (curved < 0) return ZD_CALLBACK;
-        self->limit = point->rows + curved;
-        if (!curved) self->holonomic_limit = point->holonomic;
-    }
-    for (int d = point->rows; d < self->m && self->limit == point->rows; d++) self->redundant[self->row[d]] = 1;
+    status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
+    if (status) return status;
     self->dropped = point->rows < self->limit;
     return self->dropped && !self->may_drop ? ZD_BIFURCATION : ZD_DONE;
-}
-
-int zd_rank_contradicts(zd_point *point)
-{
-    const zd_rank *self = point->rank;
-    int n = self->n;
-    double speed = zd_max_abs(n, point->v), bend = speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
-    for (int d = point->rows; d < self->m; d++) {
-        int row = self->row[d];
-        double asked = point->rhs[row], given = zd_dot(n, point->terms.C + row * n, point->vdot);
-        double scale = fabs(asked) + unit_of(self, row) * (zd_max_abs(n, point->vdot) + bend);
-        point->culprit = row;
-        if (!(fabs(given - asked) <= ZD_RANK_TOLERANCE * scale)) return 1;
-    }
-    return 0;
 }
 
 int zd_rank_redundant(const zd_rank *self, int *rows)

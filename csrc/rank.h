@@ -33,8 +33,8 @@ struct zd_rank {
 #define ZD_DOUBTFUL 0x1p-20
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
-/* Finds the rank at the start, and from (6) whether rows that follow from others do so wherever the system goes (they are
- * redundant) or only here (a bifurcation). */
+/* Finds the rank at the start, and from (6) whether rows that follow from others contradict them, do so wherever the system goes (they
+ * are redundant), or only here (a bifurcation). A system without (6) is not asked. */
 int zd_rank_start(zd_point *point, enum zd_on_singular on_singular);
 /* Which rows count at the point, into point->rows, point->C. */
 int zd_rank_find(zd_point *point);
@@ -49,8 +49,6 @@ static inline int zd_rank_row(const zd_point *point, int k)
 {
     return point->rows == point->rank->m ? k : point->rank->row[k];
 }
-/* Whether, at a start, what rows that do not count ask of vdot contradicts the others. */
-int zd_rank_contradicts(zd_point *point);
 /* The formulation's solve, with right sides and multipliers of all rows. */
 void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
                            const double *rhs, double *x, double *lambda);

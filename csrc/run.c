@@ -255,7 +255,6 @@ static int start(zd_run *run, const double *p0, const double *v0)
     int status = check_constraints(run);
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
-    if (!status && zd_rank_contradicts(run->point)) status = ZD_CONTRADICTION;
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
     if (status || run->settings.step > 0) return status;

@@ -206,7 +206,7 @@ _PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eva
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     options = {"formulation": formulation_row(chosen["formulation"]),
-               "integrator": integrator_row(chosen["integrator"]), "on_singular": on_singular_row(chosen["on_singular"]),
+               "integrator": integrator_row(chosen["integrator"]), "on_singular": on_singular_row(chosen.get("on_singular", "stop")),
                "t0": span[0], "t1": span[1]}
     options |= {name: chosen[name] for name in _PLAIN if chosen.get(name) is not None}
     for correction in (chosen["stabilization"], chosen["energy"]):
