@@ -239,8 +239,11 @@ static int check_mass(zd_run *run)
     point->culprit = zd_cholesky(n, factor, factor);
     if (point->culprit < n) return ZD_NOT_DEFINITE;
     weigh(run, point->rows, factor);
-    point->culprit = zd_cholesky(n, factor, factor);
-    return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
+    int free = zd_cholesky(n, factor, factor);
+    if (free == n) return ZD_DONE;
+    snprintf(run->message, sizeof run->message, "the mass matrix is singular, and no constraint holds what has no mass "
+             "(first seen at velocity %d)", free);
+    return ZD_NOT_DEFINITE;
 }
 
 int zd_run_start_energy(zd_run *run)

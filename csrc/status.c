@@ -20,7 +20,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
                  run->formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
                                                   "hold what has no mass"
-                                                : ", even where the constraints leave the velocities free");
+                                                : "");
         break;
     case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", culprit); break;
     case ZD_DEPENDENT:

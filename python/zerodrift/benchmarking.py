@@ -321,5 +321,5 @@ def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[fl
 
 def _default_steps(system, span, p0, v0) -> list[float]:
     method = max(settings.integrators().values(), key=lambda card: card.order).name
-    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method)
+    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method, formulation="augmented")
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

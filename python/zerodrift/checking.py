@@ -119,7 +119,7 @@ def _samples(system: BaseSystem, p: np.ndarray, v: np.ndarray, t: float, samples
         guess = p + SPREAD * random.standard_normal(system.nq) * max(np.abs(p).max(initial=0.0), 1e-3)
         rates = v + random.standard_normal(system.nv) * max(np.abs(v).max(initial=0.0), 1.0)
         try:
-            yield project(system, guess, rates, t, projection=Projection(tol=1e-9, max_iterations=50))
+            yield project(system, guess, rates, t, projection=Projection(tol=1e-9, max_iterations=50), formulation="augmented")
         except ZerodriftError:      # too far away, or a wrong Jacobian: the state itself will do
             yield guess, rates
 
@@ -207,7 +207,7 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
     if terms.V is None:
         return
     try:
-        vdot, multipliers = acceleration(state.system, state.p, v, state.t)
+        vdot, multipliers = acceleration(state.system, state.p, v, state.t, "augmented")
     except ZerodriftError:
         return      # said elsewhere: the mass or the constraints are at fault
     zero = np.zeros(state.system.nv)

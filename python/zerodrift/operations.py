@@ -42,7 +42,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     Raises
     ------
     CorrectionFailed
-        If no consistent position was found: links cannot close, or the guess is too far away.
+        If no consistent position was found: links cannot close, what is held contradicts them, or the guess is too far away.
     SingularSystem
         If what is held leaves no way to satisfy the constraints.
 
@@ -63,7 +63,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
         _check.choice("hold", name, known)
     holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
     v = np.zeros(system.nv) if v is None else v
-    return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "schur", holds)
+    return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
