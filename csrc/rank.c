@@ -12,7 +12,7 @@
  *
  *     lambda = W B (B^T W B)^-1 lambda_r.
  *
- * Where M is singular, s_k is the plain length of the row.
+ * Where M is singular, or all but singular, s_k is the plain length of the row.
  */
 #include "rank.h"
 
@@ -21,6 +21,7 @@
 #include "linalg/small.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
+static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
 static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
@@ -119,6 +120,16 @@ static void set_weights(zd_rank *self)
     for (int k = 0; k < self->m; k++) self->weight[k] = self->left[k] != 0 && self->whole[k] > 0 ? 1 / self->whole[k] : 0;
 }
 
+/* Whether M^-1 is one: with so little of a pivot left, rounding in that metric would be as large as the tolerance. */
+static int has_metric(zd_rank *self, const double *M)
+{
+    int n = self->n;
+    if (zd_cholesky(n, M, self->L) < n) return 0;
+    for (int i = 0; i < n; i++)
+        if (!(1 > LEAST_PIVOT * M[i * n + i] * self->L[i * n + i])) return 0;
+    return 1;
+}
+
 /* The larger of the two ranks; with it in G what rows had along those that were chosen. */
 static int rank_of(zd_rank *self, const double *C, const double *M)
 {
@@ -126,7 +137,7 @@ static int rank_of(zd_rank *self, const double *C, const double *M)
     if (rank == self->m) return rank;
     set_rows(self, C, NULL);
     set_weights(self);
-    if (zd_cholesky(self->n, M, self->L) < self->n) return orthogonalize(self, C, NULL);
+    if (!has_metric(self, M)) return orthogonalize(self, C, NULL);
     set_rows(self, C, self->L);
     set_weights(self);
     int other = orthogonalize(self, C, self->L);
@@ -253,7 +264,7 @@ void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulat
 static void measure(zd_point *point)
 {
     zd_rank *self = point->rank;
-    int m = self->m, definite = zd_cholesky(self->n, point->terms.M, self->L) == self->n;
+    int m = self->m, definite = has_metric(self, point->terms.M);
     memset(self->length, 0, (size_t)m * sizeof(double));
     for (int metric = 0; metric <= definite; metric++) {
         double *size = metric ? self->reach : self->length;

@@ -126,11 +126,10 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         zd_point_move(run->point, t, p, v);
         *status = zd_rank_start(run->point, settings->on_singular);
         const zd_rank *rank = run->point->rank;
-        int counted = least(rank->limit, system->nv);
-        run->statistics.rank = counted;
-        if (*status || counted == rows) return run;
-        rows = counted;
+        int laid = rows, laid_holonomic = holonomic;
+        run->statistics.rank = rows = least(rank->limit, system->nv);
         holonomic = least(rank->holonomic_limit, rows);
+        if (*status || (rows == laid && holonomic == laid_holonomic)) return run;
         zd_run_free(run);
     }
 }
