@@ -21,6 +21,7 @@
 #include "linalg/small.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
+static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
 static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
 static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
 
@@ -36,7 +37,6 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .redundant = zd_take(arena, m * sizeof(int)),
         .row = zd_take(arena, m * sizeof(int)),
         .length = zd_take_doubles(arena, m),
-        .reach = zd_take_doubles(arena, m),
         .C = zd_take_doubles(arena, m * n),
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
@@ -172,7 +172,7 @@ static void set_shares(zd_rank *self, int rank)
     zd_cholesky(rank, self->K, self->K);
 }
 
-void zd_rank_use_all(zd_point *point)
+static void use_all(zd_point *point)
 {
     point->known |= ZD_RANKED;
     point->rows = point->rank->m;
@@ -200,27 +200,33 @@ static int use_chosen(zd_point *point, int rank)
 static int reduce(zd_point *point)
 {
     zd_rank *self = point->rank;
+    self->near = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     int rank = rank_of(self, point->terms.C, point->terms.M);
     if (rank < self->m) return use_chosen(point, rank);
-    zd_rank_use_all(point);
+    use_all(point);
     return ZD_DONE;
 }
 
 /* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
 ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
 {
-    for (int k = 0; k < self->m; k++) {
+    int m = self->m;
+    double *whole = self->whole, *left = self->left;
+    for (int k = 0; k < m; k++) {
+        whole[k] = zd_dot(n, C + k * n, C + k * n);
+        if (!(whole[k] > DOUBTFUL * self->length[k])) return 1;
+    }
+    if (m < 2) return 0;
+    double along = zd_dot(n, C, C + n);
+    if (m == 2) return !((1 - DOUBTFUL) * whole[0] * whole[1] > along * along);     /* without the divisions of what follows */
+    for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n;
-        double whole = zd_dot(n, C + k * n, C + k * n), left = whole;
-        if (!(whole > DOUBTFUL * self->length[k])) return 1;
-        if (k == self->m - 1 && k == 0) return 0;
         zd_copy(n, C + k * n, q);
-        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -self->left[j] * zd_dot(n, self->Q + j * n, q), self->Q + j * n);
-        if (k) left = zd_dot(n, q, q);
-        if (!(left > DOUBTFUL * whole)) return 1;
-        if (k < self->m - 1) self->left[k] = 1 / left;
+        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
+        left[k] = zd_dot(n, q, q);
+        if (!(left[k] > DOUBTFUL * whole[k])) return 1;
     }
     return 0;
 }
@@ -232,7 +238,7 @@ int zd_rank_find(zd_point *point)
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
     if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
-    zd_rank_use_all(point);
+    use_all(point);
     return ZD_DONE;
 }
 
@@ -261,17 +267,14 @@ void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulat
 /* ---- the start ---- */
 
 /* How large the rows are where nothing is singular; a row that is nothing at the start is as large as the largest. */
-static void measure(zd_point *point)
+static void measure(const zd_point *point)
 {
-    zd_rank *self = point->rank;
-    int m = self->m, definite = has_metric(self, point->terms.M);
-    memset(self->length, 0, (size_t)m * sizeof(double));
-    for (int metric = 0; metric <= definite; metric++) {
-        double *size = metric ? self->reach : self->length;
-        set_rows(self, point->terms.C, metric ? self->L : NULL);
-        double least = NO_ROW * zd_max_abs(m, self->whole);
-        for (int k = 0; k < m; k++) size[k] = self->whole[k] > least ? self->whole[k] : least / NO_ROW;
-    }
+    const zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    for (int k = 0; k < m; k++) self->length[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
+    double largest = zd_max_abs(m, self->length);
+    for (int k = 0; k < m; k++)
+        if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
 }
 
 /* Q <- an orthonormal basis of the rows that count */
@@ -325,7 +328,7 @@ static void curvature(const zd_point *point, double *w)
             terms += fabs(share) * unit_of(self, self->row[a]);
         }
         double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
-        w[d - point->rows] = fabs(sum) > ZD_RANK_TOLERANCE * scale ? sum : 0;
+        w[d - point->rows] = fabs(sum) > CURVED * scale ? sum : 0;
     }
 }
 
@@ -377,15 +380,16 @@ static int tell_redundant(zd_point *point)
     return ZD_DONE;
 }
 
-int zd_rank_start(zd_point *point, enum zd_on_singular on_singular)
+int zd_rank_start(zd_point *point, const zd_settings *settings)
 {
     zd_rank *self = point->rank;
+    if (!self->m) return ZD_DONE;
     int status = zd_point_need(point, ZD_C | ZD_M);
-    if (status || !self->m) return status;
+    if (status) return status;
     self->may_drop = 1;
     measure(point);
     status = zd_rank_find(point);
-    self->may_drop = on_singular == ZD_CONTINUE;
+    self->may_drop = settings->on_singular == ZD_CONTINUE;
     if (status || point->rows == self->m) return status;
     status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
     if (status) return status;

@@ -11,9 +11,10 @@ struct zd_rank {
     int limit, holonomic_limit;     /* most rows that count, of all and of the holonomic: less than m, mh where some are redundant */
     int may_drop;       /* whether fewer are taken as they come; else that is ZD_BIFURCATION */
     int dropped;        /* whether that has happened, in this step */
+    int near;           /* whether a closer look was needed, in this step */
     int *redundant;     /* (m,): whether the row was redundant at the start */
     int *row;           /* (m,): the rows that count, holonomic ones first, then those that follow from them */
-    double *length, *reach;     /* (m,): squares of the lengths of the rows at the start, plainly and in the metric of M^-1 */
+    double *length;     /* (m,): squares of the lengths of the rows at the start */
     double *C;          /* (rows, n): those that count */
     double *Q;          /* (m, n): rows being orthogonalized */
     double *G;          /* (m, m): what they had along each other, and then (rows beyond those that count) T: C_other = T C */
@@ -25,25 +26,19 @@ struct zd_rank {
     double *sample;     /* (2 n + m m,): for the start */
 };
 
-/* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the
- * metric of M^-1, that is: both whatever the masses and whatever the units of the coordinates. With less than the root of the
- * rounding, a bifurcation is nearer than rounding of p lets the branches be told apart. */
-#define ZD_RANK_TOLERANCE 0x1p-26
-/* Rows of which this share is left need no closer look. */
-#define ZD_DOUBTFUL 0x1p-20
+/* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
+ * of M^-1, that is: both whatever the masses and whatever the units of the coordinates. As near as s to a bifurcation, its branches
+ * are as far as s from each other, and Phi differs by s^2: so they cannot be told apart with less than the root of the rounding. */
+#define ZD_RANK_TOLERANCE 0x1p-23
+/* Rows of which this share is left, plainly, need no closer look. */
+#define ZD_DOUBTFUL 0x1p-10
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
 /* Finds the rank at the start, and from (6) whether rows that follow from others contradict them, do so wherever the system goes (they
  * are redundant), or only here (a bifurcation). A system without (6) is not asked. */
-int zd_rank_start(zd_point *point, enum zd_on_singular on_singular);
+int zd_rank_start(zd_point *point, const zd_settings *settings);
 /* Which rows count at the point, into point->rows, point->C. */
 int zd_rank_find(zd_point *point);
-/* A formulation that orthogonalizes rows itself need not ask, unless some are known to be redundant or it finds one doubtful. */
-static inline int zd_rank_is_open(const zd_point *point)
-{
-    return !(point->known & ZD_RANKED) && point->rank->limit == point->rank->m;
-}
-void zd_rank_use_all(zd_point *point);
 /* Which row of all stands there among those that count. */
 static inline int zd_rank_row(const zd_point *point, int k)
 {

@@ -124,7 +124,7 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         if (!run) return NULL;
         run->t = t;
         zd_point_move(run->point, t, p, v);
-        *status = zd_rank_start(run->point, settings->on_singular);
+        *status = zd_rank_start(run->point, settings);
         const zd_rank *rank = run->point->rank;
         int laid = rows, laid_holonomic = holonomic;
         run->statistics.rank = rows = least(rank->limit, system->nv);

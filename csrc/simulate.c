@@ -46,7 +46,7 @@ static int take_step(zd_run *run)
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
     if (run->point->rank->dropped) run->statistics.rank_drops++;
-    run->point->rank->dropped = 0;
+    run->point->rank->dropped = run->point->rank->near = 0;
     if (!status) run->statistics.steps++;
     return status;
 }

@@ -32,8 +32,8 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
                                           : "on_singular=\"continue\" takes the branch of least acceleration");
         break;
     case ZD_CONTRADICTION:
-        snprintf(to, size, "the constraints contradict each other (%s from the others, and row %d asks for another acceleration)", rows,
-                 culprit);
+        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "
+                 "velocity)", rows, culprit);
         break;
     case ZD_SINGULAR:
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);

@@ -1,5 +1,6 @@
 """Random systems whose constraints are dependent, by construction: what test_rank.py compares a few hundred of, and
-stress/random_systems.py as many as it is told to."""
+stress/random_systems.py as many as it is told to.
+"""
 
 import numpy as np
 

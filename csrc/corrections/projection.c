@@ -103,6 +103,8 @@ static int correct_positions(projection *self, zd_run *run)
     zd_statistics *statistics = &run->statistics;
     int iterations;
     int status = zd_newton_solve(&newton, &problem, &iterations, &run->point->defect);
+    /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
+    if (!status && run->point->rank->near && run->point->rank->limit == run->point->rank->m) status = improve_position(&problem);
     statistics->position_iterations += iterations;
     if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
     if (iterations > run->iterations) run->iterations = iterations;

@@ -9,6 +9,7 @@
 #include "dependent.h"
 
 #include "../linalg/lu.h"
+#include "../linalg/small.h"
 #include "../rank.h"
 
 typedef struct augmented {
@@ -36,13 +37,11 @@ static void *take(zd_arena *arena, const zd_system *system)
 /* Powers of two, so that scaling rounds nothing. */
 static void set_scales(augmented *self, const double *M, const double *C)
 {
-    int n = self->n, of_mass = 0, of_row = 0;
-    double mass = zd_max_abs(n * n, M);
-    (void)frexp(mass, &of_mass);
+    int n = self->n;
+    double mass = zd_power_below(zd_max_abs(n * n, M));
     for (int k = 0; k < self->m; k++) {
-        double largest = zd_max_abs(n, C + k * n);
-        (void)frexp(largest, &of_row);
-        self->scale[k] = mass > 0 && largest > 0 && mass < INFINITY && largest < INFINITY ? ldexp(1, of_mass - of_row) : 1;
+        double row = zd_power_below(zd_max_abs(n, C + k * n));
+        self->scale[k] = mass > 0 && row > 0 && mass < INFINITY && row < INFINITY ? mass / row : 1;
     }
 }
 

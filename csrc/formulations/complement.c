@@ -165,7 +165,7 @@ int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u
     if (status) return status;
     memset(v, 0, (size_t)self->n * sizeof *v);
     if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
         zd_complement_particular(self, point->rhs, v);
     }
     zd_complement_add(self, u, v);                                      /* (14) */
@@ -190,7 +190,7 @@ void zd_complement_speeds(const zd_complement *self, const zd_point *point, doub
     double *x = self->work + self->n;
     memset(x, 0, (size_t)self->n * sizeof *x);
     if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
         zd_complement_particular(self, point->rhs, x);
     }
     for (int i = 0; i < self->n; i++) x[i] = v[i] - x[i];

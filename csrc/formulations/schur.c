@@ -62,8 +62,8 @@ ZD_INLINE double orthogonalize(const int n, int k, const int again, const schur 
     return zd_metric_dot(n, self->L, q, q);
 }
 
-/* Returns m, or the row of whose length no more than this is left when those before it are taken out, or that has shrunk as far. */
-ZD_INLINE int factor_rows(const int n, const schur *self, double least, const double *reach)
+/* Returns m, or the row of which only rounding is left when those before it are taken out. */
+ZD_INLINE int factor_rows(const int n, const schur *self)
 {
     const double *C = self->C;
     int m = self->m;
@@ -72,7 +72,7 @@ ZD_INLINE int factor_rows(const int n, const schur *self, double least, const do
         zd_forward(n, self->L, C + k * n, q);
         double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, k, 0, self, q, g);
         if (rest < 0.01 * whole) rest = orthogonalize(n, k, 1, self, q, g);    /* twice is enough */
-        if (!(rest > least * whole) || !(rest < INFINITY) || (reach && !(whole > least * reach[k]))) return k;
+        if (!(rest > LEAST * LEAST * whole) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
@@ -83,19 +83,11 @@ static int factor(void *memory, zd_point *point)
     schur *self = memory;
     point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
     if (point->culprit < self->n) return ZD_NOT_DEFINITE;
-    if (zd_rank_is_open(point)) {
-        self->m = zd_constraints(point->system);
-        self->C = point->terms.C;
-        if (ZD_SIZED(factor_rows, self->n, self, ZD_DOUBTFUL * ZD_DOUBTFUL, point->rank->reach) == self->m) {
-            zd_rank_use_all(point);
-            return ZD_DONE;
-        }
-    }
     int status = zd_rank_find(point);
     if (status) return status;
     self->m = point->rows;
     self->C = point->C;
-    point->culprit = ZD_SIZED(factor_rows, self->n, self, LEAST * LEAST, NULL);
+    point->culprit = ZD_SIZED(factor_rows, self->n, self);
     return point->culprit < self->m ? ZD_DEPENDENT : ZD_DONE;
 }
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from random_ranks import CHECKS  # noqa: E402
+from random_ranks import CHECKS
 
 
 def main(count):
