@@ -2,10 +2,14 @@
  *
  * A step is accepted where the estimate, root mean square in units of atol + rtol |y|, is at most one. A step that fails for other
  * reasons (a correction that does not converge, a matrix that is singular on the way) is tried again at a quarter of its size.
+ *
+ * The safety factor is below the customary 0.9: where speeds change as abruptly as in a four-bar, every fourth step of order eight
+ * would be rejected. Measured over four mechanisms, 0.8 takes a tenth fewer evaluations for the same error; predictive and
+ * proportional-integral controllers took no fewer.
  */
 #include "core.h"
 
-static const double SAFETY = 0.9, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
+static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
 
 static double root_mean_square(int n, const double *x, const double *scale)
 {
@@ -53,7 +57,7 @@ static int attempt(zd_run *run, double h, double t1, double *norm)
 {
     int status = zd_run_integrate(run, h);
     if (status) return status;
-    set_scale(run, run->control.y0, run->y);
+    set_scale(run, run->last.y, run->y);
     status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm);
     if (status) return status;
     if (isnan(*norm)) return ZD_NOT_FINITE;
@@ -71,10 +75,9 @@ int zd_control_step(zd_run *run)
 {
     double t = run->t, norm = 0, largest = LARGEST;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(run->settings.t1));
-    size_t bytes = (size_t)run->rate.size * sizeof(double);
-    memcpy(run->control.y0, run->y, bytes);
     for (;;) {
         double h = bounded(run, run->control.h), t1 = h == run->settings.t1 - t ? run->settings.t1 : t + h;
+        if (!(t1 > t)) return ZD_TINY_STEP;
         int status = attempt(run, t1 - t, t1, &norm);
         if (!status && norm <= 1) {
             run->control.h = h * fmin(largest, factor(run, norm));
@@ -85,8 +88,6 @@ int zd_control_step(zd_run *run)
         run->control.h = h * (status ? AFTER_FAILURE : factor(run, norm));
         largest = 1;
         if (!(run->control.h > tiny)) return status ? status : ZD_TINY_STEP;
-        memcpy(run->y, run->control.y0, bytes);
-        run->t = t;
-        run->state = run->y;
+        zd_run_return(run);
     }
 }

@@ -47,6 +47,7 @@ void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); 
 void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
+int zd_point_is_finite(const zd_point *point);      /* its p and v */
 double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
 
 /* Has the terms in `want` computed, those that the system has and that are not known yet. */
@@ -87,8 +88,11 @@ typedef struct zd_rate {
 typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
-    void *(*take)(zd_arena *arena, const void *table, int size);
+    int (*suits)(const zd_system *system);      /* NULL: it takes any */
+    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
+    int (*step_of_run)(void *self, zd_run *run, double h);
     /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
 } zd_integrator;
@@ -121,9 +125,13 @@ typedef struct zd_active {
 typedef struct zd_control {
     double h;               /* the next step */
     double *scale;          /* (size,): what the error is measured in */
-    double *y0;             /* (size,): the state before a step */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
 } zd_control;
+
+typedef struct zd_last {    /* the step being made: its size, and where it began */
+    double t, h;
+    double *y, *p, *v;      /* (size,), (nq,), (nv,) */
+} zd_last;
 
 typedef struct zd_place {   /* where a run was */
     double t;
@@ -136,6 +144,14 @@ typedef struct zd_output {
     long next;              /* of settings.t_eval */
     int between;            /* whether the run is on its way there: such points are always corrected */
 } zd_output;
+
+typedef struct zd_watch {   /* where there are events, (events,) each */
+    double *before, *now;   /* their values at the ends of the step */
+    double *time;           /* when they happen in it; infinite where they do not */
+    int *found;             /* how often they have */
+    int failed;             /* whether it was an event that could not be evaluated */
+    int ended;              /* which ended the run, counted from 1 */
+} zd_watch;
 
 struct zd_run {
     zd_settings settings;
@@ -161,9 +177,12 @@ struct zd_run {
     double no_input;
     double energy0;         /* E0 of (28) */
     double t;               /* where the run has got to */
+    int begun;              /* whether the row of the start has been saved, if wanted */
     long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_last last;
     zd_control control;     /* where steps are chosen */
-    zd_output output;       /* where something between steps is to be saved */
+    zd_output output;       /* where something between steps is wanted */
+    zd_watch watch;
     int iterations;         /* most position iterations of a step since the last saved row */
     int status;
     char message[ZD_MESSAGE];
@@ -185,15 +204,23 @@ int zd_run_accelerate(zd_run *run);         /* vdot, lambda at the point */
 int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic);   /* (28) */
 int zd_run_correct(zd_run *run);            /* all corrections that are on, in their order */
 
-/* run.c: the memory of a run, standing at (t, p, v) but not yet checked; NULL if there is none, or for unknown rows */
-zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status);
+/* arguments.c: refuses what no caller should hand in, with a sentence; for a run also when it begins, ends and saves */
+int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size);
+int zd_check_run(const zd_system *system, const zd_settings *settings, char *message, int size);
+
+/* run.c: a run standing at (t, p, v), with the rank there found, but not yet checked. NULL if there is no memory, which status and
+ * message then say; otherwise status is what came of finding the rank. */
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+                    char *message, int size);
 int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);
 
 /* simulate.c: the two halves of a step */
+int zd_run_make_step(zd_run *run, double h);    /* as the integrator does it */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
+void zd_run_return(zd_run *run);                /* point and y to where the step began */
 
 /* control.c: a step whose size the error decides */
 int zd_control_start(zd_run *run);
@@ -202,7 +229,16 @@ int zd_control_step(zd_run *run);
 /* output.c: values between steps */
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
+int zd_output_move(zd_run *run, double t);      /* to any time of the step, once its end is kept */
+void zd_output_keep_end(zd_run *run);
 int zd_output_is_complete(const zd_run *run);
+
+/* events.c */
+int zd_events_start(zd_run *run);
+int zd_events_after(zd_run *run);               /* finds those of the step; a terminal one becomes the run's end */
+
+/* not_finite.c: the term that is to blame for a failure, and where; 0: none is */
+int zd_run_not_finite(zd_run *run, int status, double *t);
 
 /* recorder.c */
 int zd_record_row(zd_run *run, zd_record *record);

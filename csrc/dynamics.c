@@ -92,7 +92,7 @@ int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic)
     if (status) return status;
     *kinetic = zd_point_kinetic(run->point);
     *violation = *kinetic + zd_point_potential(run->point) - run->energy0 - *run->input;     /* (28) */
-    return ZD_DONE;
+    return isfinite(*violation) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
 int zd_run_correct(zd_run *run)

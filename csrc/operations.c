@@ -12,21 +12,17 @@ static int finish(zd_run *run, int status, char *message, int size)
     return status;
 }
 
-static int no_memory(char *message, int size)
-{
-    snprintf(message, (size_t)size, "there is no memory for this operation");
-    return ZD_NO_MEMORY;
-}
-
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size)
 {
     zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
-    int status;
-    zd_run *run = zd_run_open(system, &settings, t, p, v, &status);
-    if (!run) return no_memory(message, message_size);
+    int status = zd_check_method(system, &settings, message, message_size);
+    if (status) return status;
+    zd_run *run = zd_run_open(system, &settings, t, p, v, &status, message, message_size);
+    if (!run) return status;
     if (!status) status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
+    if (!status && !isfinite(zd_max_abs(system->nv, run->point->vdot))) status = ZD_NOT_FINITE;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
@@ -39,8 +35,8 @@ static int project_stage(const zd_system *system, const zd_settings *settings, d
     int status;
     zd_system still = *system;
     still.provides &= ~ZD_XI;       /* nothing here is about accelerations */
-    zd_run *run = zd_run_open(&still, settings, t, p, v, &status);
-    if (!run) return no_memory(message, message_size);
+    zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
+    if (!run) return status;
     run->violates = ZD_PHI | ZD_C;
     if (!status) status = zd_run_correct(run);
     memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
@@ -55,9 +51,8 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     zd_settings stage = *settings;
     stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
     zd_held held;
-    int status = ZD_DONE;
-    message[0] = '\0';
-    if (settings->projection.positions) {
+    int status = zd_check_method(system, settings, message, message_size);
+    if (!status && settings->projection.positions) {
         stage.projection.velocities = 0;
         zd_system holding = hold_p ? zd_hold_positions(&held, system, hold_p, p) : *system;     /* (25a) has all rows of C */
         status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
@@ -73,9 +68,10 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 
 int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
 {
-    int status;
-    zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status);
-    if (!run) return no_memory(message, message_size);
+    int status = zd_check_method(system, settings, message, message_size);
+    if (status) return status;
+    zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
+    if (!run) return status;
     if (!status) status = zd_run_place(run, settings->t0, p, v);
     if (!status) status = zd_run_start_energy(run);
     if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);

@@ -28,16 +28,22 @@ void zd_output_before(zd_run *run)
     keep(run, &run->output.before);
 }
 
-static int save_between(zd_run *run, double t, zd_record *record)
+void zd_output_keep_end(zd_run *run)
+{
+    keep(run, &run->output.after);
+}
+
+int zd_output_move(zd_run *run, double t)
 {
     const zd_place *before = &run->output.before;
+    if (t == run->output.after.t) return go_back(run, &run->output.after);
     int status = go_back(run, before);
     run->output.between = 1;
     if (!status) status = zd_run_integrate(run, t - before->t);
     if (!status) status = zd_run_land(run, t);
     run->output.between = 0;
     run->statistics.output_steps++;
-    return status ? status : zd_record_row(run, record);
+    return status;
 }
 
 static int is_wanted(const zd_run *run, double until)
@@ -49,14 +55,16 @@ int zd_output_after(zd_run *run, zd_record *record)
 {
     double t1 = run->t;
     int status = ZD_DONE, away = 0;
-    if (is_wanted(run, t1)) keep(run, &run->output.after);
+    if (is_wanted(run, t1)) zd_output_keep_end(run);
     while (!status && is_wanted(run, nextafter(t1, -INFINITY))) {
         away = 1;
-        status = save_between(run, run->settings.t_eval[run->output.next++], record);
+        status = zd_output_move(run, run->settings.t_eval[run->output.next++]);
+        if (!status) status = zd_record_row(run, record);
     }
-    if (!status && away) status = go_back(run, &run->output.after);
-    if (status || !is_wanted(run, t1)) return status;
-    run->output.next++;
+    if (!status && away) status = zd_output_move(run, t1);
+    int here = is_wanted(run, t1);
+    if (status || !(here || run->watch.ended)) return status;
+    run->output.next += here;
     return zd_record_row(run, record);
 }
 

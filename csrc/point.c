@@ -69,8 +69,9 @@ int zd_point_need_missing(zd_point *point, int missing)
     const zd_system *system = point->system;
     point->statistics->evaluations++;
     int status = system->evaluate(system->data, missing | moved, point->t, point->p, point->v, &point->terms);
-    if (status == ZD_DONE) point->known |= missing | moved;
-    return status;
+    if (status) return ZD_CALLBACK;     /* whatever it returned: a positive number would mean that all is well */
+    point->known |= missing | moved;
+    return ZD_DONE;
 }
 
 void zd_point_force(const zd_point *point, double *force)
@@ -122,23 +123,12 @@ double zd_point_potential(const zd_point *point)
     return point->terms.V ? *point->terms.V : 0;
 }
 
+int zd_point_is_finite(const zd_point *point)
+{
+    return isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
+}
+
 double zd_max_abs(int n, const double *x)
 {
     return ZD_SIZED(zd_largest, n, x);
-}
-
-int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms)
-{
-    int nq = system->nq, nv = system->nv, m = zd_constraints(system);
-    const struct {
-        int term, count;
-        const double *x;
-    } all[] = {
-        {ZD_A, nq * nv, terms->A}, {ZD_M, nv * nv, terms->M},       {ZD_BIAS, nv, terms->d}, {ZD_FORCE, nv, terms->f},
-        {ZD_C, m * nv, terms->C},  {ZD_PHI, system->mh, terms->Phi}, {ZD_XI, m, terms->xi},   {ZD_PHI_T, m, terms->Phi_t},
-        {ZD_POTENTIAL, 1, terms->V}, {ZD_POWER, 1, terms->power},
-    };
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if ((want & all[i].term) && !isfinite(zd_max_abs(all[i].count, all[i].x))) return all[i].term;
-    return 0;
 }

@@ -30,7 +30,6 @@ static zd_control take_control(zd_arena *arena, size_t size)
 {
     return (zd_control){
         .scale = zd_take_doubles(arena, size),
-        .y0 = zd_take_doubles(arena, size),
         .y1 = zd_take_doubles(arena, size),
         .f0 = zd_take_doubles(arena, size),
         .f1 = zd_take_doubles(arena, size),
@@ -46,6 +45,16 @@ static zd_place take_place(zd_arena *arena, const zd_system *system, size_t extr
     };
 }
 
+static zd_watch take_watch(zd_arena *arena, size_t events)
+{
+    return (zd_watch){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .time = zd_take_doubles(arena, events),
+        .found = zd_take(arena, events * sizeof(int)),
+    };
+}
+
 /* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
  * arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
@@ -58,7 +67,6 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .formulation = zd_formulation_of(settings->formulation),
         .integrator = zd_integrator_of(settings->integrator),
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
-        .steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step),
     };
     run.own_size = run.formulation->state_size(independent);
     int size = enable_corrections(&run, arena, run.own_size);
@@ -69,14 +77,19 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     }
     run.violates = run.formulation->violates;
     run.solver = run.formulation->take(arena, independent);
-    run.stepper = run.integrator->take(arena, run.integrator->table, size);
-    run.point = zd_point_take(arena, here ? &here->system : system, here ? &here->statistics : NULL);
+    const zd_system *its = here ? &here->system : system;
+    run.stepper = run.integrator->take(arena, run.integrator->table, its, size);
+    run.point = zd_point_take(arena, its, here ? &here->statistics : NULL);
     run.state = run.y = zd_take_doubles(arena, (size_t)size);
     run.Psi = zd_take_doubles(arena, (size_t)zd_constraints(system));
     run.factor = zd_take_doubles(arena, (size_t)(system->nv * system->nv));
     run.rate = (zd_rate){zd_run_rate, here, size};
+    run.last.y = zd_take_doubles(arena, (size_t)size);
+    run.last.p = zd_take_doubles(arena, (size_t)system->nq);
+    run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
-    if (settings->t_eval) {
+    if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
+    if (settings->t_eval || settings->events) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
         run.output.after = take_place(arena, system, (size_t)(size - run.own_size));
     }
@@ -104,22 +117,24 @@ static zd_system with_rows(const zd_system *system, int rows, int holonomic)
     return independent;
 }
 
-static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic)
+static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic, char *message, int size)
 {
-    if (!zd_formulation_of(settings->formulation) || !zd_integrator_of(settings->integrator)) return NULL;
     zd_system independent = with_rows(system, rows, holonomic);
     zd_arena counting = {NULL, 0};
     take_run(&counting, system, settings, &independent);
     zd_arena arena = {zd_allocate(counting.used), 0};
-    return arena.base ? take_run(&arena, system, settings, &independent) : NULL;
+    if (arena.base) return take_run(&arena, system, settings, &independent);
+    snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
+    return NULL;
 }
 
 /* Laid out as if all constraints counted; and where some turn out to be redundant, again for those that are not. */
-zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status)
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+                    char *message, int size)
 {
     int rows = least(zd_constraints(system), system->nv), holonomic = least(system->mh, rows);
     for (;;) {
-        zd_run *run = lay_out(system, settings, rows, holonomic);
+        zd_run *run = lay_out(system, settings, rows, holonomic, message, size);
         *status = run ? ZD_DONE : ZD_NO_MEMORY;
         if (!run) return NULL;
         run->t = t;
@@ -159,6 +174,7 @@ static int check_constraints(zd_run *run)
     zd_point_velocity_violation(point, run->Psi);
     double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
+    if (zd_first_not_finite(&run->system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
     snprintf(run->message, sizeof run->message,
              "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
              "zd.assemble finds a consistent start nearby", position, velocity, allowed);
@@ -254,11 +270,13 @@ int zd_run_start_energy(zd_run *run)
 
 static int start(zd_run *run, const double *p0, const double *v0)
 {
-    int status = check_constraints(run);
+    int status = !zd_suits(&run->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
+               : zd_point_is_finite(run->point) ? check_constraints(run) : ZD_NOT_FINITE;
     if (!status) status = check_mass(run);
     if (!status) status = zd_run_accelerate(run);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
+    if (!status && run->settings.events) status = zd_events_start(run);
     if (status || run->settings.step > 0) return status;
     status = zd_control_start(run);
     return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */
@@ -275,11 +293,13 @@ static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size)
 {
+    *status = zd_check_run(system, settings, message, message_size);
+    if (*status) return NULL;
     int why;
-    zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, &why);
-    *status = run ? ZD_DONE : ZD_NO_MEMORY;
-    snprintf(message, (size_t)message_size, "%s", run ? "" : "there is no memory for this run");
+    zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, &why, message, message_size);
+    *status = why;
     if (!run) return NULL;
+    run->steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step);
     if (!why) why = zd_run_place(run, settings->t0, p0, v0);
     if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;

@@ -2,6 +2,7 @@
 #include <time.h>
 
 #include "core.h"
+#include "linalg/small.h"
 #include "rank.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
@@ -13,9 +14,34 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void remember(zd_run *run, double h)
+{
+    run->last.t = run->t;
+    run->last.h = h;
+    zd_copy(run->rate.size, run->y, run->last.y);
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, run->last.p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, run->last.v);
+}
+
+void zd_run_return(zd_run *run)
+{
+    run->t = run->last.t;
+    run->state = run->y;
+    zd_copy(run->rate.size, run->last.y, run->y);
+    zd_point_move(run->point, run->last.t, run->last.p, run->last.v);
+}
+
+int zd_run_make_step(zd_run *run, double h)
+{
+    const zd_integrator *integrator = run->integrator;
+    return integrator->step_of_run ? integrator->step_of_run(run->stepper, run, h)
+         : integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
+}
+
 int zd_run_integrate(zd_run *run, double h)
 {
-    int status = run->integrator->step(run->stepper, &run->rate, run->t, h, run->y, &run->statistics);
+    remember(run, h);
+    int status = zd_run_make_step(run, h);
     if (status) return status;
     return isfinite(zd_max_abs(run->rate.size, run->y)) ? ZD_DONE : ZD_NOT_FINITE;
 }
@@ -30,7 +56,8 @@ int zd_run_land(zd_run *run, double t1)
     if (!status) status = zd_run_correct(run);
     if (!status) status = formulation->leave(run->solver, run->point, run->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
-    return !status && formulation->settle ? formulation->settle(run->solver, run->point) : status;
+    if (!status && formulation->settle) status = formulation->settle(run->solver, run->point);
+    return status || zd_point_is_finite(run->point) ? status : ZD_NOT_FINITE;
 }
 
 static int take_fixed_step(zd_run *run)
@@ -42,13 +69,13 @@ static int take_fixed_step(zd_run *run)
 
 static int take_step(zd_run *run)
 {
-    if (run->settings.t_eval) zd_output_before(run);
+    if (run->settings.t_eval || run->settings.events) zd_output_before(run);
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
     if (run->point->rank->dropped) run->statistics.rank_drops++;
     run->point->rank->dropped = run->point->rank->near = 0;
     if (!status) run->statistics.steps++;
-    return status;
+    return !status && run->settings.events ? zd_events_after(run) : status;
 }
 
 static int save(zd_run *run, zd_record *record)
@@ -59,7 +86,15 @@ static int save(zd_run *run, zd_record *record)
 
 static int is_over(const zd_run *run)
 {
-    return run->t == run->settings.t1 || (run->settings.t_eval && zd_output_is_complete(run));
+    return run->t == run->settings.t1 || (run->settings.t_eval && !run->settings.events && zd_output_is_complete(run));
+}
+
+/* A step may bring all the times that are left of t_eval, and the end by an event. */
+static int has_room(const zd_run *run, const zd_record *record)
+{
+    long left = record->capacity - record->rows;
+    if (!run->settings.t_eval) return left > 0;
+    return left >= run->settings.t_evals - run->output.next + (run->settings.events != NULL);
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
@@ -67,13 +102,18 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
     double deadline = now() + seconds;
     long first = run->step;     /* no slice is so short that nothing happens in it */
     int status = run->status;
-    if (!status && run->step == 0 && record->rows == 0) status = save(run, record);
+    if (!status && !run->begun) {
+        if (!has_room(run, record)) return ZD_FULL;
+        run->begun = 1;
+        status = save(run, record);
+    }
     while (!status && !is_over(run)) {
-        if (!run->settings.t_eval && record->rows == record->capacity) return ZD_FULL;
+        if (!has_room(run, record)) return ZD_FULL;
         if (run->step > first && run->step % CLOCK_EVERY == 0 && now() > deadline) return ZD_PAUSED;
         status = take_step(run);
         if (!status) status = save(run, record);
     }
+    if (!status && run->watch.ended) status = ZD_EVENT;
     if (status && !run->status) run->status = zd_explain(run, status);
     return run->status;
 }

@@ -4,6 +4,14 @@
 #include "core.h"
 #include "rank.h"
 
+static const char *name_of(int term)
+{
+    static const char *const names[] = {"A", "M", "bias d", "force f", "Phi", "C", "Phi_t", "xi", "potential V", "power", "D", "gamma"};
+    int i = 0;
+    while (term >> (i + 1)) i++;
+    return names[i];
+}
+
 static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->point;
@@ -50,6 +58,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", run->formulation->card.name,
                  run->system.nq, run->system.nv);
         break;
+    case ZD_UNSUITED_INTEGRATOR:
+        snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s",
+                 run->integrator->card.name, run->system.mn ? "are nonholonomic constraints" : "is a kinematic matrix");
+        break;
     case ZD_TINY_STEP:
         snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
                  run->settings.atol);
@@ -58,28 +70,37 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
                  point->defect);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
+    case ZD_CALLBACK:
+        if (run->watch.failed) failure = "the evaluation of an event failed";
+        snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed");
+        break;
+    case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
+    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(culprit)); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }
 
 /* Numbers that are no numbers surface first in some factorization: the cause is named, not the place. */
-static int cause_of(const zd_run *run, int status)
+static int cause_of(zd_run *run, int status, double *t)
 {
-    const zd_point *point = run->point;
+    zd_point *point = run->point;
+    *t = point->t;
     if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
-    int finite = isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
-    return finite ? status : ZD_NOT_FINITE;
+    int finite = zd_point_is_finite(point);
+    int term = zd_run_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
+    if (term) point->culprit = term;
+    return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;
 }
 
 int zd_explain(zd_run *run, int status)
 {
     char what[ZD_MESSAGE - 64];
     if (run->message[0]) return status;
-    status = cause_of(run, status);
+    double t;
+    status = cause_of(run, status, &t);
     describe(run, status, what, sizeof what);
     char of_steps[32] = "";
     if (run->steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->steps);
-    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", run->point->t, run->step, of_steps, what);
+    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", t, run->step, of_steps, what);
     return status;
 }

@@ -43,7 +43,7 @@ static void count_with_settings(const zd_kind *kind, const zd_system *system, co
     zd_projection projection = {1, 1e-12, 10, ZD_MASS_METRIC, 1, 1};
     for (settings.formulation = 0; settings.formulation < zd_rows(ZD_FORMULATIONS); settings.formulation++)
         for (settings.integrator = 0; settings.integrator < zd_rows(ZD_INTEGRATORS); settings.integrator++)
-            for (int all = 0; all < 2; all++) {
+            for (int all = 0; all < 2 && zd_suits(system, settings.integrator); all++) {
                 settings.projection.every = 0;
                 if (all) settings.projection = projection;
                 settings.baumgarte = (zd_baumgarte){.on = all, .alpha = 10, .beta = 25};

@@ -1,18 +1,26 @@
-"""Tests that ask for `system`, `formulation` or `integrator` run once for each row of the core's tables."""
+"""Tests that ask for `system`, `formulation` or `integrator` run once for each row of the core's tables; those that ask for
+a system and an integrator, once for each pair that the core takes.
+"""
 
 import pytest
 
+import zerodrift as zd
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
-TABLES = {"formulation": FORMULATIONS, "integrator": INTEGRATORS}
+TAKEN = {f"{name}-{integrator}": (system, integrator)
+         for name, system in SYSTEMS.items() for integrator in zd.integrators(system)}
 
 
 def pytest_generate_tests(metafunc):
-    if "system" in metafunc.fixturenames:
-        metafunc.parametrize("system", SYSTEMS.values(), ids=SYSTEMS.keys())
-    for name, rows in TABLES.items():
-        if name in metafunc.fixturenames:
-            metafunc.parametrize(name, rows)
+    wanted = set(metafunc.fixturenames)
+    if {"system", "integrator"} <= wanted:
+        metafunc.parametrize(("system", "integrator"), TAKEN.values(), ids=TAKEN)
+    elif "system" in wanted:
+        metafunc.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+    elif "integrator" in wanted:
+        metafunc.parametrize("integrator", INTEGRATORS)
+    if "formulation" in wanted:
+        metafunc.parametrize("formulation", FORMULATIONS)
 
 
 @pytest.fixture

@@ -128,7 +128,7 @@ def test_saving_between_steps_leaves_the_steps_alone(bar):
     assert watched.stats["output_steps"] == 99
 
 
-@pytest.mark.parametrize("method", ["rk4", "dormand_prince", "trapezoidal"])
+@pytest.mark.parametrize("method", ["rk4", "dormand_prince", "trapezoidal", "rattle"])
 def test_order_is_kept_between_steps(bar, method):
     times = np.linspace(0.1, 0.5, 23)
     exact = zd.simulate(bar, 0.5, step=1 / 2000, integrator="dop853")(times)[0]

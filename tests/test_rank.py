@@ -43,7 +43,10 @@ def bar(constraints, scale=(1.0, 1.0, 1.0), **more):
     def force(p):
         return -9.81 * scale * np.array([2.0, 1.5, 0.5]) * np.cos(p * scale)
 
-    return zd.System(["a", "b", "c"], mass=mass, force=force, potential=lambda p: 9.81 * np.array([2.0, 1.5, 0.5]) @ np.sin(p * scale),
+    def potential(p):
+        return 9.81 * np.array([2.0, 1.5, 0.5]) @ np.sin(p * scale)
+
+    return zd.System(["a", "b", "c"], mass=mass, force=force, potential=potential,
                      constraints=lambda p, t: constraints(p * scale, t), p0=BAR.p0 / scale, v0=BAR.v0 / scale, **more)
 
 
@@ -52,7 +55,7 @@ REDUNDANT = {
     "the same loop twice, in millimetres": (lambda p, t: np.concatenate([1e3 * closure(p), closure(p)]), [2, 3]),
     "a planar loop in space": (lambda p, t: np.array([closure(p)[0], closure(p)[1], 0 * p[0]]), [2]),
     "a planar loop in a tilted plane": (lambda p, t: TILT @ closure(p), [2]),
-    "redundant on the manifold only": (lambda p, t: np.append(closure(p), closure(p)[0] * (2 + p[0]) + closure(p)[1] * p[1]), [2]),
+    "redundant on the manifold only": (lambda p, t: np.append(closure(p), closure(p) @ [2 + p[0], p[1]]), [2]),
     "units of their own": (lambda p, t: np.append(closure(p), 1e-6 * closure(p)[0] - 1e-6 * closure(p)[1]), [2]),
 }
 
@@ -152,9 +155,9 @@ def test_contradicting_constraints_are_named(formulation):
     def rows(order):
         return bar(lambda p, t: np.append(closure(p), closure(p)[0] - t**order))
 
-    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d follows from the others, but row \d asks for another"):
+    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d follows from the others, but row \d asks"):
         zd.simulate(rows(2), 1.0, step=0.01, formulation=formulation)
-    with pytest.raises(zd.ZerodriftError, match="may contradict them|do not determine the others|contradict each other"):
+    with pytest.raises(zd.ZerodriftError, match=r"may contradict them|do not determine the others|contradict each other"):
         zd.simulate(rows(3), 1.0, step=0.01, formulation=formulation)
 
 
@@ -176,7 +179,7 @@ def assert_parallel(sol):
 @pytest.mark.parametrize("steps", [53, 101, 137])
 @pytest.mark.parametrize("on_singular", ["stop", "continue"])
 def test_a_parallelogram_between_steps(steps, on_singular, formulation):
-    """Its flat positions, at a quarter and three quarters of the turn, are passed between steps: the motion is the one there is."""
+    """Its flat positions, at a quarter and three quarters of the turn, are passed between steps: there is one motion."""
     sol = parallelogram(steps, on_singular=on_singular, formulation=formulation)
     assert_parallel(sol)
     assert sol.stats["rank_drops"] == 0
@@ -185,8 +188,8 @@ def test_a_parallelogram_between_steps(steps, on_singular, formulation):
 @pytest.mark.parametrize("rtol", [1e-5, 1e-7, 1e-9])
 @pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
 def test_a_parallelogram_by_steps_that_are_chosen(method, rtol, formulation):
-    """Steps may become ever smaller towards the flat position. Then too few digits are left to tell the branches apart, and that is
-    said. What has been computed is right; what is continued stays on the branch, with the speed that is known there.
+    """Steps may become ever smaller towards the flat position. Then too few digits are left to tell the branches apart, and that
+    is said. What has been computed is right; what is continued stays on the branch, with the speed that is known there.
     """
     system = zd.systems.four_bar(lengths=(1, 0.3, 1, 0.3), gravity=0, crank_rate=TURN)
     options = {"integrator": method, "formulation": formulation, "rtol": rtol}
@@ -309,7 +312,7 @@ def test_coordinates_without_mass(name):
 
 
 def test_what_inverts_the_mass_names_what_has_none():
-    with pytest.raises(zd.SingularSystem, match=r"not positive definite \(first seen at velocity 2\), and 'schur' inverts it; 'augmented'"):
+    with pytest.raises(zd.SingularSystem, match=r"positive definite \(first seen at velocity 2\), and 'schur' inverts it; '"):
         zd.simulate(slack(), 1.0, step=0.01, formulation=INVERTING)
 
 

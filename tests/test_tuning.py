@@ -6,6 +6,7 @@ import pytest
 import zerodrift as zd
 from support import SYSTEMS
 from zerodrift import compare
+from zerodrift.benchmarking import Bench
 
 BAR = SYSTEMS["four_bar"]
 FEW = {"formulations": ["schur", "independent"], "integrators": ["rk4", "dop853"], "rounds": 1}
@@ -66,3 +67,23 @@ def test_one_of_error_and_budget_is_needed(options):
 def test_bad_values(options):
     with pytest.raises(ValueError, match="must be greater than 0"):
         zd.tune(BAR, 1.0, **options)
+
+
+def test_an_interruption_of_the_search_keeps_all_that_was_measured(monkeypatch):
+    """Also what the sweep before it has."""
+    system, row, measured = zd.systems.oscillator(), Bench._row, []
+    methods = {"formulations": ["schur"], "integrators": ["rk4"]}
+    sweep = zd.work_precision(system, 1.0, rounds=1, **methods)
+
+    def interrupted(bench, setting, before):
+        if len(measured) == len(sweep.rows) + 1:
+            raise KeyboardInterrupt
+        measured.append(setting)
+        return row(bench, setting, before)
+
+    monkeypatch.setattr(Bench, "_row", interrupted)
+    with pytest.raises(zd.Interrupted, match="interrupted from the keyboard") as caught:
+        zd.tune(system, 1.0, error=1e-6, **methods)
+    partial = caught.value.solution
+    assert not partial.complete
+    assert {row.setting for row in partial.rows} == set(measured)

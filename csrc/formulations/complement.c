@@ -127,7 +127,8 @@ int zd_complement_at(zd_complement *self, zd_point *point)
 int zd_complement_review(zd_complement *self, zd_point *point)
 {
     int was_chosen = self->chosen, status = zd_complement_at(self, point);
-    if (self->own || !was_chosen || (!status && self->largest <= WORSE * self->reference)) return status;
+    int is_bad = status == ZD_DEPENDENT || (!status && self->largest > WORSE * self->reference);
+    if (self->own || !was_chosen || !is_bad) return status;
     point->statistics->repartitions++;
     self->chosen = 0;
     point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);

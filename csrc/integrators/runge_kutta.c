@@ -13,8 +13,9 @@ typedef struct runge_kutta {
     double *stage;  /* (size,) */
 } runge_kutta;
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, int size)
+void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size)
 {
+    (void)system;
     const zd_tableau *tableau = table;
     runge_kutta self = {
         .tableau = tableau,

@@ -29,9 +29,9 @@ typedef struct trapezoidal {
     double before;          /* the last iteration's defect */
 } trapezoidal;
 
-static void *take(zd_arena *arena, const void *table, int size)
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
 {
-    (void)table;
+    (void)table, (void)system;
     size_t n = (size_t)size;
     trapezoidal self = {
         .size = size,

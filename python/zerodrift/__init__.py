@@ -14,16 +14,20 @@ from .checking import check
 from .custom import System
 from .errors import (
     Bifurcation,
+    CacheWarning,
+    CompilationFailed,
     CorrectionFailed,
     CorrectionWarning,
     Diverged,
     InconsistentStart,
     Interrupted,
+    NoCompilerWarning,
     SingularSystem,
     StaleCore,
     StepFailed,
     UnreachableTolerance,
     UnsuitedFormulation,
+    UnsuitedIntegrator,
     ZerodriftError,
 )
 from .operations import acceleration, assemble, project
@@ -33,13 +37,19 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "Bifurcation", "CorrectionFailed", "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart",
-    "Interrupted", "Projection", "SingularSystem", "Solution", "StaleCore", "StepFailed", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "ZerodriftError", "acceleration", "assemble", "check",
-    "corrections", "formulations", "integrators", "load", "plot", "project", "reference", "simulate", "systems",
-    "tune", "work_precision",
+    "Baumgarte", "Bifurcation", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged",
+    "EnergyCorrection",
+    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
+    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
+    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
+    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
+    "work_precision",
 ]
-_LATER = {"reference": "certified", "tune": "tuning", "work_precision": "benchmarking"}     # imported at first use
+_LATER = {      # imported at first use
+    "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
+    "reference": "certified", "stability_map": "stability", "symbolic": "symbolics.define", "tune": "tuning",
+    "work_precision": "benchmarking",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from numbers import Integral, Real
 from typing import Any
 
@@ -46,6 +46,18 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     if isinstance(value, str) and value in words:
         return value
     raise ValueError(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")
+
+
+def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
+    """Different names, given as a sequence or in one string; or how many, numbered behind the prefix."""
+    if isinstance(value, str):
+        value = value.replace(",", " ").split()
+    if not isinstance(value, Sequence):
+        return [f"{prefix}{i}" for i in range(count(name, value, least=least))]
+    words = list(value)
+    if len(words) < least or not all(isinstance(word, str) and word for word in words) or len(set(words)) != len(words):
+        raise ValueError(f"{name} must be a number or different names, not {words!r}")
+    return words
 
 
 def vector(name: str, value: Any, size: int) -> np.ndarray:

@@ -197,7 +197,7 @@ def work_precision(
     p0, v0 : array_like (nq,), (nv,), optional
         Start; left out: the system's own.
     formulations, integrators : iterable of str, optional
-        Left out: all there are.
+        Left out: all there are that can take the system.
     steps : iterable of float, optional
         Fixed steps in s, for every integrator. Left out: 4, 2, 1, 1/2 ... 1/16 times the mean step that the integrator of
         highest order chooses at a tolerance of 1e-6.
@@ -233,9 +233,11 @@ def work_precision(
     True
     """
     span = _check.span(t_span)
-    formulations, integrators = _names("formulations", formulations), _names("integrators", integrators)
+    formulations = _names("formulations", settings.formulations(), formulations)
+    taken = settings.integrators(system)
+    integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)
     stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
-    steps = _default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
+    steps = default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
     tolerances = TOLERANCES if tolerances is None else [_check.number("tolerances", tol, above=0) for tol in tolerances]
     combinations = [
         Setting(formulation, integrator, *fineness, stabilization, corrected)
@@ -305,9 +307,8 @@ def _largest(values: np.ndarray | None) -> float:
     return float(np.abs(values).max()) if values is not None and values.size else np.nan
 
 
-def _names(table: str, chosen: Iterable[str] | None) -> list[str]:
+def _names(table: str, known: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
     """Those chosen of a table, or all."""
-    known = getattr(settings, table)()
     if isinstance(chosen, str):
         raise TypeError(f"{table} must be a list of names, not {chosen!r}")
     return [_check.choice(table, name, known) for name in (known if chosen is None else chosen)]
@@ -319,7 +320,8 @@ def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[fl
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
 
 
-def _default_steps(system, span, p0, v0) -> list[float]:
+def default_steps(system, span, p0, v0) -> list[float]:
+    """Fixed steps around the mean one of an accurate run, in s."""
     method = max(settings.integrators().values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method, formulation="augmented")
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

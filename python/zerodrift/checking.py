@@ -148,7 +148,8 @@ def _mass(state: _State) -> Iterator[tuple[str, str]]:
     if lowest < -NEGLIGIBLE * np.abs(M).max():
         yield "definiteness of mass", f"M is not positive definite, its lowest eigenvalue is {lowest:.3g}"
     else:
-        yield "definiteness of mass", "" if lowest_free > 0 else "M is singular, even where the constraints leave the velocities free"
+        problem = "M is singular, even where the constraints leave the velocities free"
+        yield "definiteness of mass", "" if lowest_free > 0 else problem
 
 
 def _free_directions(C: np.ndarray | None, M: np.ndarray) -> np.ndarray:
@@ -168,7 +169,7 @@ def _consistency(state: _State) -> Iterator[tuple[str, str]]:
     vdot = np.linalg.lstsq(C, xi, rcond=NEGLIGIBLE)[0]
     left = np.abs(C @ vdot - xi).max()
     agree = left <= AGREE * max(np.abs(xi).max(), np.abs(state.v).max() ** 2 / (1 + np.abs(state.p).max()))
-    yield "agreement of constraints", "" if agree else f"they contradict each other: vdot that satisfies (6) best leaves {left:.3g}"
+    yield "agreement of constraints", "" if agree else f"they contradict each other: the best vdot leaves {left:.3g} of (6)"
 
 
 def _jacobian(state: _State) -> Iterator[tuple[str, str]]:

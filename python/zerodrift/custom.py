@@ -90,7 +90,7 @@ class System(BaseSystem):
         self._given = {key: value for key, value in locals().items() if key not in ("self", "__class__")}
         self.name = name or "system"
         self.parameters = dict(parameters or {})
-        names = _names(coordinates)
+        names = _check.names("coordinates", coordinates, "p")
         self.p0 = None if p0 is None else _check.vector("p0", p0, len(names))
         functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
@@ -129,17 +129,6 @@ def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
 
 def _variables(names: Sequence[str]) -> tuple[Variable, ...]:
     return tuple(Variable(name, "") for name in names)
-
-
-def _names(coordinates: int | Sequence[str]) -> list[str]:
-    if isinstance(coordinates, str):
-        coordinates = coordinates.replace(",", " ").split()
-    if isinstance(coordinates, Sequence):
-        names = list(coordinates)
-        if not names or not all(isinstance(name, str) and name for name in names) or len(set(names)) != len(names):
-            raise ValueError(f"coordinates must be a number or different names, not {coordinates!r}")
-        return names
-    return [f"p{i}" for i in range(_check.count("coordinates", coordinates))]
 
 
 # ---- the callables ----

@@ -33,6 +33,10 @@ class UnsuitedFormulation(ZerodriftError, ValueError):
     """The formulation cannot take this system."""
 
 
+class UnsuitedIntegrator(ZerodriftError, ValueError):
+    """The integrator cannot take this system."""
+
+
 class SingularSystem(ZerodriftError, ArithmeticError):
     """The mass matrix is not positive definite where it has to be, or the constraints are dependent or contradict each other."""
 
@@ -67,3 +71,15 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, message: str, solution: Solution | WorkPrecision) -> None:
         super().__init__(message)
         self.solution = solution
+
+
+class CompilationFailed(ZerodriftError):
+    """The C compiler refused the source of a symbolic system."""
+
+
+class NoCompilerWarning(UserWarning):
+    """There is no C compiler: a symbolic system is evaluated in Python, some hundred times slower."""
+
+
+class CacheWarning(UserWarning):
+    """The folder for compiled systems cannot be written; they are compiled once in every process."""

@@ -145,5 +145,5 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     array([-1.])
     """
     core = core_of(system)
-    return _gateway.acceleration(core, settings.formulation_row(formulation), settings.on_singular_row(on_singular), _check.number("t", t),
-                                 _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))
+    return _gateway.acceleration(core, settings.formulation_row(formulation), settings.on_singular_row(on_singular),
+                                 _check.number("t", t), _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))

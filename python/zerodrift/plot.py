@@ -13,6 +13,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -23,9 +24,10 @@ from .certified import Reference
 from .compare import difference, signals
 from .settings import Projection
 from .solution import Solution
+from .stability import StabilityMap
 
-__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "violation",
-           "work_precision"]
+__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
+           "violation", "work_precision"]
 
 # Okabe and Ito's colours, told apart with any colour vision; dark ones first.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
@@ -279,6 +281,64 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
                 Line2D([], [], color="grey", linestyle=":", label="error of the reference")]
     ax.legend(handles=handles, frameon=False, fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
     return ax
+
+
+def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> np.ndarray:
+    """Draw the errors of all runs over step and parameter, one panel per way to simulate.
+
+    Runs that did not reach their end are crossed out; errors beyond one are as bad as that.
+
+    Parameters
+    ----------
+    result : StabilityMap
+        What `zerodrift.stability_map` found.
+    axes : sequence of Axes, optional
+        One per way, of one figure; left out: a new figure.
+
+    Returns
+    -------
+    ndarray of Axes
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> found = zd.stability_map(zd.systems.four_bar(), 1.0, steps=[0.01, 0.02], values=[1.0, 10.0, 100.0])
+    >>> [ax.get_title() for ax in zd.plot.stability_map(found)]
+    ['nothing', 'Baumgarte', 'projection', 'projection, energy']
+    """
+    if axes is None:
+        count = len(result.rows)
+        axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
+    axes = np.atleast_1d(axes)
+    scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)
+    for ax, way in zip(axes, result.rows, strict=True):
+        drawn = _map(ax, result.steps, result.values, result.error(way), scale)
+        ax.set(title=way, xlabel="step [s]")
+    axes[0].set_ylabel(result.parameter)
+    axes[0].figure.colorbar(drawn, ax=list(axes), label="max |p - reference|")
+    return axes
+
+
+def _map(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogNorm) -> Any:
+    """Cells around (x, y) on logarithmic scales, crossed out where there is no value."""
+    ax.set_xscale("log")
+    ax.set_yscale("log" if (y > 0).all() else "linear")
+    ax.set_facecolor("#E8E8E8")
+    drawn = np.ma.masked_invalid(np.maximum(values, scale.vmin))
+    cells = ax.pcolormesh(_edges(x), _edges(y), drawn, norm=scale, cmap="viridis_r")
+    row, column = np.nonzero(np.isnan(values))
+    ax.plot(x[column], y[row], "x", color="#B22222", markersize=3, markeredgewidth=0.8)
+    return cells
+
+
+def _edges(centres: np.ndarray) -> np.ndarray:
+    """Of cells: halfway between their centres, geometrically where these are positive."""
+    there, back = (np.log, np.exp) if (centres > 0).all() else (np.asarray, np.asarray)
+    if len(centres) == 1:
+        return back(there(centres)[0] + np.array([-0.1, 0.1]))
+    middle = there(centres)[:-1] + np.diff(there(centres)) / 2
+    first, last = there(centres)[[0, -1]] * 2 - middle[[0, -1]]
+    return back(np.concatenate([[first], middle, [last]]))
 
 
 def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from . import _check, _gateway
+from ._system import BaseSystem, core_of
 
 
 def _keep(settings: Any, **checked: float) -> None:
@@ -164,16 +165,21 @@ def formulations() -> dict[str, _gateway.Card]:
     return _Names(_FORMULATIONS)
 
 
-def integrators() -> dict[str, _gateway.Card]:
-    """The integrators there are, by name; `order` is the order of the method.
+def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
+    """The integrators there are, by name, or those that can take a system; `order` is the order of the method.
 
     Examples
     --------
     >>> import zerodrift as zd
     >>> zd.integrators()["rk4"].order
     4
+    >>> "rattle" in zd.integrators(zd.systems.rolling_disc())
+    False
     """
-    return _Names(_INTEGRATORS)
+    if system is None:
+        return _Names(_INTEGRATORS)
+    core = core_of(system)
+    return _Names({name: card for row, (name, card) in enumerate(_INTEGRATORS.items()) if core.suits(row)})
 
 
 def corrections() -> dict[str, _gateway.Card]:
@@ -206,8 +212,8 @@ _PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eva
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     options = {"formulation": formulation_row(chosen["formulation"]),
-               "integrator": integrator_row(chosen["integrator"]), "on_singular": on_singular_row(chosen.get("on_singular", "stop")),
-               "t0": span[0], "t1": span[1]}
+               "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
+               "on_singular": on_singular_row(chosen.get("on_singular", "stop"))}
     options |= {name: chosen[name] for name in _PLAIN if chosen.get(name) is not None}
     for correction in (chosen["stabilization"], chosen["energy"]):
         options |= correction._core() if correction else {}

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 import warnings
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _check, _gateway, settings
+from . import events as _events
+from ._keyboard import Keyboard
 from ._system import BaseSystem, core_of
 from .errors import CorrectionWarning, Interrupted
 from .solution import Solution
@@ -32,6 +35,7 @@ def simulate(
     first_step: float | None = None,
     max_step: float | None = None,
     t_eval: Any = None,
+    events: Any = None,
     formulation: str = "schur",
     integrator: str = "rk4",
     stabilization: str | settings.Stabilization = "projection",
@@ -62,6 +66,11 @@ def simulate(
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
         corrected.
+    events : callable or list of callables, optional
+        Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
+        the beginning of a step to its end. An attribute `direction` of 1 or -1 takes only those from below or from above;
+        `terminal`, True or a number, ends the run when the event has happened once or that often. What is zero at the start
+        is no event.
     formulation : str
         One of `formulations()`: which equations of motion are solved.
     integrator : str
@@ -104,6 +113,20 @@ def simulate(
     (161, 3)
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
+
+    The run ends when the crank has come round to the horizontal twice; where the coupler is at rest is noted on the way:
+
+    >>> import numpy as np
+    >>> def round(t, p, v):
+    ...     return np.sin(p[0])
+    >>> round.direction, round.terminal = 1, 2
+    >>> def rest(t, p, v):
+    ...     return v[1]
+    >>> sol = zd.simulate(bar, 8.0, step=0.01, events=[round, rest])
+    >>> sol.message
+    'at t = 2.16071475 (step 217 of 800): ended by event 0'
+    >>> sol.t_events[1].round(4)
+    array([0.1287, 0.6498, 1.4803, 2.0013])
     """
     core, span = core_of(system), _check.span(t_span)
     control = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
@@ -111,10 +134,16 @@ def simulate(
     chosen = {**_steps(span, step, integrator, control), **_chosen(system, formulation, integrator, stabilization, energy),
               **_saved(span, save_every, t_eval), "on_singular": on_singular}
     _check.choice("on_failure", on_failure, ("raise", "return"))
+    watched = _events.events(events)
     p0, v0 = system._start(p0, v0)
-    run = _gateway.Run(core, settings.core_settings(span, chosen), p0, v0)
-    record = _gateway.Record(core, _rows(span, chosen))
-    return _finish(system, span, chosen, run, record, on_failure, *_drive(run, record, progress))
+    watcher = _gateway.Watcher(core, watched) if watched is not None else None
+    options, rows = settings.core_settings(span, chosen), _rows(span, chosen)
+    with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
+        run = _gateway.Run(core, options, p0, v0, watcher)
+        record = _gateway.Record(core, rows)
+        outcome = _drive(run, record, progress, keyboard)
+        solution = _solution(system, span, chosen, run, record, watcher, outcome)
+    return _finished(solution, run, outcome, on_failure, keyboard)
 
 
 def _steps(span, step, integrator, control) -> dict[str, Any]:
@@ -170,69 +199,107 @@ def _chosen(system, formulation, integrator, stabilization, energy) -> dict[str,
             "energy": energy}
 
 
-def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any) -> tuple[int, float]:
-    """Run slice by slice to the end; the status and the seconds it took."""
+class _Outcome(NamedTuple):
+    status: int
+    seconds: float
+    error: BaseException | None     # what stopped it that is not the core's: memory, the keyboard, the callable for progress
+
+
+def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard) -> _Outcome:
+    """Run slice by slice to the end."""
     show, close = progress_of(progress)
-    start, status = time.perf_counter(), _gateway.PAUSED
+    start, status, error = time.perf_counter(), _gateway.PAUSED, None
     try:
         while status in (_gateway.PAUSED, _gateway.FULL):
+            if keyboard.pressed:
+                raise KeyboardInterrupt
             if status == _gateway.FULL:
                 record.grow()
             status = run.advance(record, SLICE)
-            show(run.progress)
-    except KeyboardInterrupt:
-        status = _gateway.INTERRUPTED
+            _show(show, run.progress)
+    except BaseException as caught:
+        status, error = _gateway.INTERRUPTED, caught
     finally:
         close()
     if status == _gateway.CALLBACK and isinstance(run.error(status), KeyboardInterrupt):
-        status = _gateway.INTERRUPTED
-    return status, time.perf_counter() - start
+        status, error = _gateway.INTERRUPTED, run.error(status)
+    return _Outcome(status, time.perf_counter() - start, error)
 
 
-def _message(run: _gateway.Run, status: int) -> str:
-    match status:
+def _show(show: Callable[[float], None], part: float) -> None:
+    """What may be a user's, and then may be broken into."""
+    show(part)
+
+
+def _message(run: _gateway.Run, outcome: _Outcome) -> str:
+    match outcome.status:
         case _gateway.DONE:
             return "done"
+        case _gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
+            return f"stopped by {outcome.error!r}"
         case _gateway.INTERRUPTED:
             return "interrupted from the keyboard"
         case _gateway.CALLBACK:
-            return f"{run.message}: {run.error(status)!r}"
+            return f"{run.message}: {run.error(outcome.status)!r}"
         case _:
             return run.message
 
 
-def _finish(system, span, chosen, run, record, on_failure, status, seconds) -> Solution:
-    """The solution, or the error that carries it."""
-    arrays = record.arrays()
-    solution = Solution(
+def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
+    arrays = record.take()
+    t_events, p_events, v_events = _where(watcher)
+    return Solution(
         t=arrays["t"], p=arrays["p"], v=arrays["v"], multipliers=arrays["multipliers"],
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
-        stats=run.statistics | {"redundant": run.redundant, "seconds": seconds}, status=status, success=status == _gateway.DONE,
-        message=_message(run, status), settings=chosen, system=system, t_span=span)
+        stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
+        success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
+        system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
+
+
+def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solution:
+    """The solution, or the error that carries it."""
+    heard = isinstance(outcome.error, KeyboardInterrupt)
+    if keyboard.pressed and not heard:      # after the last look, or as something else failed
+        raise Interrupted(f"interrupted from the keyboard, and: {solution.message}", solution) from outcome.error
+    if outcome.error is not None and not heard:
+        raise _carrying(outcome.error, solution)
     if on_failure == "raise" and not solution.success:
-        _raise(run, status, solution)
+        _raise(run, solution)
     if skipped := solution.stats["energy_skipped"]:
         warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the "
                       "kinetic energy is too small for them", CorrectionWarning, stacklevel=3)
     return solution
 
 
-def _raise(run: _gateway.Run, status: int, solution: Solution) -> None:
-    if status == _gateway.INTERRUPTED:
+def _where(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:
+    """The t, p and v of all events, one array for each event."""
+    if watcher is None:
+        return None, None, None
+    arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
+    return tuple(zip(*arrays, strict=True)) or ((), (), ())
+
+
+def _raise(run: _gateway.Run, solution: Solution) -> None:
+    if solution.status == _gateway.INTERRUPTED:
         raise Interrupted(solution.message, solution) from None
-    error = run.error(status)
-    error.solution = solution
-    if status == _gateway.CALLBACK:
-        error.add_note(run.message)
-    raise error
+    raise _carrying(run.error(solution.status), solution, run.message if solution.status == _gateway.CALLBACK else None)
+
+
+def _carrying(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:
+    """The error with the solution, unless it is of a kind that cannot be changed."""
+    with contextlib.suppress(Exception):
+        error.solution = solution
+        if note:
+            error.add_note(note)
+    return error
 
 
 def _rows(span: tuple[float, float], chosen: dict[str, Any]) -> int:
     """Rows of the record, with the start; where steps are chosen, as many as a first block has."""
     if "t_eval" in chosen:
-        return len(chosen["t_eval"])
+        return len(chosen["t_eval"]) + 1    # an event may end it in between
     if chosen["step"] is None:
         return FIRST_BLOCK
     steps = _gateway.count_steps(*span, chosen["step"])

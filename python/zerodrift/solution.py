@@ -13,6 +13,8 @@ from . import _gateway, systems
 from ._system import BaseSystem, core_of
 from .settings import STABILIZATIONS, EnergyCorrection, core_settings
 
+EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
@@ -44,15 +46,19 @@ class Solution:
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
-        Whether the end was reached.
+        Whether the end was reached, or a terminal event.
     message : str
         What happened, in a sentence.
     settings : dict
-        As `simulate` takes them: ``simulate(system, t_span, **settings)`` repeats the run.
+        As `simulate` takes them: ``simulate(system, t_span, **settings)`` repeats the run; events, being functions, are not kept.
     system : system
         What moved.
     t_span : tuple of float
         (t0, t1) as asked for.
+    t_events : tuple of ndarray, or None
+        For each event, the times at which it happened; None where no events were asked for.
+    p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
+        Coordinates and velocities at those times.
     """
 
     t: np.ndarray
@@ -73,11 +79,15 @@ class Solution:
     settings: dict[str, Any]
     system: BaseSystem
     t_span: tuple[float, float]
+    t_events: tuple[np.ndarray, ...] | None = None
+    p_events: tuple[np.ndarray, ...] | None = None
+    v_events: tuple[np.ndarray, ...] | None = None
 
     def __post_init__(self) -> None:
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        for name, value in vars(self).items():
+            for array in (value or ()) if name in EVENTS else (value,):
+                if isinstance(array, np.ndarray):
+                    array.flags.writeable = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Solution, tuple(getattr(self, field.name) for field in fields(self))     # copies are read-only, too
@@ -171,6 +181,9 @@ class Solution:
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
         rest = {name: value for name, value in values.items() if name not in arrays}
+        for name in EVENTS:
+            arrays |= {f"{name}.{i}": array for i, array in enumerate(values[name] or ())}
+            rest[name] = None if values[name] is None else len(values[name])
         rest["system"] = self.system._described()
         rest["settings"] = {name: _plain(value) for name, value in self.settings.items()}
         np.savez_compressed(path, zerodrift=np.array(json.dumps(rest)), **arrays)
@@ -199,6 +212,9 @@ def load(path: str | Path) -> Solution:
         raise ValueError(f"{path} is no solution saved by zerodrift")
     rest = json.loads(str(arrays.pop("zerodrift")))
     rest["t_span"] = tuple(rest["t_span"])
+    for name in EVENTS:
+        if (count := rest.get(name)) is not None:
+            rest[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
     rest["system"] = _restored_system(rest["system"])
     rest["settings"] = {name: _restored(value) for name, value in rest["settings"].items()}
     return Solution(**arrays, **rest)

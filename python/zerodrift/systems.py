@@ -16,26 +16,33 @@ from ._system import BaseSystem
 _KINDS = _gateway.kinds()
 
 
-class BuiltIn(BaseSystem):
-    """A system of the core's table with its parameters."""
+class OfKind(BaseSystem):
+    """A kind of system with its parameters."""
 
-    def __init__(self, kind: str, parameters: dict[str, Any]) -> None:
-        row = _KINDS[kind]
+    def __init__(self, row: _gateway.Kind, parameters: dict[str, Any]) -> None:
+        kind = row.card.name
         unknown = set(parameters) - {parameter.name for parameter in row.parameters}
         if unknown:
             known = ", ".join(parameter.name for parameter in row.parameters)
             raise TypeError(f"{kind} has no parameter {sorted(unknown)[0]!r}; it has {known}")
         self._kind = row
         values = [_values(parameter, parameters.get(parameter.name)) for parameter in row.parameters]
-        self._core, self.p0, self.v0 = row.make(np.concatenate(values))
+        self._core, self.p0, self.v0 = row.make(np.concatenate([*values, []]))
         self.p0.flags.writeable = self.v0.flags.writeable = False
         self.name, self.parameters = kind, {p.name: _shown(p, v) for p, v in zip(row.parameters, values, strict=True)}
         self._given = {name: self.parameters[name] for name in parameters}     # as it is now: a caller's array may change
         self.coordinates, self.velocities, self.constraints = row.coordinates, row.velocities, row.constraints
 
-    def points(self, p: Any) -> np.ndarray:
-        """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN."""
+    def points(self, p: Any) -> np.ndarray | None:
+        """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return self._kind.draw(self._core, _check.vector("p", p, self.nq))
+
+
+class BuiltIn(OfKind):
+    """A system of the core's table."""
+
+    def __init__(self, kind: str, parameters: dict[str, Any]) -> None:
+        super().__init__(_KINDS[kind], parameters)
 
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value!r}" for name, value in self._given.items())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from typing import Any
 from . import _check, certified
 from ._system import BaseSystem
 from .benchmarking import Bench, Row, Setting, WorkPrecision, work_precision
-from .errors import UnreachableTolerance
+from .errors import Interrupted, UnreachableTolerance
 from .simulation import FINEST_RTOL
 
 EXTENSIONS = 6      # finer steps than those of the first sweep, at most
@@ -73,7 +74,7 @@ def tune(
     budget : float, optional
         Largest time of a run in s, of this machine. Either `error` or `budget` is given.
     formulations, integrators : iterable of str, optional
-        Among which to choose; left out: all.
+        Among which to choose; left out: all that can take the system.
     progress : bool or callable
         As in `simulate`; it shows the first sweep, which is most of the work.
     rounds : int
@@ -90,7 +91,7 @@ def tune(
     ValueError
         If no method keeps the budget.
     Interrupted
-        On Ctrl-C; its `.solution` is the WorkPrecision of what was being measured.
+        On Ctrl-C; its `.solution` is the WorkPrecision of all that was measured.
 
     Examples
     --------
@@ -108,9 +109,12 @@ def tune(
     sweep = work_precision(system, span, p0, v0, formulations=formulations, integrators=integrators, reference=reference,
                            progress=progress, rounds=1)
     search = _Search(goal, Bench(system, span, p0, v0, reference), sweep)
-    search.extend()
-    search.refine()
-    best = search.best(rounds)
+    try:
+        search.extend()
+        search.refine()
+        best = search.best(rounds)
+    except KeyboardInterrupt as interruption:
+        raise search.interrupted(interruption, rounds) from None
     return Tuning(best.setting.settings, best, search.evidence(rounds))
 
 
@@ -207,6 +211,12 @@ class _Search:
     def evidence(self, rounds: int) -> WorkPrecision:
         rows = sorted(self.rows.values(), key=lambda row: (*map(str, row.setting.method), -_fineness(row.setting)))
         return WorkPrecision(self.bench.system, self.bench.span, tuple(rows), self.bench.known, rounds)
+
+    def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
+        """The same with all rows, not only those being measured."""
+        latest = getattr(interruption, "solution", None)
+        self.rows |= {row.setting: row for row in latest.rows} if latest else {}
+        return Interrupted(str(interruption), dataclasses.replace(self.evidence(rounds), complete=False))
 
     def _between(self, rows: list[Row]) -> Setting:
         """Between the last that meets the goal and its neighbour that does not; beyond, if there is none."""

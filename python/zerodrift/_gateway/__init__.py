@@ -4,6 +4,7 @@ from .base import (
     CALLBACK,
     DONE,
     ERRORS,
+    EVENT,
     FULL,
     INTERRUPTED,
     PAUSED,
@@ -16,14 +17,17 @@ from .base import (
     doubles,
     error_of,
 )
-from .callbacks import PythonCore
+from .callbacks import CALLBACK_CODE, PythonCore, Watcher
+from .functions import Function, InLibrary, address_of, find, in_library, load_library, numba_signature
+from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "DONE", "ERRORS", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "Card", "CoreSystem", "Kind", "Parameter",
-    "PythonCore", "Record", "Run", "Variable", "acceleration", "cards", "count_steps", "doubles", "error_of", "kinds", "project",
-    "settings", "step",
+    "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
+    "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
+    "Watcher", "acceleration", "address_of", "cards", "count_steps", "doubles", "error_of", "find", "in_library", "kind_at",
+    "kinds", "load_library", "numba_signature", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

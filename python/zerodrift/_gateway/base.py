@@ -30,9 +30,10 @@ ERRORS = {
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_UNSUITED: errors.UnsuitedFormulation,
+    lib.ZD_UNSUITED_INTEGRATOR: errors.UnsuitedIntegrator,
     lib.ZD_NO_MEMORY: MemoryError,
 }
-DONE, PAUSED, FULL, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_CALLBACK
+DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
 # The terms a system may have: bit, shape in terms of its sizes.
@@ -105,7 +106,12 @@ def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
 def cards(table: str) -> tuple[Card, ...]:
     """The rows of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
-    return tuple(Card(text(row.name), text(row.summary), text(row.equations), row.order, row.error_order) for row in rows)
+    return tuple(map(card_of, rows))
+
+
+def card_of(c: Any) -> Card:
+    """A `zd_card`."""
+    return Card(text(c.name), text(c.summary), text(c.equations), c.order, c.error_order)
 
 
 def error_of(status: int, message: str) -> Exception:

@@ -1,9 +1,9 @@
-"""Systems written in Python: the way from the core to their callables and back."""
+"""What is written in Python, systems and events: the way from the core to the callables and back."""
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -62,13 +62,60 @@ def _over(pointer: Any, shape: Any) -> np.ndarray:
 
 
 def _keep(kind: Any, error: BaseException, traceback: Any) -> None:
-    """Ctrl-C between C and `Evaluator.write` is an error like any other."""
-    ffi.from_handle(traceback.tb_frame.f_locals["evaluator"]).error = error
+    """What a callback raises, Ctrl-C included, surfaces where the run was started."""
+    ffi.from_handle(traceback.tb_frame.f_locals["owner"]).error = error.with_traceback(traceback)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
-def zd_write_in_python(evaluator, want, t, elsewhere):
-    return ffi.from_handle(evaluator).write(want, t, elsewhere)
+def zd_write_in_python(owner, want, t, elsewhere):
+    return ffi.from_handle(owner).write(want, t, elsewhere)
+
+
+class Watcher:
+    """Between the core and the events of one run: their values, and where they were found.
+
+    An event is a row with `value(t, p, v)`, `direction` and `terminal`, as the core's `zd_events` has them.
+    """
+
+    def __init__(self, core: CoreSystem, events: Sequence[Any]) -> None:
+        self.events, self.error = events, None
+        self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
+        self._shapes = (core.nq,), (core.nv,)
+        self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),
+                      ffi.new("int[]", [event.terminal for event in events]))
+        data, direction, terminal = self._kept
+        self.c = ffi.new("zd_events *", {
+            "count": len(events), "direction": direction, "terminal": terminal, "data": data,
+            "evaluate": lib.zd_event_in_python, "found": lib.zd_found_in_python})
+
+    def value(self, event: int, t: float, p: Any, v: Any) -> float:
+        """What an event is worth."""
+        return self.events[event].value(t, *self.state(p, v))
+
+    def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
+        """The core's p and v, copied, as an event may keep them."""
+        return tuple(_over(pointer, shape).copy() for pointer, shape in zip((p, v), self._shapes, strict=True))
+
+    def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Where an event was found: t (k,), p (k, nq), v (k, nv)."""
+        columns = tuple(zip(*self.found[event], strict=True)) or ((), (), ())
+        return tuple(np.array(column).reshape(-1, *shape) for column, shape in zip(columns, ((), *self._shapes), strict=True))
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
+def zd_event_in_python(owner, event, t, p, v, value):
+    value[0] = ffi.from_handle(owner).value(event, t, p, v)
+    return DONE
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
+def zd_found_in_python(owner, event, t, p, v):
+    watcher = ffi.from_handle(owner)
+    watcher.found[event].append((t, *watcher.state(p, v)))
+    return DONE
+
+
+CALLBACK_CODE = Evaluator.write.__code__, Watcher.value.__code__      # below them runs what users wrote
 
 
 class PythonCore(CoreSystem):

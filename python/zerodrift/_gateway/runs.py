@@ -9,6 +9,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, doubles, error_of, text
+from .callbacks import Watcher
 from .systems import CoreSystem
 
 
@@ -30,60 +31,72 @@ STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
 
 
 class Record:
-    """The arrays a run writes into, one row per saved instant: a block of memory, and further ones as long as they are needed."""
+    """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed."""
 
     def __init__(self, core: CoreSystem, capacity: int) -> None:
         energies = {"potential": (), "input": (), "energy_violation": ()} if core.has_energy else {}
         self._shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
                         "velocity_violation": (core.m,), "kinetic": (), **energies}
-        self._blocks: list[tuple[Any, Any, dict[str, np.ndarray]]] = []
+        self._blocks: list[tuple[Any, dict[str, tuple[np.ndarray, Any]]]] = []
         self._add(capacity)
 
     def _add(self, capacity: int) -> None:
-        widths = [math.prod(shape) for shape in self._shapes.values()]
+        columns = {}
         try:
-            block, iterations = np.empty(capacity * sum(widths)), np.empty(capacity, dtype=np.intc)
+            for name, shape in self._shapes.items():
+                array = np.empty((capacity, *shape))
+                columns[name] = array, doubles(array, array.size, writable=True)
+            iterations = np.empty(capacity, dtype=np.intc)
         except (MemoryError, ValueError):
-            size = capacity * (sum(widths) + 0.5) * 8 / 2**30
+            columns.clear()     # the traceback keeps this frame, but what it took is needed
+            size = capacity * (sum(map(math.prod, self._shapes.values())) + 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
-        self.c = ffi.new("zd_record *")
+        columns["iterations"] = iterations, ffi.from_buffer("int[]", iterations, require_writable=True)
+        self.c = ffi.new("zd_record *", {name: memory for name, (_, memory) in columns.items()})
         self.c.capacity = capacity
-        memory, arrays, start = doubles(block, block.size, writable=True), {"iterations": iterations}, 0
-        for (name, shape), width in zip(self._shapes.items(), widths, strict=True):
-            setattr(self.c, name, memory + start)
-            arrays[name] = block[start:start + capacity * width].reshape(capacity, *shape)
-            start += capacity * width
-        self.c.iterations = counts = ffi.from_buffer("int[]", iterations, require_writable=True)
-        self._blocks.append((self.c, (memory, counts), arrays))
+        self._blocks.append((self.c, columns))
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
-        self._add(sum(c.capacity for c, _, _ in self._blocks))
+        self._add(sum(c.capacity for c, _ in self._blocks))
 
-    def arrays(self) -> dict[str, np.ndarray]:
-        """The rows written so far."""
-        rows = [{name: array[: c.rows] for name, array in arrays.items()} for c, _, arrays in self._blocks]
-        return rows[0] if len(rows) == 1 else {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
+    def take(self) -> dict[str, np.ndarray]:
+        """The rows written so far. Several blocks are joined column by column and let go, as memory may be short."""
+        return {name: self._joined(name) for name in (*self._shapes, "iterations")}
+
+    def _joined(self, name: str) -> np.ndarray:
+        parts = [columns[name][0][: c.rows] for c, columns in self._blocks]
+        joined = parts[0] if len(parts) == 1 else np.concatenate(parts)
+        for _, columns in self._blocks:
+            del columns[name]
+        return joined
 
 
 class Run:
     """A run of the core."""
 
-    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray) -> None:
-        core = core.for_run()
+    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None) -> None:
+        self._core = core = core.for_run()
+        self._watcher = watcher
+        if watcher:
+            options.events = watcher.c
         status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
-            raise core.error or error_of(status[0], text(message))
-        self._run, self._core = ffi.gc(run, lib.zd_run_free), core
+            raise self._raised or error_of(status[0], text(message))
+        self._run = ffi.gc(run, lib.zd_run_free)
 
     def advance(self, record: Record, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
         return lib.zd_run_advance(self._run, record.c, seconds)
 
     def error(self, status: int) -> BaseException:
-        """The exception that stands for a failed status: what a system written in Python raised, or our own."""
-        return self._core.error or error_of(status, self.message)
+        """The exception that stands for a failed status: what was raised in Python, or our own."""
+        return self._raised or error_of(status, self.message)
+
+    @property
+    def _raised(self) -> BaseException | None:
+        return self._core.error or (self._watcher and self._watcher.error)
 
     @property
     def progress(self) -> float:

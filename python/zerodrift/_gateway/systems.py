@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import RULES, TERMS, Parameter, Variable, cards, doubles, error_of, text
+from .base import RULES, TERMS, Parameter, Variable, card_of, doubles, error_of, text
 
 
 class Kind:
-    """A row of the table of systems: what it needs to be made, and what its instances consist of."""
+    """A kind of system: what it needs to be made, and what its instances consist of."""
 
-    def __init__(self, row: int) -> None:
-        self.c = lib.zd_kind_of(row)
-        self.card = cards("systems")[row]
+    def __init__(self, c: Any) -> None:
+        self.c, self.card = c, card_of(c.card)
         system = self.c.system
         self.parameters = tuple(self._parameter(self.c.parameter[i]) for i in range(self.c.parameters))
         self.coordinates = self._variables(self.c.coordinate, system.nq)
@@ -44,8 +43,10 @@ class Kind:
         self.c.start(given, doubles(p0, system.nq, writable=True), doubles(v0, system.nv, writable=True))
         return CoreSystem(system, constants), p0, v0
 
-    def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray:
-        """The drawing at p: points (n, dimension) to be joined by lines."""
+    def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray | None:
+        """The drawing at p: points (n, dimension) to be joined by lines; None where there is none."""
+        if not self.c.points:
+            return None
         points = np.empty((self.c.points, self.c.dimension))
         self.c.draw(core.c.data, doubles(p, core.nq), doubles(points, points.size, writable=True))
         return points
@@ -53,7 +54,7 @@ class Kind:
 
 def kinds() -> dict[str, Kind]:
     """The built-in systems by name."""
-    return {card.name: Kind(row) for row, card in enumerate(cards("systems"))}
+    return {kind.card.name: kind for kind in (Kind(lib.zd_kind_of(row)) for row in range(lib.zd_rows(lib.ZD_SYSTEMS)))}
 
 
 class CoreSystem:
@@ -72,6 +73,10 @@ class CoreSystem:
     def for_run(self) -> CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""
         return self
+
+    def suits(self, integrator: int) -> bool:
+        """Whether that row of the table of integrators can take the system."""
+        return bool(lib.zd_suits(self.c, integrator))
 
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v)."""

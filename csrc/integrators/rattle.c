@@ -1,0 +1,254 @@
+/* RATTLE: a symplectic and symmetric step of second order for holonomic systems with pdot = v. Energy errors stay bounded over long
+ * times, where explicit methods drift; (3) and (5) hold at the end of every step by the method itself.
+ *
+ *     M0 v0 = N w - h/2 (F(t0, p0, w) - C0^T lambda),     p1 = p0 + h w,    Phi(t1, p1) = 0
+ *     M1 v1 = N w + h/2 (F(t1, p1, w) - C1^T mu),                           C1 v1 + Phi_t(t1, p1) = 0
+ *
+ * with N = (M0 + M1) / 2 and F = f + dT/dp. These are the discrete Euler-Lagrange equations of the trapezoidal discrete Lagrangian
+ * h/2 (L(p0, w) + L(p1, w)): Marsden and West, Discrete mechanics and variational integrators, Acta Numerica 10 (2001), sections
+ * 2.6.1 and 3.5. For constant M they are RATTLE, H. C. Andersen, J. Comput. Phys. 52 (1983) 24. Where f is no gradient, the
+ * step still is symmetric and of second order.
+ *
+ * (2) has d = Mdot v - dT/dp, so that F = f - d + Mdot v: Mdot, along the motion, comes from differences of M. Their error,
+ * (RESOLUTION h w)^4, is far below what it is needed for. Where M does not vary, F = f and N = M.
+ *
+ * w is found by Newton's iteration with the leading matrix of the formulation at p0, that of the acceleration there,
+ *
+ *     M0 x + C0^T (h/2 lambda) = M0 v0 + h/2 F(t0, p0, w) - N w,    C0 x = -Phi(t1, p0 + h w) / h,    w <- w + H x
+ *
+ * and H, the identity at first, learns from what each change did to x what that matrix leaves out: C. G. Broyden, Math. Comp. 19
+ * (1965) 577.
+ */
+#include "../core.h"
+#include "../linalg/small.h"
+#include "../newton.h"
+
+enum { MAX_ITERATIONS = 60 };
+static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
+static const double LEAST = 0.1;                /* of s^T s, that s^T H y is: else nothing is learned from it */
+static const double ROUNDING = 2 * 0x1p-52;     /* of w: nothing to be changed */
+static const double SMALL = 1e-12;              /* of w + p / h: a change that may be rounding, if it does not shrink any more */
+
+typedef struct rattle {
+    int n, m, varies;
+    zd_point *probe;        /* wherever terms are wanted, but for p0, whose leading matrix is in use */
+    double *p0, *p, *moved; /* (n,) */
+    double *v0, *w, *x;     /* (n,) */
+    double *H, *s, *y;      /* (n, n), (n,), (n,): the last change s of w took y out of x */
+    double *start, *mean;   /* (n,): M0 v0 and N w */
+    double *F, *Mdot;       /* (n,), (n, n) */
+    double *rhs;            /* (m,) */
+    double *rate0, *rate1;  /* (size,): for what is integrated along */
+    zd_run *run;            /* of the step being solved, as are the next three */
+    double t0, t1, h;
+    double before;          /* the last iteration's change */
+} rattle;
+
+static int suits(const zd_system *system)
+{
+    return !system->mn && !(system->provides & ZD_A);
+}
+
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
+{
+    (void)table;
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    rattle self = {
+        .n = (int)n,
+        .m = (int)m,
+        .varies = (system->provides & ZD_BIAS) != 0,
+        .probe = zd_point_take(arena, system, NULL),
+        .p0 = zd_take_doubles(arena, n),
+        .p = zd_take_doubles(arena, n),
+        .moved = zd_take_doubles(arena, n),
+        .v0 = zd_take_doubles(arena, n),
+        .w = zd_take_doubles(arena, n),
+        .x = zd_take_doubles(arena, n),
+        .H = zd_take_doubles(arena, n * n),
+        .s = zd_take_doubles(arena, n),
+        .y = zd_take_doubles(arena, n),
+        .start = zd_take_doubles(arena, n),
+        .mean = zd_take_doubles(arena, n),
+        .F = zd_take_doubles(arena, n),
+        .Mdot = zd_take_doubles(arena, n * n),
+        .rhs = zd_take_doubles(arena, m),
+        .rate0 = zd_take_doubles(arena, (size_t)size),
+        .rate1 = zd_take_doubles(arena, (size_t)size),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* to <- A x, or where `add` is set to + s A x */
+static void multiply(int n, double s, const double *A, const double *x, int add, double *to)
+{
+    for (int i = 0; i < n; i++) to[i] = (add ? to[i] : 0) + s * zd_dot(n, A + i * n, x);
+}
+
+/* Mdot at (t, p), by five points along the motion with w */
+static int differentiate_mass(rattle *self, double t, const double *p)
+{
+    static const double weight[4] = {-1.0 / 12, 8.0 / 12, -8.0 / 12, 1.0 / 12};
+    static const int place[4] = {2, 1, -1, -2};
+    int n = self->n;
+    double s = RESOLUTION * self->h;
+    memset(self->Mdot, 0, (size_t)(n * n) * sizeof(double));
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i < n; i++) self->moved[i] = p[i] + place[k] * s * self->w[i];
+        zd_point_move(self->probe, t + place[k] * s, self->moved, self->w);
+        int status = zd_point_need(self->probe, ZD_M);
+        if (status) return status;
+        zd_add_scaled(n * n, self->Mdot, weight[k] / s, self->probe->terms.M);
+    }
+    return ZD_DONE;
+}
+
+/* F = f - d + Mdot w at (t, p, w) */
+static int find_force(rattle *self, double t, const double *p)
+{
+    int status = self->varies ? differentiate_mass(self, t, p) : ZD_DONE;
+    zd_point_move(self->probe, t, p, self->w);
+    if (!status) status = zd_point_need(self->probe, ZD_FORCE | ZD_BIAS);
+    if (status) return status;
+    zd_point_force(self->probe, self->F);
+    if (self->varies) multiply(self->n, 1, self->Mdot, self->w, 1, self->F);
+    return ZD_DONE;
+}
+
+/* ---- w, p1 ---- */
+
+/* The change that Newton's iteration would make of w, in units of w; nothing where it is rounding. */
+static int residual(void *context, double *size)
+{
+    rattle *self = context;
+    zd_run *run = self->run;
+    int n = self->n, status = find_force(self, self->t0, self->p0);
+    for (int i = 0; i < n; i++) self->p[i] = self->p0[i] + self->h * self->w[i];
+    zd_point_move(self->probe, self->t1, self->p, self->w);
+    if (!status) status = zd_point_need(self->probe, ZD_PHI | (self->varies ? ZD_M : 0));
+    if (status) return status;
+    multiply(n, self->varies ? 0.5 : 1, run->point->terms.M, self->w, 0, self->mean);
+    if (self->varies) multiply(n, 0.5, self->probe->terms.M, self->w, 1, self->mean);
+    for (int i = 0; i < n; i++) self->F[i] = self->start[i] + self->h / 2 * self->F[i] - self->mean[i];
+    for (int k = 0; k < self->m; k++) self->rhs[k] = -self->probe->terms.Phi[k] / self->h;
+    run->statistics.solves++;
+    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
+
+    double change = zd_max_abs(n, self->x), whole = zd_max_abs(n, self->w);
+    int rounding = change >= self->before / 2 && change <= SMALL * (whole + zd_max_abs(n, self->p) / fabs(self->h));
+    self->before = change;
+    *size = change > 0 && !rounding ? change / fmax(change, whole) : 0;
+    return ZD_DONE;
+}
+
+/* H <- H + (s - H y) s^T H / s^T H y */
+static void learn(rattle *self)
+{
+    int n = self->n;
+    double *y = self->y, *Hy = self->F, *sH = self->mean;       /* these two are free now */
+    zd_subtract(n, self->y, self->x, y);
+    multiply(n, 1, self->H, y, 0, Hy);
+    for (int j = 0; j < n; j++) sH[j] = 0;
+    for (int i = 0; i < n; i++) zd_add_scaled(n, sH, self->s[i], self->H + i * n);
+    double whole = zd_dot(n, sH, y);
+    if (!(fabs(whole) > LEAST * zd_dot(n, self->s, self->s))) return;
+    for (int i = 0; i < n; i++) zd_add_scaled(n, self->H + i * n, (self->s[i] - Hy[i]) / whole, sH);
+}
+
+static int improve(void *context)
+{
+    rattle *self = context;
+    int n = self->n;
+    learn(self);
+    multiply(n, 1, self->H, self->x, 0, self->s);
+    zd_add_scaled(n, self->w, 1, self->s);
+    zd_copy(n, self->x, self->y);
+    return ZD_DONE;
+}
+
+static int find_positions(rattle *self)
+{
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS};
+    zd_run *run = self->run;
+    int iterations, status = zd_run_accelerate(run);    /* what is recorded there, and needed for a first w */
+    double left;
+    if (status) return status;
+    multiply(self->n, 1, run->point->terms.M, self->v0, 0, self->start);
+    for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * run->point->vdot[i];
+    self->before = INFINITY;
+    for (int i = 0; i < self->n * self->n; i++) self->H[i] = i % (self->n + 1) == 0;
+    memset(self->s, 0, (size_t)self->n * sizeof(double));      /* no change yet to learn from */
+    status = zd_newton_solve(&newton, self, &iterations, &left);
+    run->statistics.implicit_iterations += iterations;
+    return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
+}
+
+/* ---- v1 ---- */
+
+static int find_velocities(rattle *self)
+{
+    zd_run *run = self->run;
+    zd_point *point = run->point;
+    int n = self->n, status = find_force(self, self->t1, self->p);
+    zd_point_move(point, self->t1, self->p, self->w);
+    if (!status) status = zd_run_factor(run);
+    if (!status) status = zd_point_need(point, ZD_PHI_T);
+    if (status) return status;
+    if (!self->varies) multiply(n, 1, point->terms.M, self->w, 0, self->mean);
+    for (int i = 0; i < n; i++) self->F[i] = self->mean[i] + self->h / 2 * self->F[i];
+    for (int k = 0; k < self->m; k++) self->rhs[k] = point->terms.Phi_t ? -point->terms.Phi_t[k] : 0;
+    run->statistics.solves++;
+    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
+    zd_point_move_velocity(point, self->x);
+    return run->formulation->leave(run->solver, point, run->y);
+}
+
+/* A system may also have its Mdot v in f and no d: then M shows it. */
+static int notice_variation(rattle *self, int *varies)
+{
+    zd_point_move(self->probe, self->t1, self->p, self->w);
+    int status = zd_point_need(self->probe, ZD_M);
+    *varies = memcmp(self->probe->terms.M, self->run->point->terms.M, (size_t)(self->n * self->n) * sizeof(double)) != 0;
+    return status;
+}
+
+static int solve_step(rattle *self)
+{
+    int status = find_positions(self);
+    if (!status && !self->varies) {
+        status = notice_variation(self, &self->varies);
+        if (!status && self->varies) status = find_positions(self);
+    }
+    return status ? status : find_velocities(self);
+}
+
+/* What corrections and (28) integrate along follows by the trapezoidal rule. */
+static int step_of_run(void *memory, zd_run *run, double h)
+{
+    rattle *self = memory;
+    int status, own = run->own_size, along = run->rate.size - own;
+    self->run = run;
+    self->h = h;
+    self->t0 = run->t;
+    self->t1 = run->t + h;
+    self->probe->statistics = &run->statistics;
+    self->probe->known = 0;     /* the step may be one made again, to be watched */
+    run->state = run->y;
+    status = run->formulation->enter(run->solver, run->point, run->t, run->y);
+    if (!status && along) status = zd_run_rate(run, run->t, run->y, self->rate0);
+    if (status) return status;
+    memcpy(self->p0, run->point->p, (size_t)self->n * sizeof(double));
+    memcpy(self->v0, run->point->v, (size_t)self->n * sizeof(double));
+    status = solve_step(self);
+    if (status || !along) return status;
+    status = zd_run_rate(run, self->t1, run->y, self->rate1);
+    for (int i = own; i < run->rate.size; i++) run->y[i] += h / 2 * (self->rate0[i] + self->rate1[i]);
+    return status;
+}
+
+const zd_integrator zd_rattle = {
+    .card = {"rattle", "Symplectic and symmetric, for long times of holonomic systems: energy errors stay bounded.",
+             "Andersen, 1983; Marsden and West, 2001", 2},
+    .suits = suits,
+    .take = take,
+    .step_of_run = step_of_run,
+};

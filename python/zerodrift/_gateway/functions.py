@@ -1,0 +1,282 @@
+"""Compiled functions, wherever they come from: each is checked to be a `zd_evaluate` and reduced to its address."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import importlib
+import re
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from .._core import ffi
+from .native import VERSION
+
+SIGNATURE = "int (const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)"
+# The types of the result and of the arguments, without const; pointers to data and to terms may be of other types.
+RESULT = "int"
+ARGUMENTS = ({"void*", "double*"}, {"int"}, {"double"}, {"double*"}, {"double*"},
+             {"void*", "zd_terms*", "structzd_terms*", "double**"})
+
+
+class Function(NamedTuple):
+    """Where a function is, what keeps it there, and how it gets into another process."""
+
+    address: int
+    keep: Any
+    again: Any = None       # what `find` makes the same of, elsewhere
+    why_not: str = "a function pointer means nothing in another process; give the library's path and symbol"
+
+
+class InLibrary(NamedTuple):
+    """A symbol of a shared library that is to be what it was."""
+
+    path: str
+    symbol: str
+    digest: str
+
+
+class InModule(NamedTuple):
+    """Something compiled when its module is imported."""
+
+    module: str
+    name: str
+
+
+class FromPython(NamedTuple):
+    """A function that numba compiles."""
+
+    function: Any
+
+
+def find(function: Any, symbol: str | None, version: int | None) -> Function:
+    """The compiled function that is meant, checked."""
+    if isinstance(function, str | Path):
+        if version is not None:
+            raise TypeError(f"version is for functions in memory: a library says its own, zd_interface_version, not {version!r}")
+        return in_library(function, symbol)
+    if symbol is not None:
+        raise TypeError(f"symbol names a function of a library: with it, function must be the library's path, not {function!r}")
+    if isinstance(function, InLibrary):
+        return _unchanged(function)
+    if isinstance(function, InModule):
+        return find(_named(function.module, function.name), None, None)
+    if isinstance(function, FromPython):
+        import numba
+
+        return find(numba.cfunc(numba_signature())(function.function), None, None)
+    for is_one, made in _SORTS:
+        if is_one(function):
+            check_version(version, "version", required=made is _address)
+            return made(function)
+    raise TypeError("function must be the path of a shared library, an address with its version, a function pointer of ctypes or "
+                    f"cffi, a numba.cfunc, or a scipy.LowLevelCallable, not {function!r}")
+
+
+def check_version(version: Any, what: str, *, required: bool = False) -> None:
+    """Refuses another version of the interface than the core's."""
+    if version is None and required:
+        raise TypeError("version is needed with an address: the ZD_INTERFACE_VERSION it was compiled with; "
+                        f"this core has {VERSION}")
+    if version is not None and (isinstance(version, bool) or version != VERSION):
+        raise ValueError(f"{what} is {version!r}, and this core has version {VERSION} of the interface: compile it against the "
+                         "header in zerodrift.get_include()")
+
+
+# ---- libraries ----
+
+_loaded: dict[Path, str] = {}     # digest of what each path held when it was loaded from there
+
+
+def load_library(path: str | Path) -> ctypes.CDLL:
+    """A shared library as it is on disk now.
+
+    The system's loader gives back what it loaded before from the same path, whatever the file holds meanwhile: a file that has
+    changed since is loaded from a copy.
+    """
+    path = Path(path).resolve()
+    digest = digest_of(path)
+    try:
+        if _loaded.setdefault(path, digest) == digest:
+            return ctypes.CDLL(str(path))
+        import shutil  # rarely needed, and slow to import
+        import tempfile
+
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            return ctypes.CDLL(str(shutil.copy(path, Path(folder) / f"{digest[:16]}-{path.name}")))
+    except OSError as error:
+        raise ValueError(f"{path} is no shared library that can be loaded here: {error}") from None
+
+
+def digest_of(path: Path) -> str:
+    """What a file holds, as a hash."""
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no shared library {path}")
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def address_of(library: ctypes.CDLL, symbol: str) -> int:
+    """Where a symbol of a library is."""
+    try:
+        return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
+    except ValueError:
+        raise ValueError(f"{library._name} has no symbol {symbol!r}") from None
+
+
+def in_library(path: str | Path, symbol: Any) -> Function:
+    """A symbol of a shared library, whose version of the interface is that of the core."""
+    if not isinstance(symbol, str) or not symbol:
+        raise TypeError(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}")
+    path = Path(path).resolve()
+    digest, library = digest_of(path), load_library(path)
+    try:
+        version = ctypes.c_int.in_dll(library, "zd_interface_version").value
+    except ValueError:
+        raise ValueError(f"{path} does not say its version of the interface: it needs the line "
+                         "`const int zd_interface_version = ZD_INTERFACE_VERSION;`") from None
+    check_version(version, f"zd_interface_version of {path}")
+    return Function(address_of(library, symbol), library, InLibrary(str(path), symbol, digest))
+
+
+def _unchanged(there: InLibrary) -> Function:
+    found = in_library(there.path, there.symbol)
+    if found.again.digest != there.digest:
+        raise ValueError(f"{there.path} is not what it was when this system was made: its content has changed")
+    return found
+
+
+# ---- pointers ----
+
+
+def _typed(types: list[str], what: str) -> None:
+    """Refuses a function of other types: those of result and arguments."""
+    result, *arguments = [re.sub(r"\bconst\b|\s", "", name) for name in types]
+    fits = len(arguments) == len(ARGUMENTS) and all(name in allowed for name, allowed in zip(arguments, ARGUMENTS, strict=True))
+    if result != RESULT or not fits:
+        raise TypeError(f"{what} is {types[0]} ({', '.join(types[1:])}), and must be {SIGNATURE}")
+
+
+def _is_ctypes(function: Any) -> bool:
+    return isinstance(function, ctypes._CFuncPtr)
+
+
+def _is_cffi(function: Any) -> bool:
+    return isinstance(function, ffi.CData)
+
+
+def _is_numba(function: Any) -> bool:
+    return type(function).__module__.partition(".")[0] == "numba" and hasattr(function, "address") and hasattr(function, "_sig")
+
+
+def _is_scipy(function: Any) -> bool:
+    return type(function).__name__ == "LowLevelCallable" and hasattr(function, "signature")
+
+
+def _is_address(function: Any) -> bool:
+    return isinstance(function, int) and not isinstance(function, bool)
+
+
+def _address(function: int) -> Function:
+    if function <= 0:
+        raise ValueError(f"function must be the address of a function, not {function}")
+    return Function(function, None)
+
+
+_C_NAMES = {
+    None: "void", ctypes.c_int: "int", ctypes.c_double: "double", ctypes.c_void_p: "void *",
+    ctypes.POINTER(ctypes.c_double): "double *", ctypes.POINTER(ctypes.POINTER(ctypes.c_double)): "double **",
+}
+
+
+def _c_name(kind: Any) -> str:
+    """A type of ctypes in C; any structure pointed to is taken for `zd_terms`."""
+    if isinstance(target := getattr(kind, "_type_", None), type) and issubclass(target, ctypes.Structure):
+        return "zd_terms *"
+    return _C_NAMES.get(kind, getattr(kind, "__name__", repr(kind)))
+
+
+def _from_ctypes(function: Any) -> Function:
+    if function.argtypes is None:
+        raise TypeError(f"set argtypes and restype of {function!r}, as of a {SIGNATURE}")
+    _typed([_c_name(kind) for kind in (function.restype, *function.argtypes)], "the ctypes function")
+    address = ctypes.cast(function, ctypes.c_void_p).value
+    if not address:
+        raise ValueError("the ctypes function is a null pointer")
+    return Function(address, function)
+
+
+def _from_cffi(function: Any) -> Function:
+    kind = ffi.typeof(function)
+    if kind.kind != "function":
+        raise TypeError(f"the cffi object is a {kind.cname}, and must be a pointer to a function {SIGNATURE}")
+    _typed([part.cname for part in (kind.result, *kind.args)], "the cffi function")
+    if not function:
+        raise ValueError("the cffi function is a null pointer")
+    return Function(int(ffi.cast("intptr_t", function)), function)
+
+
+def _from_numba(function: Any) -> Function:
+    signature = function._sig
+    names = [_numba_name(kind) for kind in (signature.return_type, *signature.args)]
+    try:
+        _typed(names, "the numba.cfunc")
+    except TypeError as error:
+        raise TypeError(f"{error}; zerodrift.numba_signature() is that for numba") from None
+    again = _numba_elsewhere(function)
+    why_not = "numba would have to find its Python function at the top of a module"
+    return Function(function.address, function, again, why_not)
+
+
+def _numba_name(kind: Any) -> str:
+    if hasattr(kind, "dtype") and type(kind).__name__ == "CPointer":
+        return f"{_numba_name(kind.dtype)}*"
+    if type(kind).__name__ == "Record":
+        return "zd_terms"
+    return {"int32": "int", "float64": "double", "none": "void", "voidptr": "void*"}.get(str(kind), str(kind))
+
+
+def _numba_elsewhere(function: Any) -> Any:
+    """How another process gets the same: by importing it, or by compiling what it was made of."""
+    python = function.__wrapped__
+    try:
+        found = _named(python.__module__, python.__qualname__)
+    except (ImportError, AttributeError):
+        return None
+    if found is function:
+        return InModule(python.__module__, python.__qualname__)
+    return FromPython(python) if found is python else None
+
+
+def _named(module: str, name: str) -> Any:
+    found = importlib.import_module(module)
+    for part in name.split("."):
+        found = getattr(found, part)
+    return found
+
+
+def numba_signature() -> Any:
+    """What to hand to `numba.cfunc`; see `zerodrift.native`."""
+    try:
+        from numba import types
+    except ImportError:
+        raise ImportError("this needs numba, which is not installed: pip install numba") from None
+    doubles = types.CPointer(types.float64)
+    return types.int32(doubles, types.int32, types.float64, doubles, doubles, types.CPointer(doubles))
+
+
+def _from_scipy(function: Any) -> Function:
+    types = re.fullmatch(r"\s*(.*?)\s*\((.*)\)\s*", function.signature)
+    _typed([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
+    if function.user_data is not None:
+        raise ValueError("the LowLevelCallable has user_data: what the function is handed are the parameters")
+    if _is_ctypes(function.function) or _is_cffi(function.function):
+        return find(function.function, None, None)
+    api = ctypes.pythonapi
+    name, pointer = api.PyCapsule_GetName, api.PyCapsule_GetPointer
+    name.restype, name.argtypes = ctypes.c_char_p, [ctypes.py_object]
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    return Function(pointer(function.function, name(function.function)), function)
+
+
+_SORTS = ((_is_address, _address), (_is_ctypes, _from_ctypes), (_is_cffi, _from_cffi), (_is_numba, _from_numba),
+          (_is_scipy, _from_scipy))

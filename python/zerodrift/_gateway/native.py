@@ -1,0 +1,88 @@
+"""Systems whose evaluation is compiled code: the core calls it directly, and Python is not involved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import TERMS, doubles
+from .systems import CoreSystem, Kind
+
+VERSION = lib.ZD_INTERFACE_VERSION
+FAILURE = ffi.new("char[]", b"the native function reported a failure")
+GUARD = 256         # doubles on either side of a term that is probed
+UNWRITTEN = np.array([0x7FF8_5A5A_5A5A_5A5A], dtype=np.uint64).view(np.float64)[0]      # a number that is none, known by its bits
+
+
+class NativeCore(CoreSystem):
+    """A system whose terms the function at `address`, a `zd_evaluate`, computes.
+
+    Its sizes are (nq, nv, mh, mn), its terms those named; it is handed `data`, and `scratch` doubles to keep what it likes.
+    What must live as long as the system goes into `keep`.
+    """
+
+    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None, *,
+                 scratch: int = 0, keep: Any = None) -> None:
+        system = ffi.new("zd_system *")
+        system.nq, system.nv, system.mh, system.mn = sizes
+        for name in names:
+            system.provides |= TERMS[name][0]
+        system.scratch, system.failure = scratch, FAILURE
+        system.evaluate = ffi.cast("zd_evaluate *", address)
+        memory = ffi.NULL if data is None else doubles(data, data.size)
+        system.data = memory
+        super().__init__(system, (memory, keep))
+
+
+def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
+    """What a compiled evaluation does wrong at (0, p, v), as a sentence; nothing where it is right.
+
+    It is to write the terms it is said to have, all of each, and nothing else.
+    """
+    shapes = {name: tuple(getattr(core, size) for size in shape) for name, (_, shape) in TERMS.items()} | {
+        "scratch": (core.c.scratch,)}
+    memory = {name: np.full(int(np.prod(shape)) + 2 * GUARD, UNWRITTEN) for name, shape in shapes.items()}
+    terms = ffi.new("zd_terms *")
+    for name, array in memory.items():
+        setattr(terms, name, doubles(array, array.size, writable=True) + GUARD)
+    want = core.provides | lib.ZD_MOVED
+    if core.c.evaluate(core.c.data, want, 0.0, doubles(p, core.nq), doubles(v, core.nv), terms):
+        return "it reports a failure at the start"
+    for name, array in memory.items():
+        written = array.view(np.uint64) != UNWRITTEN.view(np.uint64)
+        inside = written[GUARD:-GUARD]
+        has = name == "scratch" or core.provides & TERMS[name][0]
+        if written[:GUARD].any() or written[-GUARD:].any():
+            return f"it writes beyond {name}, which is of shape {shapes[name]}"
+        if inside.any() and not has:
+            return f"it writes {name}, which is not among its terms"
+        if name != "scratch" and has and not inside.all():
+            where = [int(i) for i in np.unravel_index(np.argmin(inside), shapes[name])]
+            return f"it leaves {name}{where if where else ''} unwritten, and {name} of shape {shapes[name]} is among its terms"
+    return ""
+
+
+def kind_at(address: int) -> Kind:
+    """The `zd_kind` at an address; ValueError where something in it is missing."""
+    c = ffi.cast("const zd_kind *", address)
+    system = c.system
+    sizes = (system.nq, system.nv, system.mh, system.mn)
+    if min(sizes) < 0 or not system.nq or not system.nv:
+        raise ValueError(f"its sizes nq, nv, mh, mn cannot be {sizes}")
+    counts = {"parameter": c.parameters, "coordinate": system.nq, "velocity": system.nv, "constraint": system.mh + system.mn,
+              "prepare": 1, "start": 1, "draw": c.points}
+    for name in (name for name, count in counts.items() if count and not getattr(c, name)):
+        raise ValueError(f"its {name} is missing")
+    if not c.card.name or not system.evaluate:
+        raise ValueError(f"its {'evaluate' if c.card.name else 'name'} is missing")
+    if system.data:
+        raise ValueError("its system.data is to be left out: the constants take its place")
+    return Kind(c)
+
+
+def terms_of(system: CoreSystem) -> list[str]:
+    """The names of the terms a system has."""
+    return [name for name, (bit, _) in TERMS.items() if system.provides & bit]

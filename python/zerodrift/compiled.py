@@ -1,0 +1,252 @@
+"""Systems whose equations are compiled code of one's own: in C, by numba, or from any language that calls like C."""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _check, _gateway
+from ._gateway import TERMS, Variable
+from ._system import BaseSystem
+from .errors import ZerodriftError
+from .systems import OfKind
+
+BIT = namedtuple("Bits", TERMS)(*(bit for bit, _ in TERMS.values()))
+BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
+SLOT = namedtuple("Slots", TERMS)(*range(len(TERMS)))
+SLOT.__class__.__doc__ = "Where the pointer to a term is: ``out[SLOT.M]``."
+INTERFACE_VERSION = _gateway.VERSION
+KIND = "zd_kind_"       # what the name of a `zd_kind` begins with in a library
+
+
+def get_include() -> str:
+    """The folder for the compiler's ``-I``, so that ``#include <zerodrift/system.h>`` finds the interface.
+
+    Examples
+    --------
+    >>> import os, zerodrift as zd
+    >>> os.listdir(os.path.join(zd.get_include(), "zerodrift"))
+    ['system.h']
+    """
+    here = Path(__file__).resolve()
+    in_source_tree = here.parents[2] / "csrc" / "include"
+    return str(in_source_tree if in_source_tree.is_dir() else here.parent / "include")
+
+
+def numba_signature() -> Any:
+    """The signature for `numba.cfunc` of a function that `native` takes; see there."""
+    return _gateway.numba_signature()
+
+
+def native(
+    function: Any, coordinates: int | Sequence[str] | None = None, *, terms: Iterable[str] | None = None,
+    symbol: str | None = None, version: int | None = None, velocities: int | Sequence[str] | None = None,
+    constraints: int | Sequence[str] = 0, nonholonomic: int | Sequence[str] = 0, parameters: Mapping[str, float] | None = None,
+    p0: Any = None, v0: Any = None, scratch: int = 0, name: str | None = None,
+) -> BaseSystem:
+    """A system whose terms a compiled function evaluates, at the speed of the built-in ones.
+
+    The function is a ``zd_evaluate`` of the header ``zerodrift/system.h`` in `get_include()`, which says what it is handed and
+    what it is to write::
+
+        int f(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+
+    It has to be pure: several threads may call it at once. A shared library has to say which version of the interface it was
+    compiled with, in a line ``const int zd_interface_version = ZD_INTERFACE_VERSION;``.
+
+    Parameters
+    ----------
+    function : str, Path, int, function pointer of ctypes or cffi, numba.cfunc, scipy.LowLevelCallable
+        The function, whose signature is checked; or the path of a shared library that has it; or its bare address.
+    coordinates : int or sequence of str, optional
+        How many coordinates there are, or their names. Left out: `function` is a library that describes the system itself, in a
+        ``const zd_kind zd_kind_SYMBOL``; then only `symbol` and `parameters` are given.
+    terms : sequence of str
+        The terms that the function writes, named as those of `zerodrift.System.evaluate`: always M, and as the constraints need
+        Phi, C, xi; the others are absent where they are not named.
+    symbol : str, optional
+        Name of the function in the library.
+    version : int, optional
+        The ``ZD_INTERFACE_VERSION`` that the function was compiled with. Needed with an address; a library says it itself.
+    velocities, constraints, nonholonomic : int or sequence of str
+        How many, or their names. As many velocities as coordinates, unless there is a kinematic matrix A.
+    parameters : mapping of str to float
+        What the function is handed as ``data``: an array of doubles, in this order. Of a ``zd_kind``: its parameters.
+    p0, v0 : array_like (nq,), (nv,)
+        The start. Given, the function is tried there: whether it writes all of its terms, and nothing else.
+    scratch : int
+        Doubles that the function may keep things in while t and p stay, at ``out->scratch``.
+    name : str
+        For tables and plots.
+
+    Returns
+    -------
+    system
+        Everything a `zerodrift.System` is good for. It can be pickled where another process can find the function: in the same
+        library at the same path, or by its name in a module.
+
+    Raises
+    ------
+    TypeError, ValueError, FileNotFoundError
+        If the function is of another type or version, is not there, or does not write what it is said to.
+
+    Notes
+    -----
+    With numba, a system of one coordinate ``x`` that a spring pulls::
+
+        import numba
+        from zerodrift.compiled import BIT, SLOT
+
+        @numba.cfunc(zd.numba_signature())
+        def spring(data, want, t, p, v, out):
+            if want & BIT.M: out[SLOT.M][0] = data[0]
+            if want & BIT.f: out[SLOT.f][0] = -data[1] * p[0]
+            if want & BIT.V: out[SLOT.V][0] = data[1] * p[0] ** 2 / 2
+            return 0
+
+        system = zd.native(spring, ["x"], terms=["M", "f", "V"], parameters={"mass": 1.0, "stiffness": 4.0}, p0=[1.0])
+
+    Matrices are row-major: ``M[i, j]`` is ``out[SLOT.M][i * nv + j]``; ``numba.carray(out[SLOT.M], (nv, nv))`` makes an array of
+    it. What a cfunc raises gets lost: return another number than 0 instead.
+    """
+    if coordinates is None:
+        given = {"version": version, "terms": terms, "velocities": velocities, "constraints": constraints or None, "p0": p0,
+                 "nonholonomic": nonholonomic or None, "v0": v0, "scratch": scratch or None, "name": name}
+        return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
+    if terms is None:
+        raise TypeError("terms is needed with coordinates: the names of the terms that the function writes")
+    return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
+                  constraints=constraints, nonholonomic=nonholonomic, parameters=parameters, p0=p0, v0=v0, scratch=scratch,
+                  name=name)
+
+
+class Native(BaseSystem):
+    """A system whose terms a compiled function evaluates."""
+
+    def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: Any,
+                 nonholonomic: Any, parameters: Any, p0: Any, v0: Any, scratch: int, name: str | None) -> None:
+        self._found = found
+        names = _check.names("coordinates", coordinates, "p")
+        holonomic = _check.names("constraints", constraints, "constraint", least=0)
+        rows = holonomic + _check.names("nonholonomic", nonholonomic, "rolling", least=0)
+        terms = _terms(terms, len(holonomic), len(rows))
+        rates = _rates(velocities, names, "A" in terms)
+        self.parameters = {key: _check.number(key, value) for key, value in dict(parameters or {}).items()}
+        sizes = (len(names), len(rates), len(holonomic), len(rows) - len(holonomic))
+        data = np.array([*self.parameters.values()], dtype=float)
+        self._core = _gateway.NativeCore(sizes, terms, found.address, data, keep=found.keep,
+                                         scratch=_check.count("scratch", scratch, least=0))
+        self.coordinates, self.velocities, self.constraints = (
+            tuple(Variable(name, "") for name in group) for group in (names, rates, rows))
+        self.name = name or "native system"
+        self.p0 = None if p0 is None else _check.vector("p0", p0, self.nq)
+        self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
+        self._given = {"coordinates": names, "velocities": rates, "constraints": holonomic, "nonholonomic": rows[len(holonomic):],
+                       "terms": terms, "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
+        _try(self)
+
+    def with_parameters(self, **changed: float) -> Native:
+        """The same system with some parameters changed.
+
+        Raises
+        ------
+        ValueError
+            If the system has no parameter of that name.
+        """
+        for key in changed:
+            _check.choice("parameter", key, self.parameters)
+        return Native(self._found, **self._given, parameters=self.parameters | changed)
+
+    def __repr__(self) -> str:
+        return (f"<zd.native {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
+                f"{self.mn} nonholonomic constraints>")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._found.again is None:
+            raise TypeError(f"{self.name} cannot be pickled: {self._found.why_not}")
+        return _again, (self._found.again, self._given | {"parameters": self.parameters})
+
+
+def _again(where: Any, given: dict[str, Any]) -> Native:
+    return Native(_gateway.find(where, None, None), **given)
+
+
+class NativeKind(OfKind):
+    """A system that a shared library describes."""
+
+    def __init__(self, there: _gateway.Function, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
+        super().__init__(kind, parameters)
+        self._found = there
+        self._core.keep = there.keep
+        _try(self)
+
+    def __repr__(self) -> str:
+        return f"<zd.native {self.name} of {self._found.again.path}: {self._given}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again_of_kind, (self._found.again, self._given)
+
+
+def _described_by_library(library: Any, symbol: Any, parameters: Any, others: list[str]) -> NativeKind:
+    if not isinstance(library, str | Path):
+        raise TypeError(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}")
+    if others:
+        raise TypeError(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
+    there = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
+    return _of_kind(there, dict(parameters or {}))
+
+
+def _of_kind(there: _gateway.Function, parameters: dict[str, Any]) -> NativeKind:
+    where = f"{there.again.symbol} of {there.again.path}"
+    try:
+        kind = _gateway.kind_at(there.address)
+        _terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}") from None
+    return NativeKind(there, kind, parameters)
+
+
+def _again_of_kind(there: Any, parameters: dict[str, Any]) -> NativeKind:
+    return _of_kind(_gateway.find(there, None, None), parameters)
+
+
+# ---- checks ----
+
+
+def _terms(given: Any, mh: int, m: int) -> list[str]:
+    """The terms a function writes, checked against the constraints there are."""
+    needed = ["M", *["Phi"] * (mh > 0), *["C", "xi"] * (m > 0)]
+    terms = [_check.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
+    missing = [term for term in needed if term not in terms]
+    if missing:
+        raise ValueError(f"terms must have {', '.join(missing)}, with {mh} holonomic of {m} constraints, not only "
+                         f"{', '.join(terms) or 'none'}")
+    superfluous = [term for term in terms if (term == "Phi" and not mh) or (term in ("C", "Phi_t", "xi", "D", "gamma") and not m)]
+    if superfluous:
+        raise ValueError(f"terms cannot have {superfluous[0]}, with {mh} holonomic of {m} constraints")
+    if ("D" in terms) != ("gamma" in terms):
+        raise ValueError("terms must have both D and gamma, or neither")
+    return terms
+
+
+def _rates(velocities: Any, coordinates: list[str], kinematics: bool) -> list[str]:
+    if velocities is None:
+        return [f"v{i}" for i in range(len(coordinates))] if kinematics else [f"{name}_dot" for name in coordinates]
+    rates = _check.names("velocities", velocities, "v")
+    if len(rates) != len(coordinates) and not kinematics:
+        raise ValueError(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}")
+    return rates
+
+
+def _try(system: BaseSystem) -> None:
+    """Refuses a function that does not write what it is said to, where there is a state to try it at."""
+    if system.p0 is None:
+        return
+    wrong = _gateway.probe(system._core, *system._start(None, None))
+    if wrong:
+        error = ZerodriftError if wrong.startswith("it reports") else ValueError
+        raise error(f"the function of {system.name} does not do what it is said to: {wrong}")

@@ -1,0 +1,182 @@
+"""`stability_map`: over the step and one parameter, which way to simulate survives, and how accurately."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _check, certified, settings
+from ._system import BaseSystem
+from .benchmarking import Bench, Row, Setting, default_steps
+from .errors import Interrupted
+from .simulation import progress_of
+
+GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
+OPTIONS = {"formulation": "schur", "integrator": "rk4", "stabilization": "projection", "energy": None}
+
+
+def _critically_damped(gain: float) -> dict[str, Any]:
+    return {"stabilization": settings.Baumgarte(gain, gain**2 / 4)}
+
+
+WAYS = {"nothing": {"stabilization": None}, "Baumgarte": _critically_damped, "projection": {},
+        "projection, energy": {"energy": True}}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StabilityMap:
+    """What became of the runs, for each way, value of the parameter, and step.
+
+    Attributes
+    ----------
+    parameter : str
+        What the values are, with its unit.
+    values : ndarray (n,)
+    steps : ndarray (k,)
+        In s.
+    rows : dict of str to tuple of tuple of Row
+        For each way (n,) times (k,) rows as in `WorkPrecision`; after Ctrl-C, only of the ways that were done.
+    reference_error : float
+        The largest certified error of the references.
+    """
+
+    parameter: str
+    values: np.ndarray
+    steps: np.ndarray
+    rows: dict[str, tuple[tuple[Row, ...], ...]]
+    reference_error: float
+
+    def survived(self, way: str) -> np.ndarray:
+        """Which runs of that way reached their end, (n, k)."""
+        return self._of(way, "success").astype(bool)
+
+    def error(self, way: str) -> np.ndarray:
+        """``max |p - p_ref|`` of the runs of that way, (n, k); NaN where they did not reach their end."""
+        return self._of(way, "error").astype(float)
+
+    def _of(self, way: str, name: str) -> np.ndarray:
+        rows = self.rows[_check.choice("way", way, self.rows)]
+        return np.array([[getattr(row, name) for row in line] for line in rows])
+
+    def __repr__(self) -> str:
+        lines = [f"StabilityMap over {len(self.steps)} steps of {self.steps[0]:.2g} ... {self.steps[-1]:.2g} s and "
+                 f"{len(self.values)} values of {self.parameter}"]
+        for way in self.rows:
+            survived, error = self.survived(way), self.error(way)
+            best = f"least error {np.nanmin(error):.2g}" if survived.any() else ""
+            lines.append(f"  {way:20} {survived.sum():4} of {survived.size} survive  {best}".rstrip())
+        return "\n".join(lines)
+
+
+def stability_map(
+    system: BaseSystem | Callable[[float], BaseSystem],
+    t_span: float | tuple[float, float],
+    p0: Any = None,
+    v0: Any = None,
+    *,
+    steps: Iterable[float] | None = None,
+    parameter: str | None = None,
+    values: Iterable[float] = GAINS,
+    ways: Mapping[str, Mapping[str, Any] | Callable[[float], Mapping[str, Any]]] | None = None,
+    reference: Any = None,
+    progress: bool | Callable[[float], None] = False,
+) -> StabilityMap:
+    """Run all ways to simulate over steps and values of one parameter, and compare them with a reference.
+
+    Parameters
+    ----------
+    system : system, or callable value -> system
+        A callable where the parameter is one of the system's, such as a mass.
+    t_span : float or (float, float)
+        End time, or start and end, in s.
+    p0, v0 : array_like (nq,), (nv,), optional
+        Start; left out: the system's own.
+    steps : iterable of float, optional
+        In s. Left out: 4, 2, 1, 1/2 ... 1/16 times the mean step that the integrator of highest order chooses at a tolerance
+        of 1e-6.
+    parameter : str, optional
+        What the values are, with its unit: the label of the picture. Left out: Baumgarte's gain.
+    values : iterable of float
+        Left out: 1 to 1000, for the gain alpha of Baumgarte's method in 1/s with beta = alpha**2 / 4.
+    ways : mapping of str to dict, or to callable value -> dict, optional
+        For each name, what `simulate` is told of ``formulation, integrator, stabilization, energy``, or how that follows from
+        the value. Left out: nothing, Baumgarte's method, projection, and projection with energy correction.
+    reference : Reference, Solution or callable, optional
+        What errors are measured against; left out, or where the system varies: the best that `reference` certifies.
+    progress : bool or callable
+        As in `simulate`.
+
+    Returns
+    -------
+    StabilityMap
+        `zerodrift.plot.stability_map` draws it.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C; its `.solution` is the StabilityMap of the ways that were done.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> found = zd.stability_map(zd.systems.four_bar(), 1.0, steps=[0.01, 0.02], values=[1.0, 1000.0])
+    >>> found.survived("Baumgarte").tolist()
+    [[True, True], [False, False]]
+    """
+    span = _check.span(t_span)
+    values = np.array([_check.number("values", value) for value in values])
+    if not values.size:
+        raise ValueError("values needs at least one entry")
+    benches = _benches(system, span, p0, v0, values, reference)
+    steps = default_steps(benches[0].system, span, p0, v0) if steps is None else steps
+    steps = np.unique([_check.number("steps", step, above=0) for step in steps])
+    if not steps.size:
+        raise ValueError("steps needs at least one entry")
+    combinations = {name: [_settings(name, way(value) if callable(way) else way, steps) for value in values]
+                    for name, way in (WAYS if ways is None else ways).items()}
+    label = parameter or ("gain α of Baumgarte's method [1/s]" if ways is None else "value")
+    known = max(bench.known for bench in benches)
+    rows: dict[str, Any] = {}
+    show, close = progress_of(progress)
+    try:
+        for done, (name, lines) in enumerate(combinations.items()):
+            rows[name] = _measured(benches, lines)
+            show((done + 1) / len(combinations))
+    except (KeyboardInterrupt, Interrupted):
+        partial = StabilityMap(label, values, steps, rows, known)
+        raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} ways", partial) from None
+    finally:
+        close()
+    return StabilityMap(label, values, steps, rows, known)
+
+
+def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
+    """One for each value; the same one where the system does not vary."""
+    def bench(system, reference):
+        reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
+        return Bench(system, span, p0, v0, reference)
+
+    if isinstance(system, BaseSystem) or not callable(system):
+        return [bench(system, reference)] * len(values)
+    return [bench(system(value), None) for value in values]
+
+
+def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple[Setting, ...]:
+    for option in options:
+        _check.choice(f"an option of the way {name!r}", option, OPTIONS)
+    chosen = OPTIONS | dict(options)
+    return tuple(Setting(chosen["formulation"], chosen["integrator"], float(step), None,
+                         settings.stabilization(chosen["stabilization"]), settings.energy(chosen["energy"])) for step in steps)
+
+
+def _measured(benches: list[Bench], lines: list[tuple[Setting, ...]]) -> tuple[tuple[Row, ...], ...]:
+    """A line of rows for each value; what does not depend on it is run once."""
+    known: dict[Any, tuple[Row, ...]] = {}
+    for key in zip(benches, lines, strict=True):
+        if key not in known:
+            bench, line = key
+            known[key] = bench.measure(line, 1).rows
+    return tuple(known[key] for key in zip(benches, lines, strict=True))

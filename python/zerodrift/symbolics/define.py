@@ -1,0 +1,152 @@
+"""`symbolic`: a system from energies, forces and constraints written in SymPy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+try:
+    import sympy
+except ImportError as error:
+    raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
+
+from . import compiling
+from .blocks import Blocks
+from .definition import Definition
+from .derivation import Derivation
+from .emission import CWriter, PythonWriter
+from .fingerprint import fingerprint
+from .lowering import Lowering
+from .progress import Progress
+from .system import Code, SymbolicSystem
+
+_derived: dict[str, Code] = {}
+
+
+def symbolic(
+    coordinates: Any, *, kinetic: Any = None, potential: Any = 0, force: Any = None, constraints: Any = (),
+    nonholonomic: Any = (), speeds: Any = None, kinematics: Any = None, parameters: Mapping[Any, float] | None = None,
+    time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), p0: Any = None,
+    v0: Any = None, name: str = "symbolic", progress: bool = True,
+) -> SymbolicSystem:
+    """A system from expressions: its terms are derived, written as C, compiled and kept for the next time.
+
+    Parameters
+    ----------
+    coordinates : sequence of Symbol or of functions of time
+        What p consists of: symbols, or what `sympy.physics.mechanics.dynamicsymbols` makes.
+    kinetic : Expr
+        Kinetic energy in J, in terms of coordinates and velocities: `speeds`, or the derivatives ``q.diff(t)`` of
+        coordinates that are functions of time. It may depend on time, and need not be homogeneous in the velocities.
+    potential : Expr or None
+        V in J; it may depend on time. None: there is none, and there are no energies.
+    force : sequence of Expr (nv,) or dict, optional
+        Generalized forces that V does not describe, one for each velocity; a dict has them by coordinate or speed.
+    constraints : sequence of Expr (mh,) or dict
+        Phi of (3), what has to vanish; a dict has them by name. `sympy.Eq` will do.
+    nonholonomic : sequence of Expr (mn,) or dict
+        Constraints on velocities, linear in these: C v + Phi_t of (5).
+    speeds : sequence of Symbol or functions of time, or dict
+        What v consists of; left out: the derivatives of the coordinates. A dict says what each is in terms of coordinates and
+        their derivatives, so that `kinetic` can be written with speeds where there are `kinematics`.
+    kinematics : dict, sequence of Expr (nq,) or Matrix (nq, nv), optional
+        The derivatives of the coordinates in terms of the speeds, linear: ``pdot = A v`` of (1). Left out: the identity.
+    parameters : dict of Symbol or str to float
+        Values of all other symbols. They stay symbols: see `with_parameters` of the result.
+    time : Symbol, optional
+        Left out: the one of dynamicsymbols, ``Symbol("t")``.
+    mass, bias : Matrix (nv, nv), sequence of Expr (nv,), optional
+        M and d of (2) themselves, instead of `kinetic`.
+    points : sequence of (Expr, Expr) or (Expr, Expr, Expr)
+        Points of a drawing, joined by lines.
+    p0, v0 : array_like (nq,), (nv,), optional
+        The start, unless `simulate` is given another.
+    name : str
+        For tables and plots.
+    progress : bool
+        Whether to say on stderr what is being done, if it takes longer than two seconds.
+
+    Returns
+    -------
+    SymbolicSystem
+
+    Raises
+    ------
+    ValueError, TypeError
+        Where an expression has what is neither known nor to be had in C, which is then named.
+    CompilationFailed
+        Where the compiler refuses the C source.
+    ImportError
+        Without SymPy, the extra `symbolic`.
+
+    Notes
+    -----
+    Where there are `kinematics`, the kinetic energy T(p, pdot, t) has to be known in terms of the derivatives of coordinates, by
+    which it is differentiated; A then projects. So nothing symbolic is ever solved or inverted.
+
+    Jumps, such as those of `Heaviside` or `floor`, are taken to have no derivative.
+
+    What was derived and compiled is kept in the folder that the environment variable ZERODRIFT_CACHE names, or else the
+    user's cache folder. The compiler is what CC names, or else cc, gcc or clang.
+
+    Examples
+    --------
+    A pendulum of length L in Cartesian coordinates:
+
+    >>> import sympy as sp, zerodrift as zd
+    >>> x, y, vx, vy, m, g, L = sp.symbols("x y vx vy m g L")
+    >>> pendulum = zd.symbolic(
+    ...     [x, y], speeds=[vx, vy],
+    ...     kinetic=m * (vx**2 + vy**2) / 2,
+    ...     potential=m * g * y,
+    ...     constraints=[(x**2 + y**2 - L**2) / 2],
+    ...     parameters={m: 1.0, g: 9.81, L: 1.0},
+    ...     p0=[1.0, 0.0],
+    ... )
+    >>> sol = zd.simulate(pendulum, 1.0, step=0.01)
+    >>> sol.p[-1].round(5)
+    array([-0.98629, -0.16501])
+    """
+    definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
+                            parameters or {}, time, mass, bias, points)
+    with Progress(name, progress) as say:
+        return SymbolicSystem(_code(definition, say), definition.values, p0, v0, name, say)
+
+
+def _code(definition: Definition, say: Progress) -> Code:
+    """What was derived before from the same definition, else what is derived now."""
+    key = fingerprint(definition.expressions)
+    code = _derived.get(key)
+    if code is None and key is not None:
+        kept = compiling.read(key, dict)
+        code = None if kept is None else Code.from_json(kept)
+    if code is None:
+        code = _derive(definition, say)
+        if key is not None:
+            compiling.write(key, code.as_json())
+    if key is not None:
+        _derived[key] = code
+    return code
+
+
+def _derive(definition: Definition, say: Progress) -> Code:
+    say("deriving")
+    reader, given = definition.read()
+    derivation = Derivation(reader.graph, given)
+    terms = derivation.terms()
+    definition.check_linearity(terms)
+    say("eliminating common subexpressions")
+    lowering = Lowering(reader.graph)
+    outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in terms.items()}
+    blocks = Blocks(lowering, outputs)
+    say("writing C")
+    c_source, constants, scratch = CWriter(blocks).source(definition.heading(), len(definition.values))
+    drawing = definition.drawing(reader)
+    sketch = Lowering(reader.graph)
+    drawn = Blocks(sketch, {"points": [sketch.lower(node) for point in drawing for node in point]})
+    return Code(
+        coordinates=definition.coordinate_names, velocities=definition.velocity_names,
+        constraints=definition.constraint_names, parameters=tuple(definition.values),
+        sizes=(given.nq, given.nv, len(given.holonomic), len(given.nonholonomic)), provides=tuple(terms),
+        constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
+        drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source())

@@ -1,0 +1,267 @@
+"""What the user handed to `symbolic`, checked and put into one form."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy
+from sympy.core.function import AppliedUndef
+
+from .. import _check
+from .derivation import Given
+from .emission import computable
+from .graph import MOVING, Node
+from .reading import Reader
+
+
+class Definition:
+    """Expressions of a system, by what they are.
+
+    Attributes
+    ----------
+    expressions : dict
+        All that the terms follow from, and nothing else.
+    values : dict of str to float
+        The parameters.
+    """
+
+    def __init__(self, coordinates: Any, kinetic: Any, potential: Any, force: Any, constraints: Any, nonholonomic: Any,
+                 speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass: Any, bias: Any,
+                 points: Any) -> None:
+        self.time = _time() if time is None else time
+        self.coordinates = _variables("coordinates", coordinates)
+        self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
+        self._check_times()
+        if (kinetic is None) == (mass is None):
+            raise TypeError("either kinetic or mass is needed")
+        if mass is None and bias is not None:
+            raise TypeError("bias goes with mass; from kinetic it is derived")
+        self.meaning = dict(speeds) if isinstance(speeds, Mapping) else {}
+        self.speeds = self._speeds(speeds, kinematics)
+        holonomic, names = _named(constraints, "constraint")
+        rows, more = _named(nonholonomic, "nonholonomic")
+        self.constraint_names = tuple(names + more)
+        self.values, self._parameters = _parameters(parameters)
+        self.expressions = {
+            "time": self.time, "coordinates": self.coordinates, "speeds": self.speeds, "meaning": self.meaning,
+            "kinetic": kinetic, "potential": potential, "force": self._force(force, kinematics), "holonomic": holonomic,
+            "nonholonomic": rows, "kinematics": self._kinematics(kinematics), "mass": _matrix("mass", mass),
+            "bias": None if bias is None else list(bias), "points": [tuple(point) for point in points],
+            "names": self.constraint_names, "parameters": self._parameters}
+        self.coordinate_names = tuple(_name(q) for q in self.coordinates)
+        self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
+
+    def _check_times(self) -> None:
+        if not isinstance(self.time, sympy.Symbol):
+            raise TypeError(f"time must be a symbol, not {self.time!r}")
+        for q in self.coordinates:
+            if isinstance(q, AppliedUndef) and q.args != (self.time,):
+                raise ValueError(f"coordinate {q} is no function of {self.time} alone")
+
+    def _speeds(self, speeds: Any, kinematics: Any) -> list[Any]:
+        if speeds is not None:
+            found = _variables("speeds", list(speeds) if isinstance(speeds, Mapping) else speeds)
+            if kinematics is None and len(found) != len(self.coordinates):
+                raise ValueError(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: "
+                                 "then kinematics is needed")
+            return found
+        if kinematics is not None:
+            raise TypeError("kinematics goes with speeds: name these")
+        plain = [q for q, rate in zip(self.coordinates, self.rates, strict=True) if rate is None]
+        if plain:
+            raise TypeError(f"speeds are needed: coordinate {plain[0]} is a symbol, which has no derivative by time "
+                            "(dynamicsymbols have)")
+        return list(self.rates)
+
+    def _kinematics(self, given: Any) -> list[Any] | None:
+        """What pdot is, an expression in the speeds for each coordinate."""
+        if given is None:
+            return None
+        if isinstance(given, Mapping):
+            missing = [rate for rate in self.rates if rate not in given]
+            if missing:
+                raise ValueError(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}")
+            return [given[rate] for rate in self.rates]
+        matrix = sympy.Matrix(given)
+        if matrix.shape == (len(self.coordinates), len(self.speeds)) and matrix.shape[1] > 1:
+            return list(matrix * sympy.Matrix(self.speeds))
+        if matrix.shape == (len(self.coordinates), 1):
+            return list(matrix)
+        shape = len(self.coordinates), len(self.speeds)
+        raise ValueError(f"kinematics must have one expression for each of {shape[0]} coordinates, or be a matrix of "
+                         f"shape {shape}, not {matrix.shape}")
+
+    def _force(self, given: Any, kinematics: Any) -> list[Any] | None:
+        if given is None:
+            return None
+        if isinstance(given, Mapping):
+            force: list[Any] = [0] * len(self.speeds)
+            for key, value in given.items():
+                places = [i for names in (self.speeds, [] if kinematics is not None else self.coordinates)
+                          for i, name in enumerate(names) if name == key]
+                if not places:
+                    raise ValueError(f"force is given for {key}, which is no velocity")
+                force[places[0]] = value
+            return force
+        force = list(given)
+        if len(force) != len(self.speeds):
+            raise ValueError(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}")
+        return force
+
+    # ---- nodes ----
+
+    def read(self) -> tuple[Reader, Given]:
+        """All expressions but those of the drawing, as nodes."""
+        reader, e = Reader(computable), self.expressions
+        graph, nq, nv = reader.graph, len(self.coordinates), len(self.speeds)
+        self.placed = self._known(reader)
+        v = [graph.leaf("v", i) for i in range(nv)]
+        moving = self.placed | dict(zip(self.speeds, v, strict=True))
+
+        def each(what: str, expressions: Sequence[Any] | None, known: Mapping[Any, Node]) -> list[Node] | None:
+            if expressions is None:
+                return None
+            return [reader.read(f"{what} {i}" if len(expressions) > 1 else what, x, known) for i, x in enumerate(expressions)]
+
+        A, pdot = None, v
+        if e["kinematics"] is not None:
+            pdot = each("kinematics", e["kinematics"], moving)
+            A = [[graph.along({u: graph.one})(row) for u in v] for row in pdot]
+            self._check_kinematics(graph, A, pdot, v)
+        moving |= {rate: node for rate, node in zip(self.rates, pdot, strict=True) if rate is not None and rate not in moving}
+        given = Given(
+            nq, nv, A,
+            kinetic=None if e["kinetic"] is None else reader.read("kinetic", e["kinetic"], self._for_energy(reader, moving)),
+            mass=None if e["mass"] is None else [each(f"mass, row {i}, entry", row, moving) for i, row in enumerate(e["mass"])],
+            bias=each("bias", e["bias"], moving), force=each("force", e["force"], moving),
+            potential=None if e["potential"] is None else reader.read("potential", e["potential"], moving),
+            holonomic=each("constraints", e["holonomic"], moving), nonholonomic=each("nonholonomic", e["nonholonomic"], moving))
+        self._check_stages(given)
+        return reader, given
+
+    def _known(self, reader: Reader) -> dict[Any, Node]:
+        """What time, coordinates and parameters are."""
+        graph = reader.graph
+        known: dict[Any, Node] = {self.time: graph.leaf("t", 0)}
+        known |= {q: graph.leaf("p", i) for i, q in enumerate(self.coordinates)}
+        taken = {*known, *self.speeds}
+        by_name: dict[str, Any] = {}
+        for symbol in sorted(_symbols(self.expressions) - taken, key=str):
+            if symbol.name not in self.values:
+                continue
+            if by_name.setdefault(symbol.name, symbol) != symbol:
+                raise ValueError(f"there are two different symbols named {symbol.name!r} (their assumptions differ)")
+            known[symbol] = graph.leaf("parameter", list(self.values).index(symbol.name))
+        for symbol in self._parameters:
+            if symbol in taken:
+                raise ValueError(f"parameter {symbol} is a coordinate, a velocity or time")
+        return known
+
+    def _for_energy(self, reader: Reader, moving: Mapping[Any, Node]) -> dict[Any, Node]:
+        """What `kinetic` may consist of: where there are kinematics, rates of coordinates and speeds defined by these."""
+        if self.expressions["kinematics"] is None:
+            return dict(moving)
+        rates = {rate: reader.graph.leaf("rate", i) for i, rate in enumerate(self.rates) if rate is not None}
+        known = self.placed | rates
+        meaning = {u: reader.read(f"speed {u}", value, known) for u, value in self.meaning.items()}
+        used = {u for u in self.speeds if u not in meaning and sympy.sympify(self.expressions["kinetic"]).has(u)}
+        if used:
+            raise ValueError(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
+                             "coordinates, or say in the dict speeds what this speed is in terms of these")
+        return known | meaning
+
+    @staticmethod
+    def _check_kinematics(graph: Any, A: list[list[Node]], pdot: list[Node], v: list[Node]) -> None:
+        at_rest = graph.replaced(dict.fromkeys(v, graph.zero))
+        for i, row in enumerate(A):
+            if any(entry.stage >= MOVING for entry in row) or at_rest(pdot[i]) is not graph.zero:
+                raise ValueError(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
+
+    def _check_stages(self, given: Given) -> None:
+        for i, row in enumerate(given.holonomic):
+            if row.stage >= MOVING:
+                raise ValueError(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")
+        if given.mass is not None:
+            if any(len(rows) != given.nv for rows in (given.mass, *given.mass)):
+                raise ValueError(f"mass must have shape {(given.nv, given.nv)}")
+            if any(entry.stage >= MOVING for row in given.mass for entry in row):
+                raise ValueError("mass must not depend on velocities")
+            if given.bias is not None and len(given.bias) != given.nv:
+                raise ValueError(f"bias must have {given.nv} entries, not {len(given.bias)}")
+
+    def check_linearity(self, terms: Mapping[str, list[Node]]) -> None:
+        """Refuses nonholonomic constraints that are not linear."""
+        nv = len(self.speeds)
+        for place, node in enumerate(terms.get("C", ())):
+            if node.stage >= MOVING:
+                raise ValueError(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities")
+
+    def drawing(self, reader: Reader) -> list[list[Node]]:
+        """The points, as nodes."""
+        given = self.expressions["points"]
+        points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(given)]
+        if points and (len(points[0]) not in (2, 3) or any(len(point) != len(points[0]) for point in points)):
+            raise ValueError("points must all have two or three coordinates")
+        return points
+
+    def heading(self) -> list[str]:
+        """What the entries of p, v and the parameters are."""
+        rows = [("p", self.coordinate_names), ("v", self.velocity_names), ("k", tuple(self.values))]
+        return [f"{letter}: {', '.join(names)}" for letter, names in rows if names]
+
+
+def _time() -> sympy.Symbol:
+    """That of dynamicsymbols, which who uses them has imported."""
+    vector = sys.modules.get("sympy.physics.vector")
+    return vector.dynamicsymbols._t if vector else sympy.Symbol("t")
+
+
+def _variables(what: str, given: Any) -> list[Any]:
+    found = [given] if isinstance(given, sympy.Expr) else list(given)
+    for each in found:
+        if not isinstance(each, sympy.Symbol | AppliedUndef | sympy.Derivative):
+            raise TypeError(f"{what} must be symbols or functions of time, not {each!r}")
+    if not found or len(set(found)) != len(found):
+        raise ValueError(f"{what} must be different symbols, at least one, not {given!r}")
+    return found
+
+
+def _named(given: Any, word: str) -> tuple[list[Any], list[str]]:
+    if isinstance(given, Mapping):
+        return list(given.values()), [str(name) for name in given]
+    found = [given] if isinstance(given, sympy.Expr | sympy.Equality) else list(given)
+    return found, [f"{word}{i}" for i in range(len(found))]
+
+
+def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]]:
+    """Values by name, and the symbols among the keys."""
+    values: dict[str, float] = {}
+    for key, value in given.items():
+        if not isinstance(key, str | sympy.Symbol):
+            raise TypeError(f"parameters must be symbols or names, not {key!r}")
+        name = key if isinstance(key, str) else key.name
+        if name in values:
+            raise ValueError(f"there are two parameters named {name!r}")
+        values[name] = _check.number(f"parameter {name!r}", value)
+    return values, [key for key in given if isinstance(key, sympy.Symbol)]
+
+
+def _matrix(what: str, given: Any) -> list[list[Any]] | None:
+    return None if given is None else sympy.Matrix(given).tolist()
+
+
+def _symbols(what: Any) -> set[Any]:
+    """The free symbols of expressions in mappings and sequences."""
+    if isinstance(what, Mapping):
+        return set().union(*(_symbols(each) for pair in what.items() for each in pair)) if what else set()
+    if isinstance(what, sympy.Basic):
+        return what.free_symbols
+    if isinstance(what, Sequence) and not isinstance(what, str):
+        return set().union(*map(_symbols, what)) if what else set()
+    return set()
+
+
+def _name(variable: Any) -> str:
+    return variable.name if isinstance(variable, sympy.Symbol) else type(variable).__name__

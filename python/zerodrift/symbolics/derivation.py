@@ -1,0 +1,151 @@
+"""The terms of (1)-(6) from energies, forces and constraints. Nothing is solved or inverted on the way.
+
+With coordinates p, their rates r = pdot = A v (1), kinetic energy T(p, r, t), potential V(p, t), generalized forces Q that
+belong to v, and D for the derivative along the motion at constant v (t' = 1, p' = A v, r' = Adot v):
+
+    M  = A^T T_rr A             d = A^T (D T_r - T_p)           f = Q - A^T V_p
+    C  = Phi_p A                Phi_t                           xi = -D (C v + Phi_t)
+
+Nonholonomic constraints are given as they are at velocity level, C v + Phi_t = 0. What T has that is not quadratic in r is
+inertial force like the rest and part of d, but not of the kinetic energy v^T M v / 2. With T_0 for T at rest the power is
+
+    Edot = Q^T v + V_t - (T - T_0)_t + (T_0)_p A v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from .graph import MOVING, Graph, Node
+
+Matrix = list[list[Node]]
+
+
+@dataclass
+class Given:
+    """What a system is, as nodes; `A` None: the identity, and rates are velocities."""
+
+    nq: int
+    nv: int
+    A: Matrix | None = None
+    kinetic: Node | None = None             # in p, t and rates
+    mass: Matrix | None = None              # or M and d themselves
+    bias: list[Node] | None = None
+    force: list[Node] | None = None         # of what V does not describe
+    potential: Node | None = None
+    holonomic: list[Node] = field(default_factory=list)
+    nonholonomic: list[Node] = field(default_factory=list)
+
+
+class Derivation:
+    """The terms of one system, each a flat list of nodes."""
+
+    def __init__(self, graph: Graph, given: Given) -> None:
+        self.graph, self.given = graph, given
+        self.t = graph.leaf("t", 0)
+        self.p = [graph.leaf("p", i) for i in range(given.nq)]
+        self.v = [graph.leaf("v", i) for i in range(given.nv)]
+        self.rate = self.v if given.A is None else [graph.leaf("rate", i) for i in range(given.nq)]
+        self.pdot = self.v if given.A is None else [graph.dot(row, self.v) for row in given.A]
+        self.moving = graph.along({self.t: graph.one, **dict(zip(self.p, self.pdot, strict=True))})
+
+    def terms(self) -> dict[str, list[Node]]:
+        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V, power; what is zero throughout is left out where it may be."""
+        given, graph = self.given, self.graph
+        M, d = self._of_kinetic_energy() if given.mass is None else (given.mass, given.bias or [])
+        terms = {"A": _flat(given.A or []), "M": _flat(M), "d": d, "f": self._force(), **self._constraints()}
+        if given.potential is not None:
+            terms |= {"V": [given.potential], "power": [self._power(M, d)]}
+        always = ("M", "Phi", "C", "xi", "V")
+        return {name: nodes for name, nodes in terms.items()
+                if nodes and (name in always or any(node is not graph.zero for node in nodes))}
+
+    def _of_kinetic_energy(self) -> tuple[Matrix, list[Node]]:
+        graph, A = self.graph, self.given.A
+        T = graph.spread(self.given.kinetic)
+        by_rate = [graph.along({r: graph.one}) for r in self.rate]
+        momentum = [derivative(T) for derivative in by_rate]
+        T_rr = [[by_rate[max(i, j)](momentum[min(i, j)]) for j in range(len(self.rate))] for i in range(len(self.rate))]
+        if any(node.stage >= MOVING for row in T_rr for node in row):
+            raise ValueError("kinetic must be quadratic in the velocities: its mass matrix depends on them")
+        turning = self._inertial()
+        d = [graph.plus(turning(momentum[i]), graph.minus(graph.along({p: graph.one})(T))) for i, p in enumerate(self.p)]
+        if A is None:
+            return T_rr, d
+        at_v = graph.replaced(dict(zip(self.rate, self.pdot, strict=True)))
+        columns = _transposed(A)
+        rows = [[graph.dot(T_rr_row, column) for column in columns] for T_rr_row in T_rr]
+        upper = {(i, j): graph.plus(*(graph.times(column[k], rows[k][j]) for k in range(self.given.nq)))
+                 for i, column in enumerate(columns) for j in range(i, self.given.nv)}
+        M = [[upper[min(i, j), max(i, j)] for j in range(self.given.nv)] for i in range(self.given.nv)]
+        return M, [graph.dot(column, map(at_v, d)) for column in columns]
+
+    def _inertial(self):
+        """D of what depends on rates."""
+        graph = self.graph
+        direction = {self.t: graph.one, **dict(zip(self.p, self.rate, strict=True))}
+        if self.given.A is not None:
+            direction |= dict(zip(self.rate, map(self.moving, self.pdot), strict=True))
+        return graph.along(direction)
+
+    def _force(self) -> list[Node]:
+        graph, given = self.graph, self.given
+        force = given.force or [graph.zero] * given.nv
+        if given.potential is None:
+            return force
+        V = graph.spread(given.potential)
+        if V.stage >= MOVING:
+            raise ValueError("potential must not depend on velocities")
+        gradient = self._by_velocity(V)
+        return [graph.plus(q, graph.minus(slope)) for q, slope in zip(force, gradient, strict=True)]
+
+    def _by_velocity(self, node: Node) -> list[Node]:
+        """Its gradient times A."""
+        graph = self.graph
+        gradient = [graph.along({p: graph.one})(node) for p in self.p]
+        return gradient if self.given.A is None else [graph.dot(gradient, column) for column in _transposed(self.given.A)]
+
+    def _constraints(self) -> dict[str, list[Node]]:
+        graph, given = self.graph, self.given
+        by_time, at_rest = graph.along({self.t: graph.one}), graph.replaced(dict.fromkeys(self.v, graph.zero))
+        C, Phi_t, Psi = [], [], []
+        for Phi in given.holonomic:
+            C.append(self._by_velocity(Phi))
+            Phi_t.append(by_time(Phi))
+            Psi.append(self.moving(Phi))
+        for row in given.nonholonomic:
+            C.append([graph.along({v: graph.one})(row) for v in self.v])
+            Phi_t.append(at_rest(row))
+            Psi.append(row)
+        xi = [graph.minus(self.moving(row)) for row in Psi]         # (6)
+        return {"Phi": given.holonomic, "C": _flat(C), "Phi_t": Phi_t, "xi": xi}
+
+    def _power(self, M: Matrix, d: Sequence[Node]) -> Node:
+        graph, given = self.graph, self.given
+        power = [graph.along({self.t: graph.one})(given.potential)]
+        if given.force:
+            power.append(graph.dot(given.force, self.v))
+        if given.mass is None:
+            power.append(self._rheonomic_power())
+        else:       # v^T M v / 2 changes by what M does, and d need not be of the kind that balances it
+            Mdot = [[self.moving(entry) for entry in row] for row in M]
+            half = graph.dot(self.v, [graph.dot(row, self.v) for row in Mdot])
+            power += [graph.sum([(half, 0.5)]), graph.minus(graph.dot(self.v, d)) if d else graph.zero]
+        return graph.plus(*power)
+
+    def _rheonomic_power(self) -> Node:
+        graph, T = self.graph, self.given.kinetic
+        at_rest = graph.replaced(dict.fromkeys(self.rate, graph.zero))(T)
+        by_time = graph.along({self.t: graph.one})
+        held = graph.replaced(dict(zip(self.rate, self.pdot, strict=True)))
+        along = graph.along(dict(zip(self.p, self.pdot, strict=True)))(at_rest)
+        return graph.plus(graph.minus(held(by_time(T))), by_time(at_rest), along)
+
+
+def _flat(matrix: Matrix) -> list[Node]:
+    return [node for row in matrix for node in row]
+
+
+def _transposed(matrix: Matrix) -> Matrix:
+    return [list(column) for column in zip(*matrix, strict=True)]

@@ -1,0 +1,255 @@
+"""Programs as C in the core's interface, and as Python for where there is no compiler."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+import sympy
+from sympy.printing.c import C99CodePrinter
+from sympy.printing.pycode import PythonCodePrinter
+
+from .blocks import Blocks
+from .lowering import Operation
+
+BITS = {"A": "ZD_A", "M": "ZD_M", "d": "ZD_BIAS", "f": "ZD_FORCE", "Phi": "ZD_PHI", "C": "ZD_C", "Phi_t": "ZD_PHI_T",
+        "xi": "ZD_XI", "V": "ZD_POTENTIAL", "power": "ZD_POWER"}
+LONGEST = 100       # characters of an expression that is written in place
+
+PRINTERS = {"C": C99CodePrinter({"strict": False}), "Python": PythonCodePrinter({"strict": False})}
+
+
+def computable(function: Any) -> bool:
+    """Whether C has a function."""
+    arity = next(iter(function.nargs)) if getattr(function, "nargs", None) and function.nargs.is_FiniteSet else 2
+    sample = function(*(sympy.Symbol(f"x{i}", real=True) for i in range(arity)))
+    if getattr(type(sample), "_ccode", None):
+        return True
+    try:
+        return "Not supported" not in PRINTERS["C"].doprint(sample)
+    except Exception:       # printers fail in many ways
+        return False
+
+
+class Writer:
+    """Expressions of one language for the operations of a program."""
+
+    language = ""
+    words = {"and": "&&", "or": "||", "not": "!"}
+
+    def __init__(self, blocks: Blocks) -> None:
+        self.blocks, self.operations = blocks, blocks.lowering.operations
+        self.names: dict[int, str] = {}
+        self._uses = self._count_uses()
+
+    def _count_uses(self) -> list[int]:
+        uses = [0] * len(self.operations)
+        for number, operation in enumerate(self.operations):
+            if self.blocks.users[number]:
+                for argument in self.blocks.lowering.operands(operation):
+                    uses[argument] += 1
+        for numbers in self.blocks.outputs.values():
+            for number in numbers:
+                uses[number] += 1
+        return uses
+
+    def value(self, number: int) -> str:
+        """What an operation's value is called, or its expression where it is used but once."""
+        if number not in self.names:
+            operation = self.operations[number]
+            self.names[number] = self.leaf(*operation.arguments) if operation.code == "leaf" else (
+                self.number(operation.arguments[0]) if operation.code == "number" else self.expression(operation))
+        return self.names[number]
+
+    def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
+        """Assignments of the operations of a block that are not written in place."""
+        lines = []
+        for number in numbers:
+            text = self.expression(self.operations[number])
+            stored = number in self.blocks.stored
+            if self._uses[number] == 1 and not stored and len(text) < LONGEST:
+                self.names[number] = text
+                continue
+            self.names[number] = name(number)
+            lines.append(f"{'' if stored else declare}{self.names[number]} = {unwrapped(text)}{self.end}")
+        return lines
+
+    def expression(self, operation: Operation) -> str:
+        """An operation as an expression, in parentheses where these may be needed."""
+        code, arguments = operation.code, operation.arguments
+        if code == "call":
+            return self.call(arguments[0], [unwrapped(self.value(argument)) for argument in arguments[1:]])
+        if code == "comparison":
+            return f"({self.value(arguments[1])} {arguments[0]} {self.value(arguments[2])})"
+        if code == "logic":
+            return self.logic(arguments[0], [self.value(argument) for argument in arguments[1:]])
+        values = [self.value(argument) for argument in arguments]
+        if code == "choice":
+            return self.choice(list(zip(values[:-1:2], values[1:-1:2], strict=True)), values[-1])
+        if code in "+-*/":
+            return self.binary(code, *values)
+        return {"negative": f"(-{values[0]})"}.get(code) or self.named(code, *map(unwrapped, values))
+
+    def call(self, function: Any, values: list[str]) -> str:
+        """A call, by SymPy's printer; what it is handed are our own names and expressions."""
+        if function is sympy.Pow:
+            return self.named("power", *values)
+        return PRINTERS[self.language].doprint(function(*(sympy.Symbol(value, real=True) for value in values), evaluate=False))
+
+
+def unwrapped(text: str) -> str:
+    """Without parentheses around all of it."""
+    if not text.startswith("("):
+        return text
+    depth = 0
+    for i, character in enumerate(text):
+        depth += (character == "(") - (character == ")")
+        if depth == 0:
+            return text[1:-1] if i == len(text) - 1 else text
+    return text
+
+
+class CWriter(Writer):
+    """C99, one function in the core's interface."""
+
+    language, end = "C", ";"
+
+    def leaf(self, kind: str, index: int) -> str:
+        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, f"{kind}{index}")
+
+    def number(self, value: float) -> str:
+        if not math.isfinite(value):
+            return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "(-INFINITY)"
+        return repr(value) if value >= 0 else f"({value!r})"
+
+    def binary(self, sign: str, a: str, b: str) -> str:
+        return f"({a} {sign} {b})"
+
+    def named(self, code: str, *values: str) -> str:
+        return f"{ {'root': 'sqrt', 'power': 'pow'}[code]}({', '.join(values)})"
+
+    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
+        return "(" + "".join(f"{condition} ? {value} : " for condition, value in cases) + otherwise + ")"
+
+    def logic(self, word: str, parts: list[str]) -> str:
+        return f"(!{parts[0]})" if word == "not" else "(" + f" {self.words[word]} ".join(parts) + ")"
+
+    def source(self, heading: list[str], parameters: int) -> tuple[str, int, int]:
+        """The C source, the number of constants it computes from the parameters, and of doubles it keeps."""
+        blocks = self.blocks
+        places = blocks.stored
+        count = sum(number in places for number in blocks.constants)
+
+        def constant(number: int) -> str:
+            return f"k[{parameters + places[number]}]" if number in places else f"x{number}"
+
+        constants = self.statements(blocks.constants, constant, "const double ")
+        body = self._kept() + self._shared() + self._own()
+        scratch = sum(number in places for block in blocks.kept for number in block.operations)
+        text = "\n".join([
+            "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
+            "#include <math.h>", "#include <zerodrift/system.h>", "",
+            "const int zd_interface_version = ZD_INTERFACE_VERSION;", "",
+            "/* What follows from the parameters alone, behind them. */",
+            "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
+            "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
+            "                         const zd_terms *out)",
+            "{", *indented([*self._locals(), *body, "return ZD_DONE;"]), "}", ""])
+        return text, count, scratch + bool(blocks.kept)
+
+    def _locals(self) -> list[str]:
+        used = {(operation.arguments[0], operation.arguments[1]) for number, operation in enumerate(self.operations)
+                if operation.code == "leaf" and self.blocks.users[number]}
+        lines = ["const double *restrict const k = data;", "(void)k, (void)t, (void)p, (void)v;"]
+        for kind in "pv":
+            indices = sorted(index for leaf, index in used if leaf == kind)
+            if indices:
+                lines.append("const double " + ", ".join(f"{kind}{i} = {kind}[{i}]" for i in indices) + ";")
+        return lines
+
+    def _kept(self) -> list[str]:
+        if not self.blocks.kept:
+            return []
+        places = self.blocks.stored
+        lines = ["double *restrict const s = out->scratch;", "unsigned known = want & ZD_MOVED ? 0 : (unsigned)s[0];"]
+        for group, block in enumerate(self.blocks.kept):
+            def name(number: int) -> str:
+                return f"s[{1 + places[number]}]" if number in places else f"x{number}"
+
+            lines += [f"if ((want & {wanted(block.terms)}) && !(known & {1 << group}u)) {{",
+                      *indented(self.statements(block.operations, name, "const double ")), f"    known |= {1 << group}u;", "}"]
+        return [*lines, "s[0] = known;"]
+
+    def _shared(self) -> list[str]:
+        declared, lines = [], []
+        for block in self.blocks.shared:
+            statements = self.statements(block.operations, "x{}".format, "")
+            declared += [f"x{number}" for number in block.operations if self.names[number] == f"x{number}"]
+            lines += [f"if (want & {wanted(block.terms)}) {{", *indented(statements), "}"]
+        return [f"double {', '.join(declared)};", *lines] if declared else []
+
+    def _own(self) -> list[str]:
+        lines, blocks = [], {next(iter(block.terms)): block for block in self.blocks.own}
+        for term, numbers in self.blocks.outputs.items():
+            block = blocks.get(term)
+            statements = self.statements(block.operations, "x{}".format, "const double ") if block else []
+            entries = [f"{term}[{i}] = {unwrapped(self.value(number))};" for i, number in enumerate(numbers)]
+            lines += [f"if (want & {BITS[term]}) {{",
+                      *indented([f"double *restrict const {term} = out->{term};", *statements, *entries]), "}"]
+        return lines
+
+
+def wanted(terms: frozenset[str]) -> str:
+    bits = [bit for term, bit in BITS.items() if term in terms]
+    return bits[0] if len(bits) == 1 else f"({' | '.join(bits)})"
+
+
+def indented(lines: list[str]) -> list[str]:
+    return [f"    {line}" for line in lines]
+
+
+def comment(text: str) -> str:
+    """A line that cannot end the comment it stands in."""
+    return json.dumps(text)[1:-1].replace("*/", "* /").replace("/*", "/ *")
+
+
+class PythonWriter(Writer):
+    """Python with floats, one function that fills arrays."""
+
+    language, end = "Python", ""
+
+    def leaf(self, kind: str, index: int) -> str:
+        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, f"{kind}[{index}]")
+
+    def number(self, value: float) -> str:
+        return f"({value!r})" if math.isfinite(value) else f"float('{value}')"
+
+    def call(self, function: Any, values: list[str]) -> str:
+        text = super().call(function, values)
+        return f"missing({function.__name__!r})" if "Not supported" in text else text
+
+    def binary(self, sign: str, a: str, b: str) -> str:
+        return f"divide({a}, {b})" if sign == "/" else f"({a} {sign} {b})"
+
+    def named(self, code: str, *values: str) -> str:
+        return f"{code}({', '.join(values)})"
+
+    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
+        return "(" + "".join(f"{value} if {condition} else " for condition, value in cases) + otherwise + ")"
+
+    def logic(self, word: str, parts: list[str]) -> str:
+        return f"(not {parts[0]})" if word == "not" else "(" + f" {word} ".join(parts) + ")"
+
+    def source(self) -> str:
+        """The Python source: `evaluate(want, t, p, v, k, out)`, `want` being the names of the terms."""
+        lines = self.statements(self.blocks.constants, "x{}".format, "")
+        for block in [*self.blocks.kept, *self.blocks.shared]:
+            lines += [f"if not want.isdisjoint({sorted(block.terms)!r}):",
+                      *indented(self.statements(block.operations, "x{}".format, "") or ["pass"])]
+        for term, numbers in self.blocks.outputs.items():
+            own = [number for block in self.blocks.own if block.terms == {term} for number in block.operations]
+            entries = [f"out[{term!r}][{i}] = {unwrapped(self.value(number))}" for i, number in enumerate(numbers)]
+            lines += [f"if {term!r} in want:", *indented(self.statements(own, "x{}".format, "") + entries or ["pass"])]
+        return "\n".join(["def evaluate(want, t, p, v, k, out):", *indented(lines or ["pass"]), ""])

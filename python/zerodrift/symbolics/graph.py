@@ -1,0 +1,262 @@
+"""Expressions as a graph in which equal parts are one node, and their derivatives.
+
+Derivatives are taken node by node by the chain rule, so that they grow with the graph and not with the expressions written out.
+Sums and products are kept collected: a sum is {node: number}, a product {node: exponent}, and products are never expanded.
+That is enough for the terms of Lagrange's equations that cancel to do so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+Number = int | float | Fraction
+FIXED, PLACED, MOVING = 0, 1, 2     # stages: depends on parameters alone, on t and p too, on v too
+LEAVES = {"parameter": FIXED, "t": PLACED, "p": PLACED, "v": MOVING, "rate": MOVING}
+
+
+class Node:
+    """A part of an expression: leaf, number, sum, product, call, choice, comparison or logic."""
+
+    __slots__ = ("content", "kind", "number", "stage")
+
+    def __init__(self, kind: str, content: Any, number: int, stage: int) -> None:
+        self.kind, self.content, self.number, self.stage = kind, content, number, stage
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.content}>"
+
+
+class Graph:
+    """All nodes of a system; `slope(function, k, arguments)` is the partial derivative of a call, as a node."""
+
+    def __init__(self, slope: Callable[[Any, int, tuple[Node, ...]], Node]) -> None:
+        self._nodes: dict[tuple[str, Any], Node] = {}
+        self.slope = slope
+        self.zero, self.one = self.number(0), self.number(1)
+
+    def _node(self, kind: str, content: Any, stage: int) -> Node:
+        node = self._nodes.get((kind, content))
+        if node is None:
+            node = self._nodes[kind, content] = Node(kind, content, len(self._nodes), stage)
+        return node
+
+    def leaf(self, kind: str, index: int) -> Node:
+        return self._node("leaf", (kind, index), LEAVES[kind])
+
+    def number(self, value: Number) -> Node:
+        if isinstance(value, Fraction) and value.denominator == 1:
+            value = value.numerator
+        return self._node("number", (value, isinstance(value, float)), FIXED)
+
+    # ---- sums and products ----
+
+    def sum(self, terms: Iterable[tuple[Node, Number]]) -> Node:
+        """Of coefficient times node."""
+        collected: dict[Node, Number] = {}
+        for node, factor in terms:
+            if node.kind == "sum":
+                for inner, coefficient in node.content:
+                    collected[inner] = collected.get(inner, 0) + factor * coefficient
+            elif node.kind == "number":
+                collected[self.one] = collected.get(self.one, 0) + factor * node.content[0]
+            else:
+                collected[node] = collected.get(node, 0) + factor
+        collected = self._join_squares({node: factor for node, factor in collected.items() if factor != 0})
+        if not collected:
+            return self.zero
+        if len(collected) == 1:
+            (node, factor), = collected.items()
+            if node is self.one:
+                return self.number(factor)
+            if factor == 1:
+                return node
+        content = tuple(sorted(collected.items(), key=lambda item: item[0].number))
+        return self._node("sum", content, max(node.stage for node in collected))
+
+    def _join_squares(self, terms: dict[Node, Number]) -> dict[Node, Number]:
+        """sin^2 + cos^2 = 1, where the rest of both terms is the same."""
+        seen: dict[Any, tuple[Node, str]] = {}
+        for node, factor in list(terms.items()):
+            for base, exponent in node.content if node.kind == "product" else ():
+                if exponent != 2 or base.kind != "call" or base.content[0].__name__ not in ("sin", "cos"):
+                    continue
+                rest = tuple(item for item in node.content if item[0] is not base)
+                key, name = (rest, base.content[1], factor), base.content[0].__name__
+                partner = seen.setdefault(key, (node, name))
+                if partner[1] != name and partner[0] in terms and node in terms:
+                    del terms[partner[0]], terms[node], seen[key]
+                    joined = self.sum([*terms.items(), (self.product(rest), factor)])
+                    return dict(joined.content) if joined.kind == "sum" else {joined: 1} if joined.kind != "number" else (
+                        {self.one: joined.content[0]} if joined.content[0] else {})
+        return terms
+
+    def product(self, factors: Iterable[tuple[Node, Number]]) -> Node:
+        """Of node to the exponent."""
+        coefficient, collected = self._factors(factors)
+        if coefficient == 0:
+            return self.zero
+        if not collected:
+            return self.number(coefficient)
+        items = tuple(sorted(collected.items(), key=lambda item: item[0].number))
+        node = items[0][0] if len(items) == 1 and items[0][1] == 1 else self._node(
+            "product", items, max(base.stage for base, _ in items))
+        return node if coefficient == 1 else self.sum([(node, coefficient)])
+
+    def _factors(self, factors: Iterable[tuple[Node, Number]]) -> tuple[Number, dict[Node, Number]]:
+        coefficient, collected = 1, {}
+        for node, exponent in factors:
+            whole = exponent == int(exponent)
+            if node.kind == "number" and (whole or node.content[0] >= 0) and not (node.content[0] == 0 and exponent < 0):
+                coefficient = coefficient * power(node.content[0], exponent)
+                continue
+            if node.kind == "sum" and len(node.content) == 1 and whole:
+                (node, factor), = node.content
+                coefficient = coefficient * power(factor, exponent)
+            for base, inner in node.content if node.kind == "product" and whole else ((node, 1),):
+                total = collected.get(base, 0) + inner * exponent
+                collected[base] = total
+                if total == 0:
+                    del collected[base]
+        if any(base.kind == "product" and exponent == int(exponent) for base, exponent in collected.items()):
+            more, collected = self._factors(collected.items())      # such as the square of the root of a product
+            coefficient = coefficient * more
+        return coefficient, collected
+
+    def times(self, *nodes: Node) -> Node:
+        return self.product((node, 1) for node in nodes)
+
+    def plus(self, *nodes: Node) -> Node:
+        return self.sum((node, 1) for node in nodes)
+
+    def minus(self, node: Node) -> Node:
+        return self.sum([(node, -1)])
+
+    def dot(self, a: Iterable[Node], b: Iterable[Node]) -> Node:
+        return self.plus(*(self.times(x, y) for x, y in zip(a, b, strict=True)))
+
+    # ---- all other kinds ----
+
+    def call(self, function: Any, *arguments: Node) -> Node:
+        return self._node("call", (function, arguments), max(argument.stage for argument in arguments))
+
+    def choice(self, cases: tuple[tuple[Node, Node], ...], otherwise: Node) -> Node:
+        """The value of the first (condition, value) that holds."""
+        if all(value is otherwise for _, value in cases):
+            return otherwise
+        parts = [node for case in cases for node in case] + [otherwise]
+        return self._node("choice", (cases, otherwise), max(node.stage for node in parts))
+
+    def comparison(self, sign: str, a: Node, b: Node) -> Node:
+        return self._node("comparison", (sign, a, b), max(a.stage, b.stage))
+
+    def logic(self, word: str, *parts: Node) -> Node:
+        return self._node("logic", (word, parts), max(part.stage for part in parts))
+
+    # ---- rewriting ----
+
+    def along(self, direction: Mapping[Node, Node]) -> Callable[[Node], Node]:
+        """The derivative in the direction that gives each leaf's rate; what it does not name is held."""
+        return Derivative(self, direction)
+
+    def replaced(self, values: Mapping[Node, Node]) -> Callable[[Node], Node]:
+        """With values in place of leaves."""
+        return Replacement(self, values)
+
+    def spread(self, node: Node) -> Node:
+        """With factors that are parameters multiplied into sums, so that like terms of different sums meet."""
+        if node.kind == "sum":
+            return self.sum((self.spread(term), factor) for term, factor in node.content)
+        if node.kind == "product" and node.stage > FIXED:
+            fixed = [item for item in node.content if item[0].stage == FIXED]
+            others = [item for item in node.content if item[0].stage > FIXED]
+            if len(others) == 1 and others[0][1] == 1 and others[0][0].kind == "sum":
+                return self.sum((self.spread(self.product([*fixed, (term, 1)])), factor) for term, factor in others[0][0].content)
+        return node
+
+
+def power(base: Number, exponent: Number) -> Number:
+    """A number to an exponent, exact where it can be."""
+    if isinstance(base, int) and exponent == int(exponent):
+        base = Fraction(base)
+    result = base ** (int(exponent) if exponent == int(exponent) else float(exponent))
+    return int(result) if isinstance(result, Fraction) and result.denominator == 1 else result
+
+
+class Derivative:
+    """Of any node, in one direction; what was found is kept."""
+
+    def __init__(self, graph: Graph, direction: Mapping[Node, Node]) -> None:
+        self._graph, self._known = graph, dict(direction)
+        self._lowest = min((leaf.stage for leaf in direction), default=MOVING + 1)
+
+    def __call__(self, node: Node) -> Node:
+        if node.stage < self._lowest:
+            return self._graph.zero
+        found = self._known.get(node)
+        if found is None:
+            found = self._known[node] = self._of(node)
+        return found
+
+    def _of(self, node: Node) -> Node:
+        graph = self._graph
+        match node.kind:
+            case "sum":
+                return graph.sum((self(term), factor) for term, factor in node.content)
+            case "product":
+                return graph.sum((self._of_factor(node, base, exponent), exponent) for base, exponent in node.content)
+            case "call":
+                function, arguments = node.content
+                rates = [(k, self(argument)) for k, argument in enumerate(arguments)]
+                return graph.plus(*(graph.times(graph.slope(function, k, arguments), rate)
+                                    for k, rate in rates if rate is not graph.zero))
+            case "choice":
+                cases, otherwise = node.content
+                return graph.choice(tuple((condition, self(value)) for condition, value in cases), self(otherwise))
+            case _:
+                return graph.zero
+
+    def _of_factor(self, node: Node, base: Node, exponent: Number) -> Node:
+        rate = self(base)
+        if rate is self._graph.zero:
+            return rate
+        return self._graph.product([*node.content, (base, -1), (rate, 1)])
+
+
+class Replacement:
+    """Any node with values in place of leaves."""
+
+    def __init__(self, graph: Graph, values: Mapping[Node, Node]) -> None:
+        self._graph, self._known = graph, dict(values)
+        self._lowest = min((leaf.stage for leaf in values), default=MOVING + 1)
+
+    def __call__(self, node: Node) -> Node:
+        if node.stage < self._lowest:
+            return node
+        found = self._known.get(node)
+        if found is None:
+            found = self._known[node] = self._of(node)
+        return found
+
+    def _of(self, node: Node) -> Node:
+        graph = self._graph
+        match node.kind:
+            case "sum":
+                return graph.sum((self(term), factor) for term, factor in node.content)
+            case "product":
+                return graph.product((self(base), exponent) for base, exponent in node.content)
+            case "call":
+                function, arguments = node.content
+                return graph.call(function, *map(self, arguments))
+            case "choice":
+                cases, otherwise = node.content
+                return graph.choice(tuple((self(condition), self(value)) for condition, value in cases), self(otherwise))
+            case "comparison":
+                sign, a, b = node.content
+                return graph.comparison(sign, self(a), self(b))
+            case "logic":
+                word, parts = node.content
+                return graph.logic(word, *map(self, parts))
+            case _:
+                return node

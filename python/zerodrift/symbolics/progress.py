@@ -1,0 +1,44 @@
+"""What a system is waiting for, said where it takes long."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from types import TracebackType
+
+PATIENCE = 2.0      # s
+
+
+class Progress:
+    """Says on stderr what is being done, from when it has taken two seconds; silent where `shown` is false."""
+
+    def __init__(self, name: str, shown: bool) -> None:
+        self._name, self._shown, self._what = name, shown, ""
+        self._start, self._over, self._said = time.monotonic(), threading.Event(), False
+        self._thread = threading.Thread(target=self._watch, daemon=True)
+
+    def __enter__(self) -> Progress:
+        if self._shown:
+            self._thread.start()
+        return self
+
+    def __call__(self, what: str) -> None:
+        """Says what is being done from now on."""
+        self._what = what
+        if self._said:
+            self._say()
+
+    def _watch(self) -> None:
+        if not self._over.wait(PATIENCE):
+            self._said = True
+            self._say()
+
+    def _say(self) -> None:
+        spent = time.monotonic() - self._start
+        print(f"zerodrift: {self._name}: {self._what} ({spent:.0f} s so far)", file=sys.stderr, flush=True)
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._over.set()
+        if self._shown:
+            self._thread.join()

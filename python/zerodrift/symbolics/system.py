@@ -1,0 +1,188 @@
+"""`SymbolicSystem`: what `zerodrift.symbolic` returns. It needs no SymPy, so that it can be sent to where there is none."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from .. import _check, _gateway
+from .._gateway import TERMS, Variable
+from .._system import BaseSystem
+from ..errors import NoCompilerWarning
+from . import compiling
+
+
+@dataclass(frozen=True)
+class Code:
+    """A derived system: all that is the same whatever the values of its parameters. Everything in it can be written as JSON."""
+
+    coordinates: tuple[str, ...]
+    velocities: tuple[str, ...]
+    constraints: tuple[str, ...]
+    parameters: tuple[str, ...]
+    sizes: tuple[int, int, int, int]    # nq, nv, mh, mn
+    provides: tuple[str, ...]
+    constants: int                      # that follow from the parameters
+    scratch: int
+    c_source: str
+    python_source: str
+    drawing: tuple[int, int]            # points, dimension
+    drawing_source: str
+
+    @classmethod
+    def from_json(cls, content: dict[str, Any]) -> Code:
+        return cls(**{key: tuple(value) if isinstance(value, list) else value for key, value in content.items()})
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+class SymbolicSystem(BaseSystem):
+    """A mechanism whose terms were derived from expressions and compiled.
+
+    Made by `zerodrift.symbolic` and `zerodrift.from_mechanics`; a system like any other.
+
+    Attributes
+    ----------
+    parameters : dict of str to float
+    compiled : bool
+        False where there was no compiler and it is evaluated in Python.
+    """
+
+    def __init__(self, code: Code, parameters: Mapping[str, float], p0: Any = None, v0: Any = None, name: str = "symbolic",
+                 progress: Callable[[str], Any] = lambda what: None) -> None:
+        self._code, self.name, self.parameters = code, name, dict(parameters)
+        self.coordinates, self.velocities, self.constraints = (
+            tuple(Variable(each, "") for each in names) for names in (code.coordinates, code.velocities, code.constraints))
+        nq, nv, _, _ = code.sizes
+        self.p0, self.v0 = (None if x is None else _check.vector(n, x, size) for n, x, size in (("p0", p0, nq), ("v0", v0, nv)))
+        for x in (self.p0, self.v0):
+            if x is not None:
+                x.flags.writeable = False
+        values = [_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters]
+        library = compiling.library(code.c_source, progress)
+        self.compiled = library is not None
+        self._core = self._native(library, values) if self.compiled else self._in_python(values)
+
+    def _native(self, library: ctypes.CDLL, values: list[float]) -> _gateway.CoreSystem:
+        data = np.array([*values, *[0.0] * self._code.constants, 0.0])
+        library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
+        data.flags.writeable = False
+        return _gateway.NativeCore(self._code.sizes, self._code.provides, _gateway.address_of(library, "zd_symbolic_evaluate"),
+                                   data, scratch=self._code.scratch, keep=library)
+
+    def _in_python(self, values: list[float]) -> _gateway.CoreSystem:
+        warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
+                      f"some hundred times slower", NoCompilerWarning, stacklevel=4)
+        return _gateway.PythonCore(self._code.sizes, self._code.provides, _InPython(self._code.python_source, values))
+
+    @property
+    def c_source(self) -> str:
+        """The C code that is compiled."""
+        return self._code.c_source
+
+    def with_parameters(self, **changed: float) -> SymbolicSystem:
+        """The same system with some parameters changed; nothing is derived or compiled.
+
+        Names that Python does not take as keywords can be handed over as ``**{"lambda": 1.0}``.
+
+        Raises
+        ------
+        ValueError
+            If the system has no parameter of that name.
+        """
+        for key in changed:
+            _check.choice("parameter", key, self.parameters)
+        return self._again(parameters=self.parameters | changed)
+
+    def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
+        """The same system with another start; what is left out stays."""
+        return self._again(p0=self.p0 if p0 is None else p0, v0=self.v0 if v0 is None else v0)
+
+    def _again(self, **changed: Any) -> SymbolicSystem:
+        given = {"code": self._code, "parameters": self.parameters, "p0": self.p0, "v0": self.v0, "name": self.name}
+        return SymbolicSystem(**(given | changed))
+
+    def points(self, p: Any) -> np.ndarray | None:
+        """The drawing at p: points (n, 2) or (n, 3), joined by lines where not NaN. None: there is no drawing."""
+        count, dimension = self._code.drawing
+        if not count:
+            return None
+        drawing = np.empty(count * dimension)
+        values = [self.parameters[key] for key in self._code.parameters]
+        _compiled(self._code.drawing_source)(
+            {"points"}, 0.0, _check.vector("p", p, self.nq).tolist(), (), values, {"points": drawing})
+        return drawing.reshape(count, dimension)
+
+    def __repr__(self) -> str:
+        how = "" if self.compiled else ", evaluated in Python"
+        return (f"<zd.symbolic {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
+                f"{self.mn} nonholonomic constraints{how}>")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return SymbolicSystem, (self._code, self.parameters, self.p0, self.v0, self.name)
+
+
+# ---- without a compiler ----
+
+
+class _InPython:
+    """Writes the wanted terms into the core's arrays."""
+
+    def __init__(self, source: str, values: list[float]) -> None:
+        self._evaluate, self._values = _compiled(source), values
+
+    def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
+        names = {name for name, (bit, _) in TERMS.items() if want & bit}
+        out = {name: arrays[name].reshape(-1) for name in names}
+        self._evaluate(names, t, arrays["p"].tolist(), arrays["v"].tolist(), self._values, out)
+
+    @staticmethod
+    def not_finite(name: str, t: float, value: np.ndarray) -> Exception:
+        return ValueError(f"{name} is not finite at t = {t:g}: {value}")
+
+
+@cache
+def _compiled(source: str) -> Callable[..., None]:
+    """The function of a Python source that `emission` wrote."""
+    names: dict[str, Any] = {"math": _Mathematics, "divide": _divide, "power": _guarded(math.pow), "missing": _missing,
+                             "root": _guarded(math.sqrt)}
+    exec(compile(source, "<zerodrift.symbolic>", "exec"), names)
+    return names["evaluate"]
+
+
+def _guarded(function: Callable[..., float]) -> Callable[..., float]:
+    """Not a number where Python raises an error and C does not."""
+    def guarded(*arguments: float) -> float:
+        try:
+            return function(*arguments)
+        except (ValueError, OverflowError, ZeroDivisionError):
+            return math.nan
+    return guarded
+
+
+class _Guards(type):
+    def __getattr__(cls, name: str) -> Any:
+        found = getattr(math, name)
+        return _guarded(found) if callable(found) else found
+
+
+class _Mathematics(metaclass=_Guards):
+    """The functions of `math`, guarded."""
+
+
+def _divide(a: float, b: float) -> float:
+    if b == 0:
+        return math.nan if a == 0 or a != a else math.copysign(math.inf, a) * math.copysign(1.0, b)
+    return a / b
+
+
+def _missing(name: str) -> float:
+    raise NotImplementedError(f"Python has no {name}; with a C compiler it can be evaluated")

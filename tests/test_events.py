@@ -1,0 +1,344 @@
+"""Events: against closed forms and SciPy, on the constraints, with the same bits however the run is cut, and nonsense refused."""
+
+import pickle
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
+
+import tolerances as tol
+import zerodrift as zd
+from support import SYSTEMS, assert_close
+from test_custom import four_bar as bar_in_python
+from zerodrift import simulation
+
+OSCILLATOR = zd.systems.oscillator(x0=0.1, v0=0.05)
+DENSE = {"step": 1 / 100, "integrator": "dop853"}      # in a hundredth of a second it leaves nothing but round-off
+
+
+def event(function, direction=0, terminal=False):
+    """A function of its own each time, as attributes stay with it."""
+    def call(t, p, v):
+        return function(t, p, v)
+
+    call.direction, call.terminal = direction, terminal
+    return call
+
+
+def position(t, p, v):
+    return p[0]
+
+
+def rate_of_first(t, p, v):
+    return v[0]
+
+
+def by_scipy(events, **options):
+    """The oscillator, by SciPy at its finest."""
+    wrapped = [event(lambda t, y, _, f=f: f(t, y[:1], y[1:]), f.direction, f.terminal) for f in events]
+    plain = [lambda t, y, f=f: f(t, y, None) for f in wrapped]
+    for mine, its in zip(wrapped, plain, strict=True):
+        its.direction, its.terminal = mine.direction, mine.terminal
+    return solve_ivp(lambda t, y: [y[1], -10 * y[0]], (0, 7), [0.1, 0.05], "DOP853", rtol=1e-13, atol=1e-15, max_step=0.01,
+                     events=plain, **options)
+
+
+@pytest.mark.parametrize("direction", [-1, 0, 1])
+@pytest.mark.parametrize("terminal", [False, True, 1, 2, 3, np.int64(2), 0])
+def test_against_scipy(direction, terminal):
+    events = [event(position, direction, terminal), event(rate_of_first, -direction), event(lambda t, p, v: t - 1.23)]
+    expected, sol = by_scipy(events), zd.simulate(OSCILLATOR, 7.0, events=events, **DENSE)
+    for i in range(3):
+        assert_close(sol.t_events[i], expected.t_events[i], tol.STEPPED, scale=1)
+        states = np.array(expected.y_events[i]).reshape(-1, 2)
+        assert_close(np.hstack([sol.p_events[i], sol.v_events[i]]), states, tol.STEPPED, scale=1)
+    assert (sol.status > 0) == (expected.status > 0) == bool(terminal)
+    assert sol.success
+    assert_close(sol.t[-1], expected.t[-1], tol.STEPPED)
+
+
+def test_the_pendulum_in_closed_form():
+    """It passes its lowest point every half period, 2 K(sin^2(amplitude / 2)) sqrt(L / g), to what the fourth order leaves."""
+    amplitude, L, g = 2.0, 1.3, 9.81
+    pendulum = zd.systems.pendulum(length=L, gravity=g, angle=amplitude)
+    sol = zd.simulate(pendulum, 12.0, step=0.005, integrator="dop853", events=position)
+    period = 4 * np.sqrt(L / g) * ellipk(np.sin(amplitude / 2) ** 2)
+    expected = period * (1 / 4 + np.arange(len(sol.t_events[0])) / 2)
+    assert len(expected) == int(12 / period * 2 + 0.5)
+    assert_close(sol.t_events[0], expected, 1e-10)      # the projection's tolerance, 1e-12, in each of 2400 steps
+
+
+def test_the_instant_is_resolved_to_rounding(system):
+    """Wherever in a step: here the event is time itself."""
+    times = np.random.default_rng(7).uniform(0.1, 0.9, 20)
+    sol = zd.simulate(system, 1.0, step=0.05, events=[event(lambda t, p, v, at=at: t - at) for at in times])
+    found = np.concatenate(sol.t_events)
+    assert found.shape == times.shape
+    assert (found - times >= 0).all()
+    assert (found - times <= 4 * tol.EPS).all()
+
+
+def test_constraints_hold_at_events(system, formulation, integrator):
+    """And the event does, as well as t resolves it; the motion itself is that without events."""
+    middle = zd.simulate(system, 0.5, step=1 / 60, formulation=formulation, integrator=integrator)(0.26)[0][0]
+    sol = zd.simulate(system, 0.5, step=1 / 60, formulation=formulation, integrator=integrator,
+                      events=event(lambda t, p, v: p[0] - middle + 1e-3 * (t - 0.26)))
+    assert len(sol.t_events[0]) >= 1
+    for t, p, v in zip(sol.t_events[0], sol.p_events[0], sol.v_events[0], strict=True):
+        e, scale = system.evaluate(p, v, t), 1 + np.abs(v).max()
+        assert abs(p[0] - middle + 1e-3 * (t - 0.26)) <= 1e-12 * (scale + abs(middle))   # where positions are corrected to
+        assert e.Phi is None or np.abs(e.Phi).max() <= 1e-12
+        if system.m:
+            assert np.abs(e.C @ v + (0 if e.Phi_t is None else e.Phi_t)).max() <= 1e-12 * scale
+    plain = zd.simulate(system, 0.5, step=1 / 60, formulation=formulation, integrator=integrator)
+    assert_close(sol.p, plain.p, tol.STEPPED)
+
+
+@pytest.mark.parametrize("steps", [{"step": 0.01}, {"rtol": 1e-8, "atol": 1e-10, "integrator": "dormand_prince"}], ids=str)
+@pytest.mark.parametrize("saved", [{}, {"save_every": 7}, {"t_eval": np.linspace(0, 1.5, 11)}], ids=["all", "some", "times"])
+def test_every_step_is_watched(bar, steps, saved):
+    """Whatever of them is saved; a terminal event's instant is the last row."""
+    if "save_every" in saved and "rtol" in steps:
+        steps = steps | {"max_step": 0.1}
+    events = [event(lambda t, p, v: np.sin(p[0]), 1, 2), event(rate_of_first), event(lambda t, p, v: p[2])]
+    full, sol = (zd.simulate(bar, 8.0, events=events, **steps, **options) for options in ({}, saved))
+    for name in ("t_events", "p_events", "v_events"):
+        for a, b in zip(getattr(full, name), getattr(sol, name), strict=True):
+            assert_close(b, a, tol.STEPPED)
+    assert len(sol.t_events[0]) == 2
+    assert sol.t[-1] == sol.t_events[0][-1]
+    assert sol.p[-1].tobytes() == sol.p_events[0][-1].tobytes()
+    assert (np.diff(sol.t) > 0).all()
+    assert np.isfinite(sol.energy_violation).all()
+    if "t_eval" in saved:
+        assert sol.t[:-1].tolist() == [t for t in saved["t_eval"] if t < sol.t[-1]]
+    if "save_every" in saved:
+        assert sol.t[:-1].tolist() == full.t[:-1:7].tolist()
+
+
+def test_times_to_save_do_not_end_the_watch(bar):
+    """Events go on to the end of the span, as SciPy's do; what is asked for twice is saved once."""
+    at = event(lambda t, p, v: t - 0.5, terminal=True)
+    sol = zd.simulate(bar, 1.0, step=0.01, t_eval=[0.1, 0.2], events=at)
+    assert sol.t_events[0].tolist() == [0.5]
+    assert sol.t.tolist() == [0.1, 0.2, 0.5]
+    assert zd.simulate(bar, 1.0, step=0.01, t_eval=[0.1, 0.5, 0.6], events=at).t.tolist() == [0.1, 0.5]
+
+
+def test_slicing_changes_no_bit(bar, formulation, integrator, monkeypatch):
+    runs = []
+    for seconds in (1e9, 0.0, -1.0):
+        monkeypatch.setattr(simulation, "SLICE", seconds)
+        runs.append(zd.simulate(bar, 4.0, step=0.01, formulation=formulation, integrator=integrator,
+                                events=[event(rate_of_first), event(lambda t, p, v: np.sin(p[0]), 1, 2)]))
+    for other in runs[1:]:
+        for a, b in zip(runs[0].p_events + runs[0].t_events, other.p_events + other.t_events, strict=True):
+            assert a.tobytes() == b.tobytes()
+        assert runs[0].p.tobytes() == other.p.tobytes()
+        assert runs[0].stats | {"seconds": 0} == other.stats | {"seconds": 0}
+
+
+def test_watching_leaves_the_motion_alone(bar):
+    plain, watched = (zd.simulate(bar, 2.0, step=0.01, events=e) for e in (None, event(lambda t, p, v: v[1])))
+    assert len(watched.t_events[0]) > 0
+    assert plain.p.tobytes() == watched.p.tobytes()
+    assert plain.t_events is plain.p_events is plain.v_events is None
+
+
+def test_systems_in_python(bar):
+    events = [event(rate_of_first), event(lambda t, p, v: np.sin(p[0]), 1, 2)]
+    one, other = (zd.simulate(system, 8.0, step=0.01, events=events) for system in (bar, bar_in_python()))
+    assert one.status == other.status > 0
+    for a, b in zip(one.t_events + one.v_events, other.t_events + other.v_events, strict=True):
+        assert_close(b, a, 1e-9)        # round-off, grown in two seconds
+
+
+# ---- several in one step, and at its ends ----
+
+
+def test_after_a_terminal_event_nothing_is_reported(bar):
+    """All three in the same step; the order they are given in does not matter."""
+    for order in ([0, 1, 2], [2, 1, 0], [1, 0, 2]):
+        events = [event(lambda t, p, v: t - 0.101), event(lambda t, p, v: t - 0.105, 0, True), event(lambda t, p, v: t - 0.107)]
+        sol = zd.simulate(bar, 1.0, step=0.05, events=[events[i] for i in order])
+        counts = dict(zip(order, map(len, sol.t_events), strict=True))
+        assert counts == {0: 1, 1: 1, 2: 0}
+        assert sol.message == f"at t = 0.105 (step 3 of 20): ended by event {order.index(1)}"
+
+
+def test_the_earlier_of_two_terminal_events_ends_the_run(bar):
+    late, early = (event(lambda t, p, v, at=at: t - at, 0, True) for at in (0.107, 0.104))
+    sol = zd.simulate(bar, 1.0, step=0.05, events=[late, early])
+    assert [len(t) for t in sol.t_events] == [0, 1]
+    assert "ended by event 1" in sol.message
+
+
+def test_what_is_zero_at_the_start_is_no_event():
+    oscillator = zd.systems.oscillator(x0=0.0, v0=1.0)
+    sol = zd.simulate(oscillator, 1.0, events=event(position, 0, True), **DENSE)
+    assert_close(sol.t_events[0], [np.pi / np.sqrt(10)], tol.STEPPED)
+
+
+def test_a_zero_at_the_end_of_a_step_happens_once():
+    falling = zd.System(1, mass=np.eye(1), p0=[1.0], v0=[-1.0])      # reaches 0 at t = 1 without rounding
+    for direction, count in ((0, 1), (-1, 1), (1, 0)):
+        sol = zd.simulate(falling, 2.0, step=0.25, integrator="euler", events=event(position, direction))
+        assert sol.t_events[0].tolist() == [1.0] * count
+
+
+def test_a_run_that_starts_where_an_event_ended_one_goes_on(bar):
+    """The event has happened there, and does not happen again."""
+    at = event(lambda t, p, v: np.sin(p[0]), 1, True)
+    first = zd.simulate(bar, 8.0, step=0.01, events=at)
+    second = zd.simulate(bar, (first.t[-1], 8.0), first.p[-1], first.v[-1], step=0.01, events=at)
+    assert second.t[-1] > first.t[-1] + 0.1
+
+
+def test_a_ball_that_bounces():
+    """Terminal events and new starts: flights of a ball last 2 v / g, and each bounce takes a tenth of v."""
+    ball = zd.System(["y"], mass=np.eye(1), force=np.array([-9.81]), potential=lambda p: 9.81 * p[0], p0=[1.0])
+    ground, t, p, v, bounces = event(position, -1, True), 0.0, None, None, []
+    while len(bounces) < 5:
+        sol = zd.simulate(ball, (t, t + 5.0), p, v, step=0.05, events=ground)
+        t, p, v = sol.t[-1], sol.p[-1], -0.9 * sol.v[-1]
+        bounces.append(t)
+    first = np.sqrt(2 / 9.81)
+    assert_close(bounces, first + np.cumsum([0, *(2 * first * 0.9**k for k in range(1, 5))]), tol.STEPPED)
+
+
+def test_a_jump_costs_no_more_than_bisection(bar):
+    """A function without a slope to follow: the step of 0.05 is halved down to four units of rounding, and one step is over."""
+    sol = zd.simulate(bar, 0.05, step=0.05, events=event(lambda t, p, v: 1.0 if t > 0.0123456 else -1.0))
+    assert_close(sol.t_events[0], [0.0123456], 8 * tol.EPS)
+    assert sol.stats["output_steps"] <= 50 + 2
+    smooth = zd.simulate(bar, 0.05, step=0.05, events=event(lambda t, p, v: p[0] - bar.p0[0] - 0.01))
+    assert len(smooth.t_events[0]) == 1
+    assert smooth.stats["output_steps"] <= 20
+
+
+# ---- keeping ----
+
+
+ROUND_TRIPS = {"pickle": lambda sol, folder: pickle.loads(pickle.dumps(sol)),
+               "save": lambda sol, folder: zd.load(sol.save(folder / "a"))}
+
+
+@pytest.mark.parametrize("there_and_back", ROUND_TRIPS.values(), ids=ROUND_TRIPS)
+@pytest.mark.parametrize("events", [None, [], [position], [position, lambda t, p, v: 1.0]], ids=["none", "empty", "one", "two"])
+def test_events_are_kept(there_and_back, events, tmp_path):
+    sol = zd.simulate(OSCILLATOR, 5.0, step=0.05, events=events)
+    again = there_and_back(sol, tmp_path)
+    for name, shape in {"t_events": (), "p_events": (1,), "v_events": (1,)}.items():
+        mine, its = getattr(sol, name), getattr(again, name)
+        if events is None:
+            assert mine is its is None
+            continue
+        assert len(mine) == len(its) == len(events)
+        for a, b in zip(mine, its, strict=True):
+            assert a.shape[1:] == shape
+            assert a.shape == b.shape
+            assert a.tobytes() == b.tobytes()
+            assert not b.flags.writeable
+    assert again.settings == sol.settings
+    assert repr(again) == repr(sol)
+
+
+def test_one_event_needs_no_list():
+    sol = zd.simulate(OSCILLATOR, 1.0, step=0.05, events=position)
+    assert len(sol.t_events) == len(sol.p_events) == len(sol.v_events) == 1
+
+
+def test_states_may_be_kept(bar):
+    """What an event is handed is its own."""
+    seen = []
+
+    def watch(t, p, v):
+        seen.append((t, p, v))
+        p[:] = np.nan
+        return 1.0
+
+    sol = zd.simulate(bar, 0.1, step=0.05, events=watch)
+    assert np.isfinite(sol.p).all()
+    assert [t for t, _, _ in seen] == sol.t.tolist()
+    assert np.array_equal([v for _, _, v in seen], sol.v)
+
+
+# ---- nonsense ----
+
+
+@pytest.mark.parametrize(("value", "error", "shown"), [
+    (np.nan, ValueError, "must be finite, not nan"), (-np.inf, ValueError, "must be finite, not -inf"),
+    (np.zeros(2), TypeError, "must be a real number, not array"), (1j, TypeError, "must be a real number, not 1j"),
+    (None, TypeError, "must be a real number, not None"), ("up", TypeError, "must be a real number, not 'up'"),
+    (True, TypeError, "must be a real number, not True"), ([0.5], TypeError, r"must be a real number, not \[0.5\]"),
+], ids=str)
+def test_values_that_are_no_numbers(bar, value, error, shown):
+    with pytest.raises(error, match=r"what events returns at t = 0 " + shown):
+        zd.simulate(bar, 1.0, step=0.1, events=lambda t, p, v: value)
+    with pytest.raises(error, match=r"what events\[1\] returns at t = 0\.5 " + shown) as caught:
+        zd.simulate(bar, 1.0, step=0.1, events=[position, lambda t, p, v: 1.0 if t < 0.45 else value])
+    assert caught.value.solution.t.tolist() == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+    assert "at t = 0.5 (step 5 of 10): the evaluation of an event failed" in caught.value.__notes__
+
+
+@pytest.mark.parametrize(("events", "error", "message"), [
+    (3.0, TypeError, r"events must be a callable or a list of callables, not 3\.0"),
+    ("position", TypeError, "events must be a callable or a list of callables, not 'position'"),
+    ([position, None], TypeError, r"events\[1\] must be a callable event\(t, p, v\), not None"),
+    (event(position, "up"), TypeError, "events.direction must be a real number, not 'up'"),
+    (event(position, np.nan), ValueError, "events.direction must be finite"),
+    (event(position, 2), ValueError, "events.direction must be -1, 0 or 1, not 2"),
+    ([event(position, None)], TypeError, r"events\[0\].direction must be a real number, not None"),
+    (event(position, 0, -1), ValueError, "events.terminal, where it is not True or False, must be between 0 and"),
+    (event(position, 0, 1.5), TypeError, "events.terminal, where it is not True or False, must be a whole number, not 1.5"),
+    (event(position, 0, "yes"), TypeError, "events.terminal, .* must be a whole number, not 'yes'"),
+])
+def test_events_that_are_none(bar, events, error, message):
+    with pytest.raises(error, match=message):
+        zd.simulate(bar, 1.0, step=0.1, events=events)
+
+
+class Mine(Exception):
+    pass
+
+
+@pytest.mark.parametrize("which", [SYSTEMS["four_bar"], bar_in_python()], ids=["C", "Python"])
+def test_what_an_event_raises_surfaces(which):
+    def broken(t, p, v):
+        if t > 0.45:
+            raise Mine("mine")
+        return 1.0
+
+    with pytest.raises(Mine, match=r"^mine") as caught:
+        zd.simulate(which, 1.0, step=0.1, events=broken)
+    assert len(caught.value.solution.t) == 5
+    assert caught.traceback[-1].name == "broken"
+    sol = zd.simulate(which, 1.0, step=0.1, events=broken, on_failure="return")
+    assert sol.message == "at t = 0.5 (step 5 of 10): the evaluation of an event failed: Mine('mine')"
+    assert not sol.success
+
+
+def test_an_event_of_too_few_arguments(bar):
+    with pytest.raises(TypeError, match="positional argument"):
+        zd.simulate(bar, 1.0, step=0.1, events=lambda t, y: y[0])
+
+
+def test_ctrl_c_within_an_event(bar):
+    def press(t, p, v):
+        if t > 0.45:
+            raise KeyboardInterrupt
+        return 1.0
+
+    with pytest.raises(zd.errors.Interrupted) as caught:
+        zd.simulate(bar, 1.0, step=0.1, events=press)
+    assert len(caught.value.solution.t) == 5
+
+
+def test_failures_while_an_event_is_looked_for(bar):
+    """The events found before are kept."""
+    events = [event(lambda t, p, v: t - 0.101), event(lambda t, p, v: np.nan if 0.2 < t < 0.25 else t - 0.23)]
+    sol = zd.simulate(bar, 1.0, step=0.05, events=events, on_failure="return")
+    assert not sol.success
+    assert_close(sol.t_events[0], [0.101], tol.SAME)
+    assert len(sol.t_events[1]) == 0

@@ -1,0 +1,130 @@
+"""What the core refuses, whoever calls it, instead of crashing or never ending."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from zerodrift import _gateway
+
+
+def handed(**changed):
+    """Settings of the core, right but for what is changed."""
+    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
+    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
+    for name in set(changed) & {"projection", "baumgarte", "energy"}:
+        changed[name] = options.get(name, {}) | changed[name]
+    return _gateway.settings(options | changed)
+
+
+def created(options, core=None):
+    pendulum = zd.systems.pendulum()
+    _gateway.Run(core or pendulum._core, options, pendulum.p0, pendulum.v0)
+
+
+DOP853 = list(zd.integrators()).index("dop853")
+
+
+@pytest.mark.parametrize(("changed", "sentence"), [
+    ({"formulation": -1}, "there is no such formulation"),
+    ({"integrator": 99}, "there is no such integrator"),
+    ({"t1": 0.0}, "ends after it starts"),
+    ({"t1": np.nan}, "ends after it starts"),
+    ({"t0": -1e308, "t1": 1e308}, "ends after it starts"),
+    ({"step": -0.1}, "the step is finite"),
+    ({"step": np.inf}, "the step is finite"),
+    ({"step": np.nan}, "the step is finite"),
+    ({"t0": 1e9, "t1": 2e9, "step": 1e-9}, "long enough to be seen"),
+    ({"step": 0.0}, "this integrator needs a step"),
+    ({"step": 0.0, "integrator": DOP853, "atol": 0.0}, "rtol and atol"),
+    ({"step": 0.0, "integrator": DOP853, "rtol": np.nan}, "rtol and atol"),
+    ({"step": 0.0, "integrator": DOP853, "first_step": -1.0}, "first_step and max_step"),
+    ({"step": 0.0, "integrator": DOP853, "max_step": np.nan}, "first_step and max_step"),
+    ({"save_every": 0}, "rows are saved every so many steps"),
+    ({"t_eval": np.array([0.5, 0.5])}, "the times to save at increase"),
+    ({"t_eval": np.array([0.5, 1.5])}, "the times to save at increase"),
+    ({"t_eval": np.array([np.nan])}, "the times to save at increase"),
+    ({"projection": {"every": -1}}, "every so many steps"),
+    ({"projection": {"tolerance": np.nan}}, "the tolerance of the position correction"),
+    ({"projection": {"max_iterations": -1}}, "the iterations of the position correction"),
+    ({"projection": {"metric": 7}}, "there is no such metric"),
+    ({"baumgarte": {"on": 1, "alpha": np.inf}}, "the gains of Baumgarte's stabilization"),
+    ({"energy": {"every": -1}}, "every so many steps"),
+], ids=str)
+def test_settings_that_the_core_refuses(changed, sentence):
+    with pytest.raises(zd.ZerodriftError, match=sentence):
+        created(handed(**changed))
+
+
+@pytest.mark.parametrize(("changed", "sentence"), [
+    ({"nq": 0}, "1 to 8192 coordinates"),
+    ({"nv": 10**9}, "1 to 8192 coordinates"),
+    ({"mh": -1}, "at most as many constraints as velocities"),
+    ({"mn": 2}, "at most as many constraints as velocities"),
+    ({"scratch": -1}, "scratch"),
+    ({"provides": 0}, "a mass matrix"),
+    ({"nv": 3}, "as many velocities as coordinates"),
+    ({"provides": _gateway.TERMS["M"][0]}, "provides Phi"),
+    ({"provides": _gateway.TERMS["M"][0] | _gateway.TERMS["Phi"][0]}, "provides C and xi"),
+    ({"without": "gamma"}, "come together"),
+], ids=str)
+def test_systems_that_the_core_refuses(changed, sentence):
+    core = zd.systems.pendulum()._core
+    without = changed.pop("without", None)
+    if without:
+        core.c.provides = core.c.provides & ~_gateway.TERMS["D"][0] & ~_gateway.TERMS["gamma"][0] | _gateway.TERMS["D"][0]
+    for name, value in changed.items():
+        setattr(core.c, name, value)
+    for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0.0, np.zeros(2), np.zeros(2)),
+                 lambda: _gateway.project(core, handed(), 0.0, np.zeros(2), np.zeros(2)),
+                 lambda: _gateway.step(core, handed(), np.zeros(2), np.zeros(2))):
+        with pytest.raises(zd.ZerodriftError, match=sentence):
+            call()
+
+
+def test_an_energy_correction_without_potential_is_refused_by_the_core():
+    core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
+    with pytest.raises(zd.ZerodriftError, match="needs a system that provides its potential"):
+        _gateway.step(core, handed(energy={"every": 1}), np.zeros(1), np.zeros(1))
+
+
+@pytest.mark.parametrize("times", [None, np.array([0.05, 0.07, 0.5, 1.0])], ids=["steps", "times"])
+def test_records_of_any_size_hold_the_same_rows(bar, times):
+    """One row at a time, and none: the start is saved once."""
+    options = handed() if times is None else handed(t_eval=times)
+    least = 1 if times is None else len(times)
+    rows = []
+    for capacity in (least, 50):
+        run, collected = _gateway.Run(bar._core, options, bar.p0, bar.v0), []
+        assert run.advance(_gateway.Record(bar._core, 0), 1.0) == _gateway.FULL
+        status = _gateway.FULL
+        while status == _gateway.FULL:
+            record = _gateway.Record(bar._core, capacity)
+            status = run.advance(record, 1.0)
+            collected.append(record.take())
+        assert status == _gateway.DONE
+        rows.append({name: np.concatenate([part[name] for part in collected]) for name in collected[0]})
+    assert len(rows[0]["t"]) == (11 if times is None else 4)
+    for name in rows[0]:
+        assert rows[0][name].tobytes() == rows[1][name].tobytes()
+
+
+@pytest.mark.parametrize("size", [1e160, 1e200, 1e300])
+def test_steps_that_cannot_be_small_enough_end_the_run(size):
+    """Accelerations whose square is no double asked for a first step of zero, and then another."""
+    system = zd.System(1, mass=[[1.0]], force=[size], p0=[0.0], v0=[1.0])
+    with pytest.raises((zd.StepFailed, zd.Diverged)):
+        zd.simulate(system, 1.0, rtol=1e-6, integrator="dop853", p0=[1.0])
+
+
+def test_a_start_that_is_not_finite_is_refused_by_the_core():
+    core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
+    for p, v in ((np.nan, 0.0), (0.0, np.inf)):
+        with pytest.raises(zd.Diverged):
+            _gateway.Run(core, handed(), np.array([p]), np.array([v]))
+
+
+def test_events_without_functions_are_refused_by_the_core(bar):
+    watcher = _gateway.Watcher(bar._core, ())
+    watcher.c.count = -1
+    with pytest.raises(zd.ZerodriftError, match="events have functions for their values"):
+        _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
