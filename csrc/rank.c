@@ -203,6 +203,7 @@ static int reduce(zd_point *point)
     self->near = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
+    if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
     int rank = rank_of(self, point->terms.C, point->terms.M);
     if (rank < self->m) return use_chosen(point, rank);
     use_all(point);
@@ -328,7 +329,7 @@ static void curvature(const zd_point *point, double *w)
             terms += fabs(share) * unit_of(self, self->row[a]);
         }
         double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
-        w[d - point->rows] = fabs(sum) > CURVED * scale ? sum : 0;
+        w[d - point->rows] = fabs(sum) <= CURVED * scale ? 0 : sum;
     }
 }
 

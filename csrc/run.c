@@ -300,6 +300,10 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     *status = why;
     if (!run) return NULL;
     run->steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step);
+    if (why == ZD_BIFURCATION || why == ZD_CONTRADICTION) {     /* of a start that is none */
+        int violated = check_constraints(run);
+        why = violated ? violated : why;
+    }
     if (!why) why = zd_run_place(run, settings->t0, p0, v0);
     if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;
