@@ -70,6 +70,17 @@ static const char *wrong_corrections(const zd_system *system, const zd_settings 
     return FIRST_BROKEN(rules);
 }
 
+static const char *wrong_events(const zd_events *events)
+{
+    if (!events) return NULL;
+    const rule rules[] = {
+        {events->count < 0 || events->count > LARGEST, "a run has at most 8192 events"},
+        {!events->evaluate || !events->found, "events have a function that evaluates them and one that is told of them"},
+        {events->count > 0 && (!events->direction || !events->terminal), "each event has a direction, and whether it is terminal"},
+    };
+    return FIRST_BROKEN(rules);
+}
+
 static double latest(const zd_settings *settings) { return fmax(fabs(settings->t0), fabs(settings->t1)); }
 
 static int is_increasing_within(const double *t, long count, double t0, double t1)
@@ -91,8 +102,6 @@ static const char *wrong_course(const zd_settings *settings)
         {!settings->t_eval && settings->save_every < 1, "rows are saved every so many steps"},
         {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator needs a step: it estimates no error"},
         {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol are finite, atol not 0"},
-        {settings->events && (settings->events->count < 0 || !settings->events->evaluate || !settings->events->found),
-         "events have functions for their values and for where they are found"},
         {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step are at least 0"},
     };
     const char *wrong = FIRST_BROKEN(times);
@@ -105,6 +114,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     const char *wrong = wrong_system(system);
     if (!wrong) wrong = wrong_rows(settings);
     if (!wrong) wrong = wrong_corrections(system, settings);
+    if (!wrong) wrong = wrong_events(settings->events);
     snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
     return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
 }

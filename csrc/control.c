@@ -9,6 +9,8 @@
  */
 #include "core.h"
 
+enum { HELD = 10, FREE = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
+static const double AT_THE_LIMIT = 0.95;    /* of stability */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
 
 static double root_mean_square(int n, const double *x, const double *scale)
@@ -30,7 +32,8 @@ static double bounded(const zd_run *run, double h)
     return fmin(fmin(h, longest), run->settings.t1 - run->t);
 }
 
-/* The first step: from how fast the state changes, and how fast that does. */
+/* The first step: from how fast the state changes, and how fast that does. All times are measured by the former, so that their
+ * unit makes no difference. */
 int zd_control_start(zd_run *run)
 {
     int n = run->rate.size;
@@ -41,15 +44,28 @@ int zd_control_start(zd_run *run)
     int status = run->rate.evaluate(run, run->t, run->y, f0);
     if (status) return status;
     double d0 = root_mean_square(n, run->y, run->control.scale), d1 = root_mean_square(n, f0, run->control.scale);
-    double h0 = bounded(run, d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * d0 / d1);
+    double span = run->settings.t1 - run->settings.t0, time = d0 < 1e-5 || d1 * span < 1e-5 ? 1e-4 * span : d0 / d1;
+    double h0 = bounded(run, 0.01 * time);
     for (int i = 0; i < n; i++) y1[i] = run->y[i] + h0 * f0[i];
     status = run->rate.evaluate(run, run->t + h0, y1, f1);
     if (status) return status;
     for (int i = 0; i < n; i++) f1[i] -= f0[i];
-    double fastest = fmax(d1, root_mean_square(n, f1, run->control.scale) / h0);
-    double h1 = fastest <= 1e-15 ? fmax(1e-6, 1e-3 * h0) : pow(0.01 / fastest, 1.0 / (run->integrator->card.error_order + 1));
+    double fastest = fmax(time * d1, time * time * root_mean_square(n, f1, run->control.scale) / h0);
+    double h1 = fastest <= 1e-15 ? h0 : time * pow(0.01 / fastest, 1.0 / (run->integrator->card.error_order + 1));
     run->control.h = fmin(100 * h0, h1);
     return ZD_DONE;
+}
+
+/* Counts steps as long as stability allows, once there are enough for it to be no chance. */
+static void watch_stiffness(zd_run *run, double lambda_h)
+{
+    zd_control *control = &run->control;
+    if (!(lambda_h > 0)) return;
+    if (lambda_h > AT_THE_LIMIT * run->integrator->decay) {
+        control->held++;
+        control->free = 0;
+        if (control->held >= HELD) run->statistics.stiff += control->held == HELD ? HELD : 1;
+    } else if (++control->free >= FREE) control->held = 0;
 }
 
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
@@ -58,10 +74,13 @@ static int attempt(zd_run *run, double h, double t1, double *norm)
     int status = zd_run_integrate(run, h);
     if (status) return status;
     set_scale(run, run->last.y, run->y);
-    status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm);
+    double lambda_h;
+    status = run->integrator->error(run->stepper, &run->rate, t1, h, run->y, run->control.scale, norm, &lambda_h);
     if (status) return status;
     if (isnan(*norm)) return ZD_NOT_FINITE;
-    return *norm <= 1 ? zd_run_land(run, t1) : ZD_DONE;
+    if (!(*norm <= 1)) return ZD_DONE;
+    watch_stiffness(run, lambda_h);
+    return zd_run_land(run, t1);
 }
 
 static double factor(const zd_run *run, double norm)

@@ -32,6 +32,11 @@ typedef struct zd_point {
     zd_rank *rank;
     int rows, holonomic;    /* rows of C that count, and how many of them, which come first, are holonomic: m and mh, unless some */
     const double *C;        /* (rows, nv)                                                                   follow from others */
+    double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see measure.c; and 1 / unit */
+    double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
+    double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
+    double *per_size;       /* (m,): 1 / size */
+    int measured;           /* whether these are known */
     int culprit;            /* the coordinate or row that a failed factorization names */
     double defect;          /* what a failed iteration was left with */
 } zd_point;
@@ -49,6 +54,9 @@ double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
 int zd_point_is_finite(const zd_point *point);      /* its p and v */
 double zd_max_abs(int n, const double *x);          /* infinite if any is not a number */
+double zd_max_scaled(int n, const double *x, const double *scale);    /* of |x_i| scale_i, likewise; measure.c */
+int zd_point_measure(zd_point *point);              /* unit and size, from where the point is; measure.c */
+double zd_point_violation(const zd_point *point);   /* largest |Phi| in units of its row's size; needs Phi */
 
 /* Has the terms in `want` computed, those that the system has and that are not known yet. */
 static inline int zd_point_need(zd_point *point, int want)
@@ -93,8 +101,11 @@ typedef struct zd_integrator {
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
     /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
     int (*step_of_run)(void *self, zd_run *run, double h);
-    /* The error of the step just made to y at t1, root mean square in units of scale; NULL where card.error_order is 0. */
-    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
+    double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
+    /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
+     * there, 0: not known; NULL where card.error_order is 0. */
+    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                 double *lambda_h);
 } zd_integrator;
 
 /* ---- a correction: something done to the right side of (6), or to the state after a step ---- */
@@ -126,6 +137,7 @@ typedef struct zd_control {
     double h;               /* the next step */
     double *scale;          /* (size,): what the error is measured in */
     double *y1, *f0, *f1;   /* (size,): for the choice of the first step */
+    int held, free;         /* steps that were as long as stability allows; not so, in succession */
 } zd_control;
 
 typedef struct zd_last {    /* the step being made: its size, and where it began */
@@ -138,6 +150,20 @@ typedef struct zd_place {   /* where a run was */
     double *p, *v;          /* (nq,), (nv,) */
     double *extra;          /* what the state has besides them */
 } zd_place;
+
+typedef struct zd_guard {   /* where a step began, with which its end is compared */
+    int kept;               /* whether there is such */
+    int branch, stability;  /* what is looked at */
+    int looking;            /* whether at the stability of the next step */
+    double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
+    double *pdot, *vdot;    /* (nq,), (nv,): there; p and v are those of `last` */
+    double *rate;           /* (nq,): pdot at the end */
+    double *p, *v, *C;      /* (nq,), (nv,), (mh, nv): at the end, while the point is elsewhere */
+    double speed;           /* |pdot|^2 there, in natural units */
+    int streak;             /* steps in succession that were longer than the method is stable for */
+    double fourth;          /* (omega h)^4, the largest seen */
+    double kinetic;         /* energy, likewise */
+} zd_guard;
 
 typedef struct zd_output {
     zd_place before, after; /* the step */
@@ -183,7 +209,11 @@ struct zd_run {
     zd_control control;     /* where steps are chosen */
     zd_output output;       /* where something between steps is wanted */
     zd_watch watch;
+    zd_guard guard;
+    zd_place whole;         /* where the step that is made in parts began */
+    int parts;              /* of the step being made, if more than one: each is corrected */
     int iterations;         /* most position iterations of a step since the last saved row */
+    int energy_skipped;     /* energy corrections left out since then */
     int status;
     char message[ZD_MESSAGE];
 };
@@ -191,7 +221,7 @@ struct zd_run {
 /* Whether this step is one of every so many, or the last. One of every 1 is not worth a division, the slowest of instructions. */
 static inline int zd_run_is_due(const zd_run *run, long every)
 {
-    return every == 1 || run->step % every == 0 || run->t == run->settings.t1 || run->output.between;
+    return every == 1 || run->step % every == 0 || run->t == run->settings.t1 || run->output.between || run->parts;
 }
 
 /* dynamics.c: what integrators, corrections and recorder ask of a run */
@@ -226,7 +256,14 @@ void zd_run_return(zd_run *run);                /* point and y to where the step
 int zd_control_start(zd_run *run);
 int zd_control_step(zd_run *run);
 
+/* guard.c: whether a step can be believed */
+zd_guard zd_guard_take(const zd_run *run, zd_arena *arena);
+int zd_guard_begin(zd_run *run);            /* keeps where the run is */
+int zd_guard_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
+
 /* output.c: values between steps */
+void zd_place_keep(const zd_run *run, zd_place *place);
+int zd_place_return(zd_run *run, const zd_place *place);
 void zd_output_before(zd_run *run);
 int zd_output_after(zd_run *run, zd_record *record);
 int zd_output_move(zd_run *run, double t);      /* to any time of the step, once its end is kept */

@@ -4,15 +4,35 @@
 
 #include "zerodrift.h"
 
+enum { MOST_RETREATS = 10 };
+
+/* Armijo's rule: an improvement has to be one, or it is shortened. A residual that is no number is no improvement. */
+static int shorten(const zd_newton *newton, void *context, double before)
+{
+    double now, share = 1;
+    for (int i = 0; i < MOST_RETREATS; i++, share *= 0.5) {
+        int status = newton->residual(context, &now);
+        if (!status && now <= (1 - 1e-4 * share) * before) return ZD_DONE;
+        if (status == ZD_CALLBACK) return status;
+        status = newton->retreat(context);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}
+
 int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, double *residual)
 {
+    double first = INFINITY;
     for (*iterations = 0;; ++*iterations) {
         int status = newton->residual(context, residual);
         if (status) return status;
         if (*residual <= newton->tolerance) return ZD_DONE;
         if (!isfinite(*residual)) return ZD_NOT_FINITE;
         if (*iterations == newton->max_iterations) return ZD_NO_CONVERGENCE;
+        if (*iterations == 1 && newton->contraction > 0 && !(*residual <= newton->contraction * first)) return ZD_NO_CONVERGENCE;
+        if (*iterations == 0) first = *residual;
         status = newton->improve(context);
+        if (!status && newton->retreat) status = shorten(newton, context, *residual);
         if (status) return status;
     }
 }

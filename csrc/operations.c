@@ -72,7 +72,7 @@ int zd_step(const zd_system *system, const zd_settings *settings, double *p, dou
     if (status) return status;
     zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
     if (!run) return status;
-    if (!status) status = zd_run_place(run, settings->t0, p, v);
+    if (!status) status = zd_suits(system, settings->integrator) ? zd_run_place(run, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
     if (!status) status = zd_run_start_energy(run);
     if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
     if (!status) status = zd_run_land(run, settings->t1);

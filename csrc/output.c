@@ -2,21 +2,22 @@
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
  */
 #include "core.h"
+#include "linalg/small.h"
 
 static size_t extra_bytes(const zd_run *run)
 {
     return (size_t)(run->rate.size - run->own_size) * sizeof(double);
 }
 
-static void keep(const zd_run *run, zd_place *place)
+void zd_place_keep(const zd_run *run, zd_place *place)
 {
     place->t = run->t;
-    memcpy(place->p, run->point->p, (size_t)run->system.nq * sizeof(double));
-    memcpy(place->v, run->point->v, (size_t)run->system.nv * sizeof(double));
-    memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
+    ZD_SIZED(zd_copy, run->system.nq, run->point->p, place->p);
+    ZD_SIZED(zd_copy, run->system.nv, run->point->v, place->v);
+    if (extra_bytes(run)) memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
 }
 
-static int go_back(zd_run *run, const zd_place *place)
+int zd_place_return(zd_run *run, const zd_place *place)
 {
     run->state = run->y;
     memcpy(run->y + run->own_size, place->extra, extra_bytes(run));
@@ -25,19 +26,19 @@ static int go_back(zd_run *run, const zd_place *place)
 
 void zd_output_before(zd_run *run)
 {
-    keep(run, &run->output.before);
+    zd_place_keep(run, &run->output.before);
 }
 
 void zd_output_keep_end(zd_run *run)
 {
-    keep(run, &run->output.after);
+    zd_place_keep(run, &run->output.after);
 }
 
 int zd_output_move(zd_run *run, double t)
 {
     const zd_place *before = &run->output.before;
-    if (t == run->output.after.t) return go_back(run, &run->output.after);
-    int status = go_back(run, before);
+    if (t == run->output.after.t) return zd_place_return(run, &run->output.after);
+    int status = zd_place_return(run, before);
     run->output.between = 1;
     if (!status) status = zd_run_integrate(run, t - before->t);
     if (!status) status = zd_run_land(run, t);

@@ -48,7 +48,8 @@ int zd_record_row(zd_run *run, zd_record *record)
     copy_row(record->p, row, point->system->nq, point->p);
     copy_row(record->v, row, point->system->nv, point->v);
     record->iterations[row] = run->iterations;
-    run->iterations = 0;
+    record->energy_skipped[row] = run->energy_skipped;
+    run->iterations = run->energy_skipped = 0;
     record->rows = row + 1;
     return ZD_DONE;
 }

@@ -6,7 +6,7 @@
 #include "rank.h"
 #include "registry.h"
 
-static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, if the corrections' own is tighter */
+static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
 static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
 static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
 
@@ -87,7 +87,9 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.last.y = zd_take_doubles(arena, (size_t)size);
     run.last.p = zd_take_doubles(arena, (size_t)system->nq);
     run.last.v = zd_take_doubles(arena, (size_t)system->nv);
+    run.guard = zd_guard_take(&run, arena);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
+    run.whole = take_place(arena, system, (size_t)(size - run.own_size));
     if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);
     if (settings->t_eval || settings->events) {
         run.output.before = take_place(arena, system, (size_t)(size - run.own_size));
@@ -139,7 +141,8 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         if (!run) return NULL;
         run->t = t;
         zd_point_move(run->point, t, p, v);
-        *status = zd_rank_start(run->point, settings);
+        *status = zd_point_measure(run->point);
+        if (!*status) *status = zd_rank_start(run->point, settings);
         const zd_rank *rank = run->point->rank;
         int laid = rows, laid_holonomic = holonomic;
         run->statistics.rank = rows = least(rank->limit, system->nv);
@@ -160,7 +163,21 @@ int zd_run_place(zd_run *run, double t, const double *p, const double *v)
 {
     run->t = t;
     zd_point_move(run->point, t, p, v);
-    return run->formulation->leave(run->solver, run->point, run->y);
+    int status = zd_point_measure(run->point);
+    return status ? status : run->formulation->leave(run->solver, run->point, run->y);
+}
+
+/* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
+static double velocity_violation(const zd_run *run)
+{
+    const zd_point *point = run->point;
+    double speed = zd_max_scaled(run->system.nv, point->v, point->per_unit) + 1 / (run->settings.t1 - run->settings.t0);
+    double largest = 0;
+    for (int k = 0; k < zd_constraints(&run->system); k++) {
+        double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
+        largest = fmax(largest, fabs(run->Psi[k]) / size);
+    }
+    return largest;
 }
 
 /* Refuses a violation of the constraints beyond the tolerance. */
@@ -172,11 +189,11 @@ static int check_constraints(zd_run *run)
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !m) return status;
     zd_point_velocity_violation(point, run->Psi);
-    double position = mh ? zd_max_abs(mh, point->terms.Phi) : 0, velocity = zd_max_abs(m, run->Psi);
+    double position = mh ? zd_point_violation(point) : 0, velocity = velocity_violation(run);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
     if (zd_first_not_finite(&run->system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
     snprintf(run->message, sizeof run->message,
-             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g (allowed: %.3g); "
+             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g); "
              "zd.assemble finds a consistent start nearby", position, velocity, allowed);
     return ZD_BAD_START;
 }
@@ -192,11 +209,11 @@ static int check_tolerance(zd_run *run)
     for (int k = 0; k < run->system.mh; k++) {
         double rounding = 0;
         for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->system.nv + i] * point->p[i]);
-        reachable = fmax(reachable, rounding);
+        reachable = fmax(reachable, rounding * point->per_size[k]);
     }
     if (projection->tolerance > reachable) return ZD_DONE;
     snprintf(run->message, sizeof run->message,
-             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g",
+             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g of its size",
              projection->tolerance, reachable);
     return ZD_UNREACHABLE;
 }
@@ -277,9 +294,11 @@ static int start(zd_run *run, const double *p0, const double *v0)
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_run_start_energy(run);
     if (!status && run->settings.events) status = zd_events_start(run);
-    if (status || run->settings.step > 0) return status;
-    status = zd_control_start(run);
-    return status ? status : zd_run_place(run, run->settings.t0, p0, v0);   /* wherever that has looked */
+    if (!status && !(run->settings.step > 0)) {
+        status = zd_control_start(run);
+        if (!status) status = zd_run_place(run, run->settings.t0, p0, v0);  /* wherever that has looked */
+    }
+    return status ? status : zd_guard_begin(run);
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)
@@ -333,3 +352,4 @@ double zd_run_progress(const zd_run *run)
 const char *zd_run_message(const zd_run *run) { return run->message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->statistics; }
 int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->point->rank, rows); }
+const double *zd_run_sizes(const zd_run *run) { return run->point->size; }

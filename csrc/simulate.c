@@ -5,7 +5,7 @@
 #include "linalg/small.h"
 #include "rank.h"
 
-enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
+enum { CLOCK_EVERY = 16, MOST_PARTS = 8 };     /* steps between looks at the clock; of a step that cannot be corrected */
 
 static double now(void)
 {
@@ -49,6 +49,7 @@ int zd_run_integrate(zd_run *run, double h)
 int zd_run_land(zd_run *run, double t1)
 {
     const zd_formulation *formulation = run->formulation;
+    double h = t1 - run->t;
     run->t = t1;
     run->state = run->y;
     if (run->extras) run->point->known &= ~ZD_ACCELERATED;
@@ -57,14 +58,60 @@ int zd_run_land(zd_run *run, double t1)
     if (!status) status = formulation->leave(run->solver, run->point, run->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
     if (!status && formulation->settle) status = formulation->settle(run->solver, run->point);
-    return status || zd_point_is_finite(run->point) ? status : ZD_NOT_FINITE;
+    if (!status && !zd_point_is_finite(run->point)) status = ZD_NOT_FINITE;
+    return status ? status : zd_guard_step(run, h);
+}
+
+/* From where the step began to t1, in equal parts. */
+static int take_parts(zd_run *run, double t1)
+{
+    const double t0 = run->whole.t;
+    int status = zd_place_return(run, &run->whole);
+    if (!status) status = zd_guard_begin(run);
+    for (int part = 1; !status && part <= run->parts; part++) {
+        double t = part == run->parts ? t1 : t0 + (t1 - t0) * part / run->parts;
+        status = zd_run_integrate(run, t - run->t);
+        if (!status) status = zd_run_land(run, t);
+    }
+    return status;
+}
+
+static void remember_whole(zd_run *run)
+{
+    const zd_last *last = &run->last;
+    run->whole.t = last->t;
+    zd_copy(run->system.nq, last->p, run->whole.p);
+    zd_copy(run->system.nv, last->v, run->whole.v);
+    zd_copy(run->rate.size - run->own_size, last->y + run->own_size, run->whole.extra);
+}
+
+static int is_too_far(int status)
+{
+    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING;
+}
+
+/* A step that has led too far away to be corrected is made in parts; if that does not help, either, it stays so and is named. */
+static int divide_step(zd_run *run, int status, double t1)
+{
+    remember_whole(run);
+    for (run->parts = 2; is_too_far(status) && run->parts <= MOST_PARTS; run->parts *= 2) {
+        int again = take_parts(run, t1);
+        if (!again) {
+            run->parts = 0;
+            run->statistics.subdivided++;
+            return ZD_DONE;
+        }
+        status = again;
+    }
+    return status;
 }
 
 static int take_fixed_step(zd_run *run)
 {
     double t1 = zd_run_time(run, run->step);
     int status = zd_run_integrate(run, run->step == run->steps ? t1 - run->t : run->settings.step);
-    return status ? status : zd_run_land(run, t1);
+    if (!status) status = zd_run_land(run, t1);
+    return is_too_far(status) && run->guard.kept ? divide_step(run, status, t1) : status;
 }
 
 static int take_step(zd_run *run)

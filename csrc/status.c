@@ -22,7 +22,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
     switch (status) {
     case ZD_NOT_FINITE:
-        snprintf(to, size, "the state left the range of doubles; try a smaller step or another stabilization");
+        snprintf(to, size, run->statistics.too_long && run->integrator->card.stability > 0 ? "the state left the range of doubles: the step is too long for '%s' to be stable (omega h = %.3g, "
+                 "stable below %.3g); try a smaller step, or an implicit method"
+                 : "the state left the range of doubles; try a smaller step or another stabilization",
+                 run->integrator->card.name, zd_run_omega_h(run), run->integrator->card.stability);
         break;
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
@@ -47,9 +50,12 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);
         break;
     case ZD_NO_CONVERGENCE:
-        snprintf(to, size, "the position correction left max |Phi| = %.3g after %d iterations (tolerance %.3g)%s%s%s", point->defect,
-                 projection->max_iterations, projection->tolerance, *rows ? "; " : "", rows,
+        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened (tolerance %.3g)"
+                 "%s%s%s", point->defect, projection->max_iterations, projection->tolerance, *rows ? "; " : "", rows,
                  *rows ? " from the others, and may contradict them" : "");
+        break;
+    case ZD_BRANCH:
+        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");
         break;
     case ZD_NO_STEP:
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
@@ -102,5 +108,7 @@ int zd_explain(zd_run *run, int status)
     char of_steps[32] = "";
     if (run->steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->steps);
     snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", t, run->step, of_steps, what);
+    if (run->parts && strlen(run->message) < sizeof run->message - 48)
+        strcat(run->message, ", also when it is made in parts");
     return status;
 }

@@ -40,7 +40,7 @@ enum zd_metric { ZD_MASS_METRIC, ZD_IDENTITY_METRIC };
 
 typedef struct zd_projection {      /* (25)-(27) */
     int every;                      /* steps between corrections; 0: off */
-    double tolerance;               /* of max |Phi| */
+    double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
     int max_iterations;
     enum zd_metric metric;
     int positions, velocities;      /* which of the two are corrected */
@@ -89,6 +89,10 @@ typedef struct zd_statistics {
     long velocity_corrections;
     long energy_corrections;
     long energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
+    long damped;                /* position corrections that converged only with shortened iterations */
+    long subdivided;            /* steps of fixed size that were made in parts, as their correction failed */
+    long too_long;              /* steps of fixed size, longer than the method is stable for or, if always stable, resolves */
+    long stiff;                 /* steps, of those looked at, that stability rather than the error asked for held down */
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
     long repartitions;          /* changes of the independent variables between steps */
@@ -103,6 +107,7 @@ typedef struct zd_record {      /* one row per saved instant; memory belongs to 
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */
     double *kinetic, *potential, *input, *energy_violation; /* (capacity,) J; the last three NULL without potential */
     int *iterations;            /* (capacity,) most position iterations of a step since the row before */
+    int *energy_skipped;        /* (capacity,) energy corrections left out since the row before */
 } zd_record;
 
 typedef struct zd_run zd_run;
@@ -121,6 +126,11 @@ const char *zd_run_message(const zd_run *run);              /* the first failure
 const zd_statistics *zd_run_statistics(const zd_run *run);
 /* The constraints that follow from others wherever the system goes; their number. rows (m,), increasing. */
 int zd_run_redundant(const zd_run *run, int *rows);
+/* (mh,): the size of each row of Phi at the start: what the largest of its coordinates' natural motions makes of it, one radian
+ * of an angle or the mechanism's own length. */
+const double *zd_run_sizes(const zd_run *run);
+double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step of fixed size */
+double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */
 

@@ -23,8 +23,9 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) { return allocations++
 static void count(const zd_kind *kind, const zd_system *system, zd_settings settings, const double *p, const double *v)
 {
     static double t[STEPS + 1], rows[10][LARGEST * (STEPS + 1)];
-    static int iterations[STEPS + 1];
-    zd_record record = {STEPS + 1, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], iterations};
+    static int counts[2][STEPS + 1];
+    zd_record record = {STEPS + 1, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8],
+                        counts[0], counts[1]};
     int status;
     char message[512];
     allocations = 0;

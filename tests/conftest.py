@@ -2,6 +2,11 @@
 a system and an integrator, once for each pair that the core takes.
 """
 
+import atexit
+import os
+import shutil
+import tempfile
+
 import pytest
 
 import zerodrift as zd
@@ -9,6 +14,13 @@ from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
 TAKEN = {f"{name}-{integrator}": (system, integrator)
          for name, system in SYSTEMS.items() for integrator in zd.integrators(system)}
+
+
+def pytest_configure():
+    """What tests compile is not looked for, nor kept, among what the user has compiled."""
+    folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
+    os.environ["ZERODRIFT_CACHE"] = folder
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
 
 
 def pytest_generate_tests(metafunc):

@@ -55,6 +55,21 @@ def test_only_the_workspace_allocates_and_nothing_is_global(tmp_path):
 
 
 @needs_compiler
+def test_whatever_is_handed_in_does_no_harm(tmp_path):
+    """Systems, settings and states from bytes, through all entry points, under sanitizers; see tests/fuzz/."""
+    plain = ["-DREPLAY", "-o", "fuzz_core", ROOT / "tests" / "fuzz" / "fuzz_core.c", *SOURCES, "-lm"]
+    try:
+        compiled(tmp_path, "-fsanitize=address,undefined", "-fno-sanitize-recover=all", *plain)
+    except subprocess.CalledProcessError:       # a compiler without them
+        compiled(tmp_path, *plain)
+    clean = {key: value for key, value in os.environ.items() if key != "LD_PRELOAD"}
+    command = [tmp_path / "fuzz_core", "-random", "10000", "1"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False, env=clean)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout == "10000 inputs\n"
+
+
+@needs_compiler
 def test_the_public_header_stands_alone(tmp_path):
     (tmp_path / "alone.c").write_text('#include "zerodrift.h"\nint main(void) { return zd_rows(ZD_SYSTEMS) == 0; }\n')
     compiled(tmp_path, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "alone.c")

@@ -204,13 +204,15 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
 def pressed_after(seconds, call):
     """A call's outcome, Ctrl-C meanwhile."""
     before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
-    signal.setitimer(signal.ITIMER_REAL, seconds)
     try:
-        return call()
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        try:
+            return call()
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)     # it may be pressed here, too
     except KeyboardInterrupt as error:
         return error
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
 
 
@@ -253,7 +255,7 @@ def test_a_ctrl_c_that_a_callable_swallows_is_heard_all_the_same():
 
     with pytest.raises(zd.Interrupted) as caught:
         zd.simulate(pendulum(At(2000, swallow)), 1000.0, step=0.01)
-    assert len(caught.value.solution.t) > 10
+    assert 10 < len(caught.value.solution.t) < 99_000
 
 
 # ---- threads and processes ----
@@ -421,6 +423,7 @@ def succeeding():
 
 
 @linux
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("what", [diverging, raising, refused, stopped, succeeding])
 def test_nothing_leaks(what):
     for _ in range(50):

@@ -32,6 +32,7 @@ def steps_of(system, integrator, h=0.02, steps=3, **options):
     return sol.t, np.hstack([sol.p, sol.v])
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("gains", [None, zd.Baumgarte(), zd.Baumgarte(alpha=300.0, beta=2e4)], ids=str)
 def test_rk4(system, gains):
     """The classical method in NumPy on (1), (8); with gains, (23) is what they add to xi."""

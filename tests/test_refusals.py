@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from zerodrift._core import ffi
 
 import zerodrift as zd
 from zerodrift import _gateway
@@ -125,8 +126,22 @@ def test_a_start_that_is_not_finite_is_refused_by_the_core():
             _gateway.Run(core, handed(), np.array([p]), np.array([v]))
 
 
-def test_events_without_functions_are_refused_by_the_core(bar):
-    watcher = _gateway.Watcher(bar._core, ())
-    watcher.c.count = -1
-    with pytest.raises(zd.ZerodriftError, match="events have functions for their values"):
+@pytest.mark.parametrize(("changed", "sentence"), [
+    ({"count": -1}, "at most 8192 events"),
+    ({"count": 9000}, "at most 8192 events"),
+    ({"evaluate": ffi.NULL}, "a function that evaluates them"),
+    ({"count": 1, "direction": ffi.NULL}, "a direction"),
+], ids=["negative", "many", "no function", "no direction"])
+def test_events_that_the_core_refuses(bar, changed, sentence):
+    watcher = _gateway.Watcher(bar._core, [])
+    for name, value in changed.items():
+        setattr(watcher.c, name, value)
+    with pytest.raises(zd.ZerodriftError, match=sentence):
         _gateway.Run(bar._core, handed(), bar.p0, bar.v0, watcher)
+
+
+def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():
+    edge = zd.systems.knife_edge()
+    options = handed(integrator=list(zd.integrators()).index("rattle"))
+    with pytest.raises(zd.ZerodriftError, match="rattle"):
+        _gateway.step(edge._core, options, edge.p0.copy(), edge.v0.copy())

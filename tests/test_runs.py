@@ -1,6 +1,8 @@
 """Runs: the same bits whatever the slicing, threads and saving; time; and what a run costs, counted."""
 
+import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,6 +77,7 @@ def test_threads_with_different_settings_do_not_meet(bar):
         assert_same_bits(one, other)
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("every", [2, 7, 100, 1000])
 def test_saving_less_changes_no_bit(system, formulation, integrator, every):
     options = {"formulation": formulation, "integrator": integrator}
@@ -89,6 +92,35 @@ def test_looking_at_every_row_costs_nothing(system, formulation):
     full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
     assert full["factorizations"] == sparse["factorizations"]
     assert full["solves"] == sparse["solves"]
+
+
+# ---- long runs ----
+
+
+@pytest.mark.parametrize("energy", [None, True])
+def test_a_million_steps_are_as_good_as_the_first(bar, energy):
+    """Violations do not grow, nor does energy where it is corrected; elsewhere its error grows as time does, not faster."""
+    sol = zd.simulate(bar, 1000.0, step=1e-3, save_every=1000, energy=energy)
+    assert len(sol.t) == 1001
+    assert np.abs(sol.position_violation).max() <= sol.settings["stabilization"].tol
+    assert np.abs(sol.velocity_violation).max() <= 3 * tol.VELOCITY * np.abs(sol.v).max()     # three links of a metre
+    size = np.abs(sol.energy_violation)
+    if energy:
+        assert size.max() <= tol.ENERGY * (sol.kinetic_energy + 3 * np.abs(sol.potential_energy)).max()
+    else:
+        assert size[-1] <= 20 * size[:100].max()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
+def test_a_long_run_takes_no_more_memory(bar):
+    sizes = []
+
+    def look(part):
+        sizes.append(int(Path("/proc/self/statm").read_text().split()[1]))
+
+    zd.simulate(bar, 500.0, step=1e-3, save_every=10**5, progress=look)
+    assert len(sizes) > 3
+    assert sizes[-1] - sizes[1] < 64        # pages, a thousandth of what half a million rows take
 
 
 # ---- time ----
@@ -116,6 +148,7 @@ def test_a_shorter_last_step(system, integrator):
     assert_close(last.v[-1], sol.v[-1], tol.STEPPED)
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize(("end", "step", "steps"), [(1.0, 0.1, 10), (0.3, 0.1, 3), (8.0, 0.05, 160), (1.0, 1 / 3, 3),
                                                     (1.0, 2.0, 1), (1.0, 0.0999999, 11), (1.0, 0.15, 7)])
 def test_a_whole_number_of_steps_is_recognized(end, step, steps):

@@ -5,7 +5,8 @@
  * Where constraints move, only what v has besides the motion they enforce may be scaled. With vn = solve(0, -Phi_t), which is
  * M-orthogonal to it, T splits into that of vn and that of v - vn, and the latter takes the place of T.
  *
- * Where T is small (a turning point) no bounded factor removes the error: such a step is left alone and counted.
+ * Where T is small (a turning point) no bounded factor removes the error: such a step is left alone, counted, and told from the
+ * others in the record.
  */
 #include "../core.h"
 #include "../linalg/small.h"
@@ -44,6 +45,12 @@ static int split(energy *self, zd_run *run, double *kinetic)
     return ZD_DONE;
 }
 
+static void count_skipped(zd_run *run)
+{
+    run->statistics.energy_skipped++;
+    run->energy_skipped++;
+}
+
 static int after_step(void *memory, zd_run *run)
 {
     energy *self = memory;
@@ -54,7 +61,7 @@ static int after_step(void *memory, zd_run *run)
     if (!status) status = split(self, run, &kinetic);
     if (status) return status;
     if (!(fabs(violation) <= LARGEST_SHARE * kinetic)) {
-        if (!(fabs(violation) <= rounding)) run->statistics.energy_skipped++;
+        if (!(fabs(violation) <= rounding)) count_skipped(run);
         return ZD_DONE;
     }
     if (violation == 0) return ZD_DONE;

@@ -1,18 +1,25 @@
 /* Back onto the constraint manifold after a step: positions by iteration, then velocities in one solve.
  *
- *     p <- p - A solve(0, [Phi; 0])       (25a), (26a), (27a)     until max |Phi| <= tolerance
+ *     p <- p - A solve(0, [Phi; 0])       (25a), (26a), (27a)     until every |Phi| <= tolerance, in units of its size
  *     v <- v - solve(0, Psi)              (25b), (26b), (27b)
  *
  * `solve` is the formulation's own, whose metric is the mass matrix: the correction is M-orthogonal to the manifold and leaves
  * the motion along it alone. For comparison there is the identity metric of the paper's reference [20], (13) with M = I.
+ *
+ * Where the iteration does not converge it is tried once more from its start, with steps shortened until each one helps.
  */
 #include "../core.h"
 #include "../linalg/small.h"
 #include "../newton.h"
 #include "../rank.h"
 
+/* Newton's first iteration contracts so well where its start belongs to one solution and no other, after Kantorovich. */
+static const double TRUSTED = 0.25;
+
 typedef struct projection {
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
+    double *landed;     /* (nq,): p before its correction */
+    double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far */
     double *rhs, *x;    /* (m,), (nv,) */
     double *identity;   /* (nv, nv), in that metric */
     void *plain;        /* (13) with it */
@@ -23,6 +30,7 @@ extern const zd_formulation zd_schur;
 typedef struct position_problem {   /* what Newton's loop is handed */
     projection *self;
     zd_run *run;
+    int begun;              /* whether p has been moved */
 } position_problem;
 
 static int enabled(const zd_settings *settings)
@@ -37,6 +45,9 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
     projection self = {
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
+        .landed = zd_take_doubles(arena, nq),
+        .from = zd_take_doubles(arena, nq),
+        .change = zd_take_doubles(arena, nq),
         .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_take_doubles(arena, nv),
         .identity = identity ? zd_take_doubles(arena, nv * nv) : NULL,
@@ -51,7 +62,7 @@ static int position_residual(void *context, double *size)
 {
     zd_point *point = ((position_problem *)context)->run->point;
     int status = zd_point_need(point, ZD_PHI | ZD_M | ZD_C);
-    if (!status) *size = zd_max_abs(point->system->mh, point->terms.Phi);
+    if (!status) *size = zd_point_violation(point);
     return status;
 }
 
@@ -86,6 +97,8 @@ static int improve_position(void *context)
     const zd_system *system = point->system;
     int status = zd_point_need(point, ZD_PHI | ZD_A);
     if (status) return status;
+    if (!problem->begun) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
+    problem->begun = 1;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
     status = solve(self, problem->run, self->rhs, self->x);
     if (status) return status;
@@ -95,19 +108,58 @@ static int improve_position(void *context)
     return ZD_DONE;
 }
 
-static int correct_positions(projection *self, zd_run *run)
+static int improve_and_remember(void *context)
 {
-    const zd_projection *settings = &run->settings.projection;
-    const zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations};
-    position_problem problem = {self, run};
+    position_problem *problem = context;
+    projection *self = problem->self;
+    const zd_point *point = problem->run->point;
+    memcpy(self->from, point->p, (size_t)point->system->nq * sizeof(double));
+    int status = improve_position(context);
+    ZD_SIZED(zd_subtract, point->system->nq, point->p, self->from, self->change);
+    return status;
+}
+
+static int retreat(void *context)
+{
+    position_problem *problem = context;
+    projection *self = problem->self;
+    zd_point *point = problem->run->point;
+    for (int i = 0; i < point->system->nq; i++) {
+        self->change[i] *= 0.5;
+        self->p[i] = self->from[i] + self->change[i];
+    }
+    zd_point_move(point, point->t, self->p, point->v);
+    return ZD_DONE;
+}
+
+static int iterate(const zd_newton *newton, position_problem *problem)
+{
+    zd_run *run = problem->run;
     zd_statistics *statistics = &run->statistics;
     int iterations;
-    int status = zd_newton_solve(&newton, &problem, &iterations, &run->point->defect);
-    /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
-    if (!status && run->point->rank->near && run->point->rank->limit == run->point->rank->m) status = improve_position(&problem);
+    int status = zd_newton_solve(newton, problem, &iterations, &run->point->defect);
     statistics->position_iterations += iterations;
     if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
     if (iterations > run->iterations) run->iterations = iterations;
+    return status;
+}
+
+static int correct_positions(projection *self, zd_run *run)
+{
+    const zd_projection *settings = &run->settings.projection;
+    zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations,
+                        run->guard.kept ? TRUSTED : 0, NULL};
+    position_problem problem = {self, run, 0};
+    int status = iterate(&newton, &problem);
+    /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
+    if (!status && run->point->rank->near && run->point->rank->limit == run->point->rank->m) return improve_position(&problem);
+    if (!status || status == ZD_CALLBACK || !problem.begun) return status;
+    newton.improve = improve_and_remember;
+    newton.contraction = 0;
+    newton.retreat = retreat;
+    zd_point_move(run->point, run->point->t, self->landed, run->point->v);
+    status = iterate(&newton, &problem);
+    if (!status) run->statistics.damped++;
     return status;
 }
 

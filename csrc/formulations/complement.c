@@ -32,7 +32,9 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
 
 static int choose(zd_complement *self, zd_point *point)
 {
-    if (self->m) memcpy(self->work, point->C, (size_t)(self->m * self->n) * sizeof(double));
+    for (int k = 0; k < self->m; k++)       /* in natural units */
+        for (int j = 0; j < self->n; j++)
+            self->work[k * self->n + j] = point->C[k * self->n + j] * point->unit[j] * point->per_size[zd_rank_row(point, k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
     point->culprit = rank;
     self->chosen = rank == self->m;
@@ -54,18 +56,21 @@ void zd_complement_prefer(zd_complement *self, const int *independent)
 }
 
 /* D = [I; -W^-1 U], rows in the order of v. (16) */
-static void fill_partitioned(zd_complement *self, const double *C)
+static void fill_partitioned(zd_complement *self, const zd_point *point)
 {
     int n = self->n, m = self->m, r = self->r;
+    const double *C = point->C;
     self->largest = 0;
     memset(self->D, 0, (size_t)(n * r) * sizeof(double));
     for (int j = 0; j < r; j++) {
         int column = self->order[m + j];
         for (int k = 0; k < m; k++) self->work[k] = -C[k * n + column];
         zd_lu_solve(m, self->K, self->pivots, self->work);
-        for (int k = 0; k < m; k++) self->D[self->order[k] * r + j] = self->work[k];
+        for (int k = 0; k < m; k++) {
+            self->D[self->order[k] * r + j] = self->work[k];
+            self->largest = fmax(self->largest, fabs(self->work[k]) * point->per_unit[self->order[k]] * point->unit[column]);
+        }
         self->D[column * r + j] = 1;
-        self->largest = fmax(self->largest, zd_max_abs(m, self->work));
     }
     if (self->reference == 0) self->reference = fmax(1, self->largest);
 }
@@ -82,7 +87,7 @@ static int partition(zd_complement *self, zd_point *point)
         for (int j = 0; j < m; j++) self->K[k * m + j] = C[k * n + self->order[j]];
     point->culprit = zd_lu_factor(m, self->K, self->pivots);
     if (point->culprit < m) return ZD_DEPENDENT;
-    fill_partitioned(self, C);
+    fill_partitioned(self, point);
     return ZD_DONE;
 }
 

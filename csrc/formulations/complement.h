@@ -22,7 +22,7 @@ typedef struct zd_complement {
     double *K;          /* factored: W (m, m), or for an own D: [C; D^T] (n, n) */
     double *gram;       /* (r, r): Cholesky factor of D^T D, for an own D */
     double *work;       /* (n + 1, n) */
-    double largest;     /* entry of W^-1 U: how well the partition is conditioned here */
+    double largest;     /* entry of W^-1 U in natural units: how well the partition is conditioned here */
     double reference;   /* the same where it was chosen; 0: just chosen */
 } zd_complement;
 

@@ -47,7 +47,7 @@ static int need_rows(const zd_embedding *self, zd_point *point)
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
 
-/* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there. */
+/* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there, in units of its size. */
 static int factor(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv;
@@ -56,12 +56,12 @@ static int factor(zd_embedding *self, zd_point *point)
     double gradient = 0;
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
-        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]);
-        gradient = fmax(gradient, sum);
+        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]) * point->unit[j];
+        gradient = fmax(gradient, sum * point->per_size[zd_rank_row(point, k)]);
     }
     for (int k = 0; k < self->k; k++)
         for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
-    self->rounding = 16 * 0x1p-52 * gradient * zd_max_abs(self->nq, point->p);
+    self->rounding = 16 * 0x1p-52 * gradient * zd_max_scaled(self->nq, point->p, point->per_unit_p);
     point->culprit = zd_lu_factor(nv, self->K, self->pivots);
     return point->culprit < nv ? ZD_SINGULAR : ZD_DONE;
 }
@@ -81,7 +81,7 @@ static int residual(void *context, double *size)
     zd_point *point = it->point;
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
     if (status) return status;
-    double Phi = it->self->mh ? zd_max_abs(point->system->mh, point->terms.Phi) : 0;
+    double Phi = it->self->mh ? zd_point_violation(point) : 0;
     *size = Phi > 0 ? Phi / it->self->rounding : 0;
     for (int k = 0; k < it->self->k; k++)
         if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
@@ -107,7 +107,7 @@ static int improve(void *context)
 
 static int place_numerically(zd_embedding *self, zd_point *point, double t, const double *q)
 {
-    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS};
+    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL};
     problem it = {self, point, q};
     int iterations;
     double left;
@@ -143,26 +143,28 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
 
 /* ---- the choice of q ---- */
 
-/* Largest entry of the response of the velocities to the rates of q: grows beyond bounds where q ceases to determine p. */
-static double response(zd_embedding *self)
+/* Largest entry of the response of the velocities to the rates of q, in natural units: grows beyond bounds where q ceases to
+ * determine p. */
+static double response(zd_embedding *self, const zd_point *point)
 {
     double largest = 0;
     for (int k = 0; k < self->k; k++) {
         memset(self->delta, 0, (size_t)self->nv * sizeof(double));
         self->delta[self->mh + k] = 1;
         zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
-        largest = fmax(largest, zd_max_abs(self->nv, self->delta));
+        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->per_unit) / point->per_unit_p[self->index[k]]);
     }
     return largest;
 }
 
-/* Rows of A that complete those of C_H, by pivoting. */
+/* Rows of A that complete those of C_H, by pivoting in natural units. */
 static int choose(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = i < mh ? point->C[i * nv + j] : kinematic(point, i - mh, j);
+            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->C[i * nv + j] * point->per_size[zd_rank_row(point, i)]
+                                                                   : kinematic(point, i - mh, j) * point->per_unit_p[i - mh]);
     point->culprit = zd_choose_columns(nv, columns, mh, self->work, self->order);
     if (point->culprit < nv) return ZD_DEPENDENT;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;
@@ -173,7 +175,7 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
 {
     const zd_system *system = point->system;
     *changed = 0;
-    if (self->chosen && (self->embed || !self->mh || response(self) <= WORSE * self->reference)) return ZD_DONE;
+    if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
     int status = need_rows(self, point);
     if (status) return status;
     if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
@@ -181,7 +183,7 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
     if (!status) status = factor(self, point);
     if (status) return status;
     if (self->chosen) point->statistics->repartitions++;
-    self->reference = response(self);
+    self->reference = response(self, point);
     self->chosen = *changed = 1;
     return ZD_DONE;
 }

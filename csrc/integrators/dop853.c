@@ -48,6 +48,7 @@ static const double e3[STAGES + 1] = {
 static const zd_tableau tableau = {STAGES, a, b, c, e5, e3};
 
 const zd_integrator zd_dop853 = {
-    .card = {"dop853", "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.", "Hairer et al., section II.5", 8, 7},
+    .card = {"dop853", "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.", "Hairer et al., section II.5", 8, 7, 5.97},
+    .decay = 6.39,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -20,6 +20,7 @@ static const zd_tableau tableau = {6, a, b, c, e, NULL};
 
 const zd_integrator zd_dormand_prince = {
     .card = {"dormand_prince", "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
-             "Dormand and Prince, 1980", 5, 4},
+             "Dormand and Prince, 1980", 5, 4, 1.7},
+    .decay = 3.307,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -10,6 +10,7 @@ static const double c[] = {0};
 static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
 
 const zd_integrator zd_euler = {
-    .card = {"euler", "Euler's explicit method: for comparison.", "Euler, 1768", 1},
+    .card = {"euler", "Euler's explicit method: for comparison.", "Euler, 1768", 1, 0, 2},
+    .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -11,6 +11,7 @@ static const double c[] = {0, 1};
 static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_heun = {
-    .card = {"heun", "Heun's method: the explicit trapezoidal rule.", "Heun, 1900", 2},
+    .card = {"heun", "Heun's method: the explicit trapezoidal rule.", "Heun, 1900", 2, 0, 2},
+    .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -11,6 +11,7 @@ static const double c[] = {0, 0.5};
 static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_midpoint = {
-    .card = {"midpoint", "The explicit midpoint rule.", "Runge, 1895", 2},
+    .card = {"midpoint", "The explicit midpoint rule.", "Runge, 1895", 2, 0, 2},
+    .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -167,7 +167,7 @@ static int improve(void *context)
 
 static int find_positions(rattle *self)
 {
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS};
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
     zd_run *run = self->run;
     int iterations, status = zd_run_accelerate(run);    /* what is recorded there, and needed for a first w */
     double left;
@@ -247,7 +247,7 @@ static int step_of_run(void *memory, zd_run *run, double h)
 
 const zd_integrator zd_rattle = {
     .card = {"rattle", "Symplectic and symmetric, for long times of holonomic systems: energy errors stay bounded.",
-             "Andersen, 1983; Marsden and West, 2001", 2},
+             "Andersen, 1983; Marsden and West, 2001", 2, 0, 2},
     .suits = suits,
     .take = take,
     .step_of_run = step_of_run,

@@ -13,6 +13,7 @@ static const double c[] = {0, 0.5, 0.5, 1};
 static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
 
 const zd_integrator zd_rk4 = {
-    .card = {"rk4", "The classical explicit Runge-Kutta method.", "section 4", 4},
+    .card = {"rk4", "The classical explicit Runge-Kutta method.", "section 4", 4, 0, 2.785},
+    .decay = 2.785,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -6,9 +6,12 @@
 
 #include "../linalg/small.h"
 
+enum { LOOK_EVERY = 8 };    /* steps between looks at stiffness, where these cost an evaluation */
+
 typedef struct runge_kutta {
     const zd_tableau *tableau;
     int size;
+    int calls;      /* of the error estimate */
     double *k;      /* (stages + 1, size) */
     double *stage;  /* (size,) */
 } runge_kutta;
@@ -60,14 +63,31 @@ static double squares(const runge_kutta *self, const double *weight, const doubl
     return sum;
 }
 
-int zd_runge_kutta_error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm)
+/* The last stage is at t1, too, and not far from y: |f(y) - f(stage)| / |y - stage|, of Hairer, Norsett and Wanner's test for
+ * stiffness, section IV.2 of their second volume. */
+static double lipschitz(const runge_kutta *self, const double *y, const double *scale)
+{
+    const double *of_stage = self->k + (self->tableau->stages - 1) * self->size, *of_y = of_stage + self->size;
+    double rates = 0, states = 0;
+    for (int i = 0; i < self->size; i++) {
+        double rate = (of_y[i] - of_stage[i]) / scale[i], state = (y[i] - self->stage[i]) / scale[i];
+        rates += rate * rate;
+        states += state * state;
+    }
+    return states > 0 ? sqrt(rates / states) : 0;
+}
+
+int zd_runge_kutta_error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                         double *lambda_h)
 {
     runge_kutta *self = memory;
     const zd_tableau *T = self->tableau;
     double *last = self->k + T->stages * self->size;
-    int status = T->e[T->stages] != 0 ? rate->evaluate(rate->context, t1, y, last) : ZD_DONE;
+    int needed = T->e[T->stages] != 0, looking = needed || ++self->calls % LOOK_EVERY == 0;
+    int status = looking ? rate->evaluate(rate->context, t1, y, last) : ZD_DONE;
     if (status) return status;
     double sum = squares(self, T->e, scale), blend = T->e3 ? sum + 0.01 * squares(self, T->e3, scale) : sum;
+    *lambda_h = looking && T->c[T->stages - 1] == 1 ? fabs(h) * lipschitz(self, y, scale) : 0;
     *norm = sum > 0 ? fabs(h) * sum / sqrt(blend * self->size) : sum;       /* with e alone: the root mean square */
     return ZD_DONE;
 }

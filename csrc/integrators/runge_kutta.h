@@ -16,7 +16,8 @@ typedef struct zd_tableau {
 
 void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size);
 int zd_runge_kutta_step(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
-int zd_runge_kutta_error(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm);
+int zd_runge_kutta_error(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                         double *lambda_h);
 
 #define ZD_RUNGE_KUTTA(tableau) \
     .table = &(tableau), .take = zd_runge_kutta_take, .step = zd_runge_kutta_step, .error = zd_runge_kutta_error

@@ -12,7 +12,9 @@
 
 enum { MAX_ITERATIONS = 20 };
 static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */
-static const double ROUNDING = 4 * 0x1p-52;     /* solved when the defect is this small among the terms it is summed from */
+static const double ROUNDING = 4 * 0x1p-52;     /* solved when each defect is this small among the terms it is summed from */
+static const double NEARLY = 1e-12;             /* ... or when it is this small, and only rounding is left */
+static const double STALLED = 0.5;              /* a contraction that only rounding prevents from being better */
 
 typedef struct trapezoidal {
     int size;
@@ -20,13 +22,16 @@ typedef struct trapezoidal {
     double *y1, *f1;    /* (size,) */
     double *g;          /* (size,): the defect, then Newton's step */
     double *varied;     /* (size,): f at a varied y1 */
+    double *scale;      /* (size,): largest terms seen in each equation: these have units of their own */
     double *J;          /* (size, size): I - h/2 df/dy, factored */
+    double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
     int *order;         /* (size,) */
     int factored;
+    double least;           /* increment, in 2^26ths: where some y and f are but rounding, differences need more than these say */
     double factored_h;
     const zd_rate *rate;    /* of the step being solved, as are the next three */
     double t1, h;
-    double before;          /* the last iteration's defect */
+    double defect, before;  /* among its terms, now and an iteration ago */
 } trapezoidal;
 
 static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
@@ -41,6 +46,8 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .f1 = zd_take_doubles(arena, n),
         .g = zd_take_doubles(arena, n),
         .varied = zd_take_doubles(arena, n),
+        .scale = zd_take_doubles(arena, n),
+        .unit = zd_take_doubles(arena, n),
         .J = zd_take_doubles(arena, n * n),
         .order = zd_take(arena, n * sizeof(int)),
     };
@@ -53,25 +60,35 @@ static int rate_at_end(trapezoidal *self, double *f)
 }
 
 /* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
-static double increment(const trapezoidal *self, int i, double largest)
+static double increment(const trapezoidal *self, int i)
 {
-    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), 1e-3 * largest));
+    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), fmax(self->scale[i], self->least)));
     return 0x1p-26 * (size > 0 ? size : 1);
+}
+
+static void choose_units(trapezoidal *self)
+{
+    for (int i = 0; i < self->size; i++) {
+        int exponent = 0;
+        double size = fmax(self->scale[i], self->least);
+        if (size > 0 && size < INFINITY) (void)frexp(size, &exponent);
+        self->unit[i] = ldexp(1, exponent);
+    }
 }
 
 static int factor_matrix(trapezoidal *self)
 {
     int n = self->size;
-    double largest = zd_max_abs(n, self->y1);
+    choose_units(self);
     for (int j = 0; j < n; j++) {
         double here = self->y1[j];
-        self->y1[j] = here + increment(self, j, largest);
+        self->y1[j] = here + increment(self, j);
         double change = self->y1[j] - here;
         int status = rate_at_end(self, self->varied);
         self->y1[j] = here;
         if (status) return status;
         for (int i = 0; i < n; i++)
-            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change;
+            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change * (self->unit[j] / self->unit[i]);
     }
     self->factored = zd_lu_factor(n, self->J, self->order) == n;
     self->factored_h = self->h;
@@ -83,30 +100,49 @@ static int residual(void *context, double *size)
     trapezoidal *self = context;
     int status = rate_at_end(self, self->f1);
     if (status) return status;
-    double scale = 0;
+    double largest = 0, scale = 0;
+    self->defect = 0;
     for (int i = 0; i < self->size; i++) {
         double mean = 0.5 * self->h * (self->f0[i] + self->f1[i]);
-        self->g[i] = self->y1[i] - self->y0[i] - mean;
-        scale = fmax(scale, fabs(self->y0[i]) + fabs(mean));
+        double g = self->g[i] = self->y1[i] - self->y0[i] - mean;
+        self->scale[i] = fmax(self->scale[i], fabs(self->y0[i]) + fabs(mean));
+        if (g != 0) self->defect = fmax(self->defect, fabs(g) / self->scale[i]);
+        if (isnan(g)) self->defect = INFINITY;
+        largest = fmax(largest, fabs(g));
+        scale = fmax(scale, self->scale[i]);
     }
-    double defect = zd_max_abs(self->size, self->g);
-    *size = scale > 0 ? defect / scale : defect;
+    /* What f is summed from may be larger than f: its rounding is then what is left. Where next to nothing is left of f, and of y,
+     * the size of all has to do. */
+    int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
+    *size = !stalled ? self->defect : self->defect < NEARLY ? 0 : largest / scale;
     return ZD_DONE;
 }
 
 static int improve(void *context)
 {
     trapezoidal *self = context;
-    double now = zd_max_abs(self->size, self->g);
+    double now = self->defect;
     int stale = !self->factored || self->factored_h != self->h || now > SLOW * self->before;
     self->before = now;
     if (stale) {
         int status = factor_matrix(self);
         if (status) return status;
     }
+    for (int i = 0; i < self->size; i++) self->g[i] /= self->unit[i];
     zd_lu_solve(self->size, self->J, self->order, self->g);
-    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i];
+    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i] * self->unit[i];
     return ZD_DONE;
+}
+
+static int solve_step(trapezoidal *self, zd_statistics *statistics)
+{
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
+    int iterations;
+    double left;
+    self->before = INFINITY;
+    int status = zd_newton_solve(&newton, self, &iterations, &left);
+    statistics->implicit_iterations += iterations;
+    return status;
 }
 
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
@@ -116,17 +152,19 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     self->rate = rate;
     self->t1 = t + h;
     self->h = h;
-    self->before = INFINITY;
     memcpy(self->y0, y, bytes);
     int status = rate->evaluate(rate->context, t, y, self->f0);
     if (status) return status;
     for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
 
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS};
-    int iterations;
-    double left;
-    status = zd_newton_solve(&newton, self, &iterations, &left);
-    statistics->implicit_iterations += iterations;
+    self->least = 0;
+    status = solve_step(self, statistics);
+    if (status == ZD_NO_CONVERGENCE || status == ZD_NO_STEP) {
+        self->factored = 0;
+        self->least = 1e-3 * zd_max_abs(self->size, y);
+        for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
+        status = solve_step(self, statistics);
+    }
     if (status) return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
     memcpy(y, self->y1, bytes);
     return ZD_DONE;

@@ -14,6 +14,7 @@ from .checking import check
 from .custom import System
 from .errors import (
     Bifurcation,
+    BranchJump,
     CacheWarning,
     CompilationFailed,
     CorrectionFailed,
@@ -23,6 +24,7 @@ from .errors import (
     Interrupted,
     NoCompilerWarning,
     SingularSystem,
+    StabilityWarning,
     StaleCore,
     StepFailed,
     UnreachableTolerance,
@@ -37,13 +39,12 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "Bifurcation", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning", "Diverged",
-    "EnergyCorrection",
-    "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StaleCore",
-    "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration",
-    "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "native",
-    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
-    "work_precision",
+    "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning",
+    "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem",
+    "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation",
+    "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
+    "from_mechanics", "get_include", "integrators", "load", "models", "native", "numba_signature", "plot", "project",
+    "reference", "simulate", "stability_map", "symbolic", "systems", "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
     "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
@@ -53,8 +54,8 @@ _LATER = {      # imported at first use
 
 
 def __getattr__(name: str) -> Any:
-    if name == "plot":      # matplotlib is imported when something is drawn
-        return importlib.import_module(".plot", __name__)
+    if name in ("models", "plot"):      # SymPy and matplotlib are imported when they are used
+        return importlib.import_module(f".{name}", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

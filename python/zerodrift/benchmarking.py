@@ -15,14 +15,14 @@ import numpy as np
 from . import _check, _gateway, certified, settings
 from ._system import BaseSystem
 from .compare import states_of
-from .errors import CorrectionWarning, Interrupted
-from .simulation import progress_of, simulate
+from .errors import CorrectionWarning, Interrupted, StabilityWarning
+from .simulation import doubts, progress_of, simulate
 from .solution import Solution
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
 STEPS = tuple(2.0**-k for k in range(-2, 5))        # those multiples
 TOLERANCES = tuple(10.0**-k for k in range(3, 12))
-MEASURED = 200      # rows of a run at which its error is measured, at most; a reference between its rows takes time
+MEASURED = 200      # times at which errors are measured, at most
 
 
 class Setting(NamedTuple):
@@ -63,7 +63,8 @@ class Row(NamedTuple):
     steps, evaluations : int
         Counts of the core.
     error : float
-        ``max |p - p_ref|`` over all coordinates and up to 200 rows of the run, the last among them.
+        ``max |p - p_ref|`` over all coordinates and up to 200 times, the same for all runs and the end among them: what a run
+        gives there with ``t_eval``.
     position_violation, velocity_violation, energy_violation : float
         The largest of all rows.
     """
@@ -206,8 +207,7 @@ def work_precision(
     stabilizations, energy : iterable, optional
         Values of `stabilization` and `energy` as `simulate` takes them. Left out: projection, and no energy correction.
     reference : Reference, Solution or callable, optional
-        What errors are measured against; left out: the best that `reference` certifies. A Solution must have the times of
-        all runs.
+        What errors are measured against; left out: the best that `reference` certifies. Errors are measured at its times.
     progress : bool or callable
         As in `simulate`.
     rounds : int
@@ -255,9 +255,10 @@ class Bench:
     """A motion, and the reference against which runs of it are measured."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any) -> None:
-        self.system, self.span, self.start, self.reference = system, span, (p0, v0), reference
+        self.system, self.span, self.start = system, span, (p0, v0)
         self.known = reference.error if isinstance(reference, certified.Reference) else np.nan
-        self._exact: dict[bytes, np.ndarray] = {}       # fixed steps of several methods ask for the same times
+        self._times = _times(reference, span)
+        self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
 
     def measure(self, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:
         """All combinations, `rounds` times in turn."""
@@ -276,31 +277,43 @@ class Bench:
 
     def _row(self, setting: Setting, before: Row | None) -> Row:
         """A run measured; if it was before, only its time."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", CorrectionWarning)      # it is the row's message
-            solution = simulate(self.system, self.span, *self.start, **setting.settings, on_failure="return")
-        if solution.status == _gateway.INTERRUPTED:
-            raise KeyboardInterrupt
+        solution = self._run(setting)
         if before:
             return before._replace(seconds=min(before.seconds, solution.stats["seconds"]))
         return Row(setting, solution.success, _message(solution), solution.stats["seconds"], solution.stats["steps"],
-                   solution.stats["evaluations"], self._error(solution),
+                   solution.stats["evaluations"], self._error(setting) if solution.success else np.nan,
                    *map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation)))
 
-    def _error(self, solution: Solution) -> float:
-        """Of a run that reached its end."""
-        if not solution.success:
-            return np.nan
-        chosen = np.unique(np.linspace(0, len(solution.t) - 1, MEASURED).round().astype(int))
-        times, nq = solution.t[chosen], self.system.nq
-        if times.tobytes() not in self._exact:
-            self._exact[times.tobytes()] = states_of(self.reference, times, nq)[:, :nq]
-        return _largest(solution.p[chosen] - self._exact[times.tobytes()])
+    def _error(self, setting: Setting) -> float:
+        """The same steps again, and at the times of the reference what they say there."""
+        solution = self._run(setting, t_eval=self._times)
+        return _largest(solution.p - self._exact) if solution.success else np.nan
+
+    def _run(self, setting: Setting, **saved: Any) -> Solution:
+        with warnings.catch_warnings():
+            for category in (CorrectionWarning, StabilityWarning):      # they are the row's message
+                warnings.simplefilter("ignore", category)
+            solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, on_failure="return")
+        if solution.status == _gateway.INTERRUPTED:
+            raise KeyboardInterrupt
+        return solution
+
+
+def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
+    """Rows of the reference, if it has any: between them it takes time, or knows nothing."""
+    solution = reference.solution if isinstance(reference, certified.Reference) else reference
+    if not isinstance(solution, Solution):
+        return np.linspace(*span, MEASURED)
+    times = solution.t[(solution.t >= span[0]) & (solution.t <= span[1])]
+    if not len(times):
+        raise ValueError(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
+    return times[np.unique(np.linspace(0, len(times) - 1, MEASURED).round().astype(int))]
 
 
 def _message(solution: Solution) -> str:
     skipped = solution.stats["energy_skipped"]
-    return solution.message + (f"; {skipped} energy corrections left out" if skipped else "")
+    doubted = [sentence for category, sentence in doubts(solution) if category is StabilityWarning]
+    return "; ".join([solution.message, *([f"{skipped} energy corrections left out"] if skipped else []), *doubted])
 
 
 def _largest(values: np.ndarray | None) -> float:

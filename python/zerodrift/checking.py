@@ -102,14 +102,13 @@ class _State:
         """A v, (1)."""
         return v if self.terms.A is None else self.terms.A @ v
 
-    def along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, vdot: Any = 0.0, tdot: float = 0.0) -> Any:
-        """The derivative of quantity(terms, v) in the direction (tdot, pdot, vdot)."""
-        size = max(np.abs(pdot).max(initial=0.0), np.abs(vdot).max(initial=0.0), abs(tdot), 1e-300)
+    def along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, tdot: float = 0.0) -> Any:
+        """The derivative of quantity(terms, v) in the direction (tdot, pdot)."""
+        size = max(np.abs(pdot).max(initial=0.0), abs(tdot), 1e-300)
         h = STEP / size * max(1.0, np.abs(self.p).max(initial=0.0))
         ends = []
         for s in (h, -h):
-            v = self.v + s * vdot
-            ends.append(np.array(quantity(self.system.evaluate(self.p + s * pdot, v, self.t + s * tdot), v)))
+            ends.append(np.array(quantity(self.system.evaluate(self.p + s * pdot, self.v, self.t + s * tdot), self.v)))
         return (ends[0] - ends[1]) / (2 * h)
 
 
@@ -216,7 +215,7 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
     given = 0.0 if terms.power is None else float(terms.power)
     moving = 0.0 if terms.Phi_t is None else float(multipliers @ terms.Phi_t)
     reaction = float(-multipliers @ (terms.C @ v)) if terms.C is not None else 0.0      # as v may be off the constraints
-    rate = float(state.along(lambda at, v: 0.5 * v @ at.M @ v + at.V, pdot=state.pdot, vdot=vdot, tdot=1.0))
+    rate = float(state.along(lambda at, v: 0.5 * v @ at.M @ v + at.V, pdot=state.pdot, tdot=1.0) + v @ terms.M @ vdot)
     scale = max(abs(float(v @ f)), abs(float(v @ d)), abs(given), abs(moving), abs(reaction), 1e-3)
     if abs(rate - given - reaction) <= AGREE * scale:
         yield "balance of power", ""

@@ -27,6 +27,10 @@ class System(BaseSystem):
     ----------
     coordinates : int or sequence of str
         How many coordinates there are, or their names.
+    units : sequence of str
+        The unit of each coordinate; where `kinematics` is given, of each velocity, too. What is no pure number (``""``,
+        ``"rad"``) is taken for a length: tolerances then mean the same in any unit, see `Projection`. Left out: all are
+        pure numbers.
     mass : callable or array_like -> (nv, nv)
         M of (2): symmetric and positive definite; for formulations other than "schur" it may be singular where the constraints
         hold what has no mass. Its size says how many velocities there are.
@@ -85,7 +89,8 @@ class System(BaseSystem):
     def __init__(
         self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
         jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None, potential: Any = None,
-        power: Any = None, parameters: dict[str, Any] | None = None, p0: Any = None, v0: Any = None, name: str | None = None,
+        power: Any = None, units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: Any = None,
+        v0: Any = None, name: str | None = None,
     ) -> None:
         self._given = {key: value for key, value in locals().items() if key not in ("self", "__class__")}
         self.name = name or "system"
@@ -97,10 +102,11 @@ class System(BaseSystem):
             raise ValueError("jacobian is given without constraints")
         sizes = _sizes(len(names), functions, self.p0)
         writer = _Writer(functions, *sizes)
-        self._core = _gateway.PythonCore(sizes, writer.provides, writer)
-        rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(self.nv)]
-        self.coordinates, self.velocities = _variables(names), _variables(rates)
-        self.constraints = _variables([f"constraint{i}" for i in range(self.m)])
+        rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
+        self.coordinates, self.velocities = _with_units(names, rates, units, kinematics is None)
+        self._core = _gateway.PythonCore(sizes, writer.provides, writer, *([variable.unit for variable in group]
+                                                                         for group in (self.coordinates, self.velocities)))
+        self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
 
     def with_parameters(self, **changed: Any) -> System:
@@ -127,8 +133,15 @@ def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
     return kind(**given)
 
 
-def _variables(names: Sequence[str]) -> tuple[Variable, ...]:
-    return tuple(Variable(name, "") for name in names)
+def _with_units(names, rates, units, are_rates) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
+    """Coordinates and velocities; where the latter are the rates of the former, so are their units."""
+    size = len(names) if are_rates else len(names) + len(rates)
+    given = [""] * size if units is None else units
+    if isinstance(given, str) or len(given) != size or not all(isinstance(unit, str) for unit in given):
+        raise ValueError(f"units must be {size} strings, one for each coordinate"
+                         f"{'' if are_rates else ' and each velocity'}, not {units!r}")
+    own = given[len(names):] if not are_rates else [f"{unit}/s" if unit else "" for unit in given]
+    return tuple(map(Variable, names, given)), tuple(map(Variable, rates, own))
 
 
 # ---- the callables ----

@@ -53,6 +53,10 @@ class CorrectionFailed(ZerodriftError):
     """A correction did not reach its tolerance."""
 
 
+class BranchJump(CorrectionFailed):
+    """A step ended where its velocities do not lead, as on another assembly branch: it was far too long."""
+
+
 class StepFailed(ZerodriftError):
     """The equations of an implicit step were not solved."""
 
@@ -62,7 +66,11 @@ class StaleCore(ZerodriftError, ImportError):
 
 
 class CorrectionWarning(UserWarning):
-    """Some corrections were left out because they had no bounded solution; they are counted in `Solution.stats`."""
+    """Some corrections were left out because they had no bounded solution; `Solution.energy_skipped` says where."""
+
+
+class StabilityWarning(UserWarning):
+    """Steps were longer than the integrator is stable for, or stability rather than accuracy held them down."""
 
 
 class Interrupted(KeyboardInterrupt):

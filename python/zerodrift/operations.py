@@ -31,7 +31,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     t : float
         Time in s, for constraints that depend on it.
     tol : float
-        Of ``|Phi|``.
+        Of ``|Phi|`` in units of its size, as in `Projection`.
     max_iterations : int
         At most so many.
 

@@ -29,8 +29,8 @@ from .stability import StabilityMap
 __all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
            "violation", "work_precision"]
 
-# Okabe and Ito's colours, told apart with any colour vision; dark ones first.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
+# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last is Tol's wine, as integrators are eight.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255")
 MARKERS = "os^Dv<>pPX*"
 
 

@@ -22,9 +22,12 @@ class Projection:
     Parameters
     ----------
     tol : float
-        Positions are iterated until every ``|Phi|`` is at most this, in the units of Phi.
+        Positions are iterated until every ``|Phi|`` is at most this, in units of its size `Solution.position_size`: the largest
+        ``|C_ki|`` times one radian of an angle or the mechanism's own length, at the start. So it means the same in any
+        unit; it is as if coordinates were off by so many rad or parts of that length.
     max_iterations : int
-        At most so many; a correction that needs more is an error.
+        At most so many. A correction that needs more is tried again with shortened iterations, then with the step in up to
+        eight parts (or shorter, where steps are chosen), all counted in `Solution.stats`; if none helps, it is an error.
     every : int
         Steps between corrections; the last step is always corrected.
     metric : {"mass", "identity"}
@@ -166,7 +169,10 @@ def formulations() -> dict[str, _gateway.Card]:
 
 
 def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
-    """The integrators there are, by name, or those that can take a system; `order` is the order of the method.
+    """The integrators there are, by name, or those that can take a system.
+
+    `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
+    grow, 0 where there is none.
 
     Examples
     --------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,12 +14,13 @@ from . import _check, _gateway, settings
 from . import events as _events
 from ._keyboard import Keyboard
 from ._system import BaseSystem, core_of
-from .errors import CorrectionWarning, Interrupted
+from .errors import CorrectionWarning, Interrupted, StabilityWarning
 from .solution import Solution
 
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
 FIRST_BLOCK = 1024  # rows, where it is not known how many there will be
 DEFAULT_CONTROL = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}
+WORTHLESS = 0.5     # part of the energy that is numerical
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, estimates are round-off
 
 
@@ -60,7 +61,7 @@ def simulate(
         chooses its steps by its error estimate, if it has one.
     rtol, atol : float, optional
         Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
-        at most one. Left out: 1e-6 and 1e-9.
+        at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y: of all tolerances it alone depends on them.
     first_step, max_step : float, optional
         Where steps are chosen: the first, and the largest, in s.
     t_eval : array_like (k,), optional
@@ -253,6 +254,7 @@ def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
+        energy_skipped=arrays["energy_skipped"], position_size=run.sizes,
         stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
         system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
@@ -267,10 +269,47 @@ def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solutio
         raise _carrying(outcome.error, solution)
     if on_failure == "raise" and not solution.success:
         _raise(run, solution)
-    if skipped := solution.stats["energy_skipped"]:
-        warnings.warn(f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning point the "
-                      "kinetic energy is too small for them", CorrectionWarning, stacklevel=3)
+    _warn(solution)
     return solution
+
+
+def _warn(solution: Solution) -> None:
+    """Of what was off but stopped nothing."""
+    for category, sentence in doubts(solution):
+        warnings.warn(sentence, category, stacklevel=4)
+
+
+def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    """What was off in a run but did not stop it: warnings and their sentences."""
+    stats, integrator = solution.stats, solution.settings["integrator"]
+    steps = stats["steps"]
+    if skipped := stats["energy_skipped"]:
+        yield CorrectionWarning, (f"{skipped} of {steps} energy corrections were left out: near a turning point the kinetic "
+                                  "energy is too small for them; sol.energy_skipped says where")
+    if not solution.success:
+        return
+    if too_long := stats["too_long"]:
+        stable = settings.integrators()[integrator].stability
+        what = f"is stable for ({stable:g})" if stable else "resolves: what moves so fast is stable, but wrong"
+        yield StabilityWarning, (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
+                                 f"than {integrator!r} {what}; take shorter ones{', or an implicit method' if stable else ''}")
+    if stats["stiff"]:
+        yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
+                                 f"of its {steps} steps; an implicit method takes longer ones")
+    if (part := _numerical_energy(solution)) > WORTHLESS:
+        yield StabilityWarning, (f"the energy is off by {part:.3g} of its largest: the motion is more numerical than mechanical; "
+                                 "take shorter steps, or a method of higher order")
+
+
+def _numerical_energy(solution: Solution) -> float:
+    """The largest error of the energy balance, of the largest energy there was."""
+    if solution.energy_violation is None or not len(solution.t):
+        return 0.0
+    energy, error = (solution.kinetic_energy + np.abs(solution.potential_energy)).max(), np.abs(solution.energy_violation).max()
+    energy = max(energy, solution.stats["largest_kinetic"])      # the rows may all be at turning points
+    if not np.isfinite(energy):
+        return np.inf
+    return float(error / energy) if energy > 0 else 0.0
 
 
 def _where(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:

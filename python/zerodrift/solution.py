@@ -40,9 +40,15 @@ class Solution:
         V, the integral of the energy input rate, and Psi_E of (28), in J; None where the system declares no potential.
     iterations : ndarray (k,)
         Most position iterations of a step since the row before.
+    energy_skipped : ndarray (k,)
+        Energy corrections since the row before that were left out: no bounded factor (29) would have removed the error.
+    position_size : ndarray (mh,)
+        The size of each row of Phi, in which `Projection` measures it.
     stats : dict
-        Counts (steps, evaluations, factorizations, ...) and `seconds`, the time spent in the core. Of the constraints, `rank` are
-        independent, `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while.
+        Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
+        product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
+        `largest_kinetic`, in J, are looked at every few steps. Of the constraints, `rank` are independent, `redundant` lists rows
+        that follow from the others, and in `rank_drops` steps the rank was less for a while.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -72,6 +78,8 @@ class Solution:
     energy_input: np.ndarray | None
     energy_violation: np.ndarray | None
     iterations: np.ndarray
+    energy_skipped: np.ndarray
+    position_size: np.ndarray
     stats: dict[str, Any]
     status: int
     success: bool

@@ -30,8 +30,9 @@ static int row_named(enum zd_table table, const char *name)
 static double core_run(const zd_system *system, int formulation, long save_every, const double *p, const double *v, double *seconds)
 {
     static double t[STEPS + 1], rows[9][3 * (STEPS + 1)];
-    static int iterations[STEPS + 1];
-    zd_record record = {STEPS + 1, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], iterations};
+    static int counts[2][STEPS + 1];
+    zd_record record = {STEPS + 1, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8],
+                        counts[0], counts[1]};
     zd_settings settings = {
         .formulation = formulation,
         .integrator = row_named(ZD_INTEGRATORS, "rk4"),

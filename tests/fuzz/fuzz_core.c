@@ -157,6 +157,53 @@ static int make_kind(input *in, int row, zd_system *system, double *constants, d
     return 1;
 }
 
+/* ---- events: a coordinate, a velocity, the time or nothing passes a value ---- */
+
+typedef struct events {
+    zd_events core;
+    int direction[SIZES], terminal[SIZES], what[SIZES], found[SIZES];
+    double value[SIZES], last[SIZES], t0, t1;
+    int calls;          /* until one fails; below 0: none does */
+} events;
+
+static int value_of_event(void *data, int event, double t, const double *p, const double *v, double *value)
+{
+    events *self = data;
+    if (self->calls-- == 0) return ZD_CALLBACK;
+    *value = (self->what[event] == 0 ? p[0] : self->what[event] == 1 ? v[0] : self->what[event] == 2 ? t : 0) - self->value[event];
+    return ZD_DONE;
+}
+
+static int found_event(void *data, int event, double t, const double *p, const double *v)
+{
+    events *self = data;
+    EXPECT(t > self->last[event] && t > self->t0 && t <= self->t1);
+    EXPECT(isfinite(p[0]) && isfinite(v[0]));
+    EXPECT(!self->terminal[event] || self->found[event] < self->terminal[event]);
+    self->last[event] = t;
+    self->found[event]++;
+    return ZD_DONE;
+}
+
+static void make_events(input *in, events *self, const zd_settings *settings)
+{
+    memset(self, 0, sizeof *self);
+    self->t0 = settings->t0, self->t1 = settings->t1;
+    self->calls = below(in, 4) ? -1 : (int)byte(in);
+    self->core = (zd_events){below(in, 4), self->direction, self->terminal, self, value_of_event, found_event};
+    for (int i = 0; i < SIZES; i++) {
+        self->what[i] = below(in, 4);
+        self->direction[i] = below(in, 3) - 1;
+        self->terminal[i] = below(in, 4) ? 0 : below(in, 3);
+        self->value[i] = below(in, 4) ? (byte(in) - 128.0) / 256 : number(in);
+        self->last[i] = -INFINITY;
+    }
+    if (below(in, 32) == 0) self->core.count = whole(in);
+    if (below(in, 32) == 0) self->core.evaluate = NULL;
+    if (below(in, 32) == 0) self->core.direction = NULL;
+    if (self->core.count > SIZES && self->core.count < INT_MAX) self->core.count = SIZES;
+}
+
 /* ---- settings ---- */
 
 static zd_settings make_settings(input *in, double *times)
@@ -205,6 +252,7 @@ static zd_record make_record(const zd_system *system, long capacity)
         .potential = energy ? doubles(capacity) : NULL, .input = energy ? doubles(capacity) : NULL,
         .energy_violation = energy ? doubles(capacity) : NULL,
         .iterations = malloc((size_t)(capacity + 1) * sizeof(int)),
+        .energy_skipped = malloc((size_t)(capacity + 1) * sizeof(int)),
     };
     return record;
 }
@@ -215,6 +263,7 @@ static void free_record(zd_record *record)
                      record->kinetic, record->potential, record->input, record->energy_violation};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) free(all[i]);
     free(record->iterations);
+    free(record->energy_skipped);
 }
 
 static int are_finite(const double *x, long n)
@@ -224,8 +273,9 @@ static int are_finite(const double *x, long n)
     return 1;
 }
 
-static void check_rows(const zd_system *system, const zd_settings *settings, const zd_record *record, double *last)
+static void check_rows(const zd_system *system, const zd_settings *settings, const double *sizes, const zd_record *record, double *last)
 {
+    const double rounding = 1 + 0x1p-51;        /* of the division by the size */
     const zd_projection *projection = &settings->projection;
     int corrected = projection->every == 1 && projection->positions && strcmp(zd_row(ZD_FORMULATIONS, settings->formulation)->name, "independent");
     EXPECT(record->rows <= record->capacity);
@@ -235,7 +285,7 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);
         *last = record->t[row];
         for (int k = 0; corrected && *last > settings->t0 && k < system->mh; k++)
-            EXPECT(fabs(record->position_violation[row * system->mh + k]) <= projection->tolerance);
+            EXPECT(fabs(record->position_violation[row * system->mh + k]) <= projection->tolerance * sizes[k] * rounding);
     }
 }
 
@@ -248,11 +298,11 @@ static void simulate(input *in, const zd_system *system, const zd_settings *sett
     if (!run) return;
     double last = -INFINITY, progress = 0;
     status = ZD_PAUSED;
-    for (int call = 0; call < CALLS && status > 0; call++) {
-        zd_record record = make_record(system, below(in, 12) + (settings->t_eval && below(in, 4) ? TIMES : 0));
+    for (int call = 0; call < CALLS && (status == ZD_PAUSED || status == ZD_FULL); call++) {
+        zd_record record = make_record(system, below(in, 12) + (settings->t_eval && below(in, 4) ? TIMES + 1 : 0));
         status = zd_run_advance(run, &record, 0);
-        EXPECT(status <= ZD_FULL && (status >= 0) == (zd_run_message(run)[0] == '\0'));
-        check_rows(system, settings, &record, &last);
+        EXPECT((status <= ZD_FULL || (status == ZD_EVENT && settings->events)) && (status < 0 || status == ZD_EVENT) == (zd_run_message(run)[0] != '\0'));
+        check_rows(system, settings, zd_run_sizes(run), &record, &last);
         free_record(&record);
         double now = zd_run_progress(run);
         EXPECT(status < 0 || (now >= progress && now <= 1));
@@ -301,6 +351,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         system = made.system;
     }
     zd_settings settings = make_settings(&in, times);
+    events watched;
+    if (below(&in, 3) == 0) make_events(&in, &watched, &settings), settings.events = &watched.core;
     if (below(&in, 2)) spoil(&in, p, SIZES);
     if (below(&in, 2)) spoil(&in, v, SIZES);
     if (below(&in, 2)) simulate(&in, &system, &settings, p, v);

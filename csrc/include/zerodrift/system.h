@@ -24,7 +24,7 @@
 #define ZERODRIFT_SYSTEM_H
 
 /* Changes whenever something below does that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 1 };
+enum { ZD_INTERFACE_VERSION = 2 };
 
 /* ---- statuses: 0 done; positive: stopped early, what was recorded is valid; negative: failed ---- */
 
@@ -50,8 +50,9 @@ enum zd_status {
     ZD_UNSUITED = -15,        /* the formulation cannot take this system */
     ZD_BAD_TERM = -16,        /* a term of the system is not finite where the state is */
     ZD_UNSUITED_INTEGRATOR = -17,   /* the integrator cannot take this system */
-    ZD_BIFURCATION = -18,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
-    ZD_CONTRADICTION = -19    /* constraints that follow from others ask for something else */
+    ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
+    ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
+    ZD_CONTRADICTION = -20    /* constraints that follow from others ask for something else */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -102,6 +103,8 @@ typedef struct zd_system {
     const void *data;   /* its parameters, or whatever it wants to be handed */
     zd_embed *embed;    /* may be NULL: then g is found numerically */
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
+    const int *lengths;     /* (nq + nv,): which entries of p are lengths, and of v lengths per time; NULL: none, all are pure
+                             * numbers such as angles */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
 } zd_system;
 
@@ -113,6 +116,7 @@ typedef struct zd_card {
     const char *equations;   /* "(8), (25)" */
     int order;               /* of an integrator; else 0 */
     int error_order;         /* of its error estimate; 0: there is none, and steps are of fixed size */
+    double stability;        /* the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none */
 } zd_card;
 
 enum zd_rule { ZD_ANY, ZD_POSITIVE, ZD_NOT_NEGATIVE, ZD_CHOICE };

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,6 +25,7 @@ ERRORS = {
     lib.ZD_CONTRADICTION: errors.SingularSystem,
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
+    lib.ZD_BRANCH: errors.BranchJump,
     lib.ZD_NO_STEP: errors.StepFailed,
     lib.ZD_NO_EMBEDDING: errors.StepFailed,
     lib.ZD_TINY_STEP: errors.StepFailed,
@@ -53,6 +55,7 @@ class Card(NamedTuple):
     equations: str
     order: int
     error_order: int
+    stability: float
 
 
 class Variable(NamedTuple):
@@ -71,6 +74,15 @@ class Parameter(NamedTuple):
     size: int
     rule: str
     initial: tuple[float, ...] | None
+
+
+PURE = ("", "1", "rad", "deg")
+
+
+def lengths(units: Iterable[str], rates: Iterable[str]) -> Any:
+    """`zd_system.lengths` from the units of coordinates and velocities: what is no pure number, or its rate, is a length."""
+    kinds = [*units, *(unit.removesuffix("/s") if unit != "1/s" else "" for unit in rates)]
+    return ffi.new("int[]", [unit not in PURE for unit in kinds])
 
 
 RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}
@@ -111,7 +123,7 @@ def cards(table: str) -> tuple[Card, ...]:
 
 def card_of(c: Any) -> Card:
     """A `zd_card`."""
-    return Card(text(c.name), text(c.summary), text(c.equations), c.order, c.error_order)
+    return Card(text(c.name), text(c.summary), text(c.equations), c.order, c.error_order, c.stability)
 
 
 def error_of(status: int, message: str) -> Exception:

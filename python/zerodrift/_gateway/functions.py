@@ -85,27 +85,31 @@ def check_version(version: Any, what: str, *, required: bool = False) -> None:
 
 # ---- libraries ----
 
-_loaded: dict[Path, str] = {}     # digest of what each path held when it was loaded from there
+_loaded: dict[str, ctypes.CDLL] = {}    # by digest
 
 
 def load_library(path: str | Path) -> ctypes.CDLL:
-    """A shared library as it is on disk now.
+    """A shared library as it is on disk now; OSError where it is none.
 
-    The system's loader gives back what it loaded before from the same path, whatever the file holds meanwhile: a file that has
-    changed since is loaded from a copy.
+    It is loaded from a copy: from the same path, the system's loader gives back what it loaded before, whatever the file holds
+    meanwhile; and who overwrites a file that is loaded takes its memory away.
     """
     path = Path(path).resolve()
     digest = digest_of(path)
-    try:
-        if _loaded.setdefault(path, digest) == digest:
-            return ctypes.CDLL(str(path))
-        import shutil  # rarely needed, and slow to import
-        import tempfile
+    if digest not in _loaded:
+        _loaded[digest] = _load_copy(path)
+    return _loaded[digest]
 
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            return ctypes.CDLL(str(shutil.copy(path, Path(folder) / f"{digest[:16]}-{path.name}")))
-    except OSError as error:
-        raise ValueError(f"{path} is no shared library that can be loaded here: {error}") from None
+
+def _load_copy(path: Path) -> ctypes.CDLL:
+    import shutil  # both are slow to import
+    import tempfile
+
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        try:
+            return ctypes.CDLL(str(shutil.copy(path, folder)))
+        except OSError:     # it may look for others beside it, or nothing be executed from that folder
+            return ctypes.CDLL(str(path))
 
 
 def digest_of(path: Path) -> str:
@@ -116,11 +120,8 @@ def digest_of(path: Path) -> str:
 
 
 def address_of(library: ctypes.CDLL, symbol: str) -> int:
-    """Where a symbol of a library is."""
-    try:
-        return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
-    except ValueError:
-        raise ValueError(f"{library._name} has no symbol {symbol!r}") from None
+    """Where a symbol of a library is; ValueError where there is none."""
+    return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
 
 
 def in_library(path: str | Path, symbol: Any) -> Function:
@@ -128,14 +129,22 @@ def in_library(path: str | Path, symbol: Any) -> Function:
     if not isinstance(symbol, str) or not symbol:
         raise TypeError(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}")
     path = Path(path).resolve()
-    digest, library = digest_of(path), load_library(path)
+    digest = digest_of(path)
+    try:
+        library = load_library(path)
+    except OSError as error:
+        raise ValueError(f"{path} is no shared library that can be loaded here: {error}") from None
     try:
         version = ctypes.c_int.in_dll(library, "zd_interface_version").value
     except ValueError:
         raise ValueError(f"{path} does not say its version of the interface: it needs the line "
                          "`const int zd_interface_version = ZD_INTERFACE_VERSION;`") from None
     check_version(version, f"zd_interface_version of {path}")
-    return Function(address_of(library, symbol), library, InLibrary(str(path), symbol, digest))
+    try:
+        address = address_of(library, symbol)
+    except ValueError:
+        raise ValueError(f"{path} has no symbol {symbol!r}") from None
+    return Function(address, library, InLibrary(str(path), symbol, digest))
 
 
 def _unchanged(there: InLibrary) -> Function:

@@ -27,6 +27,7 @@ def count_steps(t0: float, t1: float, step: float) -> int:
     return int(lib.zd_count_steps(t0, t1, step))
 
 
+COUNTS = ("iterations", "energy_skipped")     # the integers of a row
 STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
 
 
@@ -46,12 +47,12 @@ class Record:
             for name, shape in self._shapes.items():
                 array = np.empty((capacity, *shape))
                 columns[name] = array, doubles(array, array.size, writable=True)
-            iterations = np.empty(capacity, dtype=np.intc)
+            counts = {name: np.empty(capacity, dtype=np.intc) for name in COUNTS}
         except (MemoryError, ValueError):
             columns.clear()     # the traceback keeps this frame, but what it took is needed
             size = capacity * (sum(map(math.prod, self._shapes.values())) + 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
-        columns["iterations"] = iterations, ffi.from_buffer("int[]", iterations, require_writable=True)
+        columns |= {name: (array, ffi.from_buffer("int[]", array, require_writable=True)) for name, array in counts.items()}
         self.c = ffi.new("zd_record *", {name: memory for name, (_, memory) in columns.items()})
         self.c.capacity = capacity
         self._blocks.append((self.c, columns))
@@ -62,7 +63,7 @@ class Record:
 
     def take(self) -> dict[str, np.ndarray]:
         """The rows written so far. Several blocks are joined column by column and let go, as memory may be short."""
-        return {name: self._joined(name) for name in (*self._shapes, "iterations")}
+        return {name: self._joined(name) for name in (*self._shapes, *COUNTS)}
 
     def _joined(self, name: str) -> np.ndarray:
         parts = [columns[name][0][: c.rows] for c, columns in self._blocks]
@@ -115,10 +116,16 @@ class Run:
         return list(rows[0:lib.zd_run_redundant(self._run, rows)])
 
     @property
-    def statistics(self) -> dict[str, int]:
-        """Counts of what the run did."""
+    def statistics(self) -> dict[str, Any]:
+        """Counts of what the run did, and its largest omega h."""
         c = lib.zd_run_statistics(self._run)
-        return {name: getattr(c, name) for name in STATISTICS}
+        return {name: getattr(c, name) for name in STATISTICS} | {
+            "omega_h": lib.zd_run_omega_h(self._run), "largest_kinetic": lib.zd_run_kinetic(self._run)}
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """The sizes of the rows of Phi (mh,)."""
+        return np.array(ffi.unpack(lib.zd_run_sizes(self._run), self._core.mh) if self._core.mh else [], dtype=float)
 
 
 def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:

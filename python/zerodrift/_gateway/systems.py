@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import RULES, TERMS, Parameter, Variable, card_of, doubles, error_of, text
+from .base import RULES, TERMS, Parameter, Variable, card_of, doubles, error_of, lengths, text
 
 
 class Kind:
@@ -39,9 +39,10 @@ class Kind:
             raise ValueError(f"{self.card.name}: {text(reason)}")
         system = ffi.new("zd_system *", self.c.system)
         system.data = constants
+        system.lengths = dimensions = lengths((c.unit for c in self.coordinates), (v.unit for v in self.velocities))
         p0, v0 = np.empty(system.nq), np.empty(system.nv)
         self.c.start(given, doubles(p0, system.nq, writable=True), doubles(v0, system.nv, writable=True))
-        return CoreSystem(system, constants), p0, v0
+        return CoreSystem(system, (constants, dimensions)), p0, v0
 
     def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray | None:
         """The drawing at p: points (n, dimension) to be joined by lines; None where there is none."""

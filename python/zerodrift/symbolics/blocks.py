@@ -13,6 +13,7 @@ from .graph import FIXED, PLACED
 from .lowering import SIMPLE, Lowering
 
 Terms = frozenset[str]
+GROUPS = 31     # that are kept: one bit each says which of them are computed; further ones are not kept
 
 
 @dataclass
@@ -53,9 +54,11 @@ class Blocks:
             kind = "own" if len(terms) == 1 else "kept" if operation.stage == PLACED else "shared"
             self.home[number] = (kind, terms)
             groups.setdefault((kind, terms), Block(terms)).operations.append(number)
-        self.kept, self.shared, self.own = (
+        kept, shared, self.own = (
             sorted((block for (kind, _), block in groups.items() if kind == which), key=lambda block: -len(block.terms))
             for which in ("kept", "shared", "own"))
+        self.kept = kept[:GROUPS]
+        self.shared = sorted([*kept[GROUPS:], *shared], key=lambda block: -len(block.terms))
         self.stored = self._stored()
 
     def _users(self) -> list[Terms]:

@@ -60,11 +60,15 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> 
         return None
     note = _note(source, command)
     digest = read(note, str)
-    if digest is None or not _intact(library_path(digest), digest):
+    path = None if digest is None else _intact(f"{digest}.so", digest)
+    if path is None:
         progress("compiling")
-        digest = _build(source, command)
+        digest, path = _build(source, command)
         write(note, digest)
-    return _gateway.load_library(library_path(digest))
+    try:
+        return _gateway.load_library(path)
+    except OSError:     # from some folders nothing is executed
+        return _gateway.load_library(_put(Path(_temporary().name), path.name, path.read_bytes()))
 
 
 def _note(source: str, command: list[str]) -> str:
@@ -81,8 +85,8 @@ def digest_of(*parts: Any) -> str:
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
 
 
-def _build(source: str, command: list[str]) -> str:
-    """Compile; the digest of the library, which then is in the cache."""
+def _build(source: str, command: list[str]) -> tuple[str, Path]:
+    """Compile; the digest of the library, and where it now is."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         path, product = Path(folder) / "system.c", Path(folder) / "system.so"
         path.write_text(source)
@@ -92,8 +96,7 @@ def _build(source: str, command: list[str]) -> str:
             raise CompilationFailed(_complaint(command, done, source))
         data = product.read_bytes()
     digest = hashlib.sha256(data).hexdigest()[:40]
-    put(f"{digest}.so", data)
-    return digest
+    return digest, put(f"{digest}.so", data)
 
 
 def _complaint(command: list[str], done: subprocess.CompletedProcess[str], source: str) -> str:
@@ -112,26 +115,22 @@ def _complaint(command: list[str], done: subprocess.CompletedProcess[str], sourc
 def _chosen() -> Path:
     given = os.environ.get("ZERODRIFT_CACHE")
     if given:
-        return Path(given).expanduser()
+        return Path(os.path.expanduser(given))
+    home = Path(os.path.expanduser("~"))    # unlike Path.home() this never fails
     if sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
+        base = home / "Library" / "Caches"
     elif os.name == "nt":
-        base = Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local"))
+        base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
     else:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+        base = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
     return base / "zerodrift"
 
 
-@cache
-def _usable(chosen: Path) -> Path:
-    """The folder, or where nothing can be written there, one that lasts as long as this process."""
-    try:
-        chosen.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=chosen):
-            return chosen
-    except OSError as error:
-        warnings.warn(f"compiled systems are not kept: {chosen} cannot be written ({error.strerror})", CacheWarning, stacklevel=2)
-        return Path(_temporary().name)
+def folders() -> list[Path]:
+    """Where compiled systems are looked for: what `ZERODRIFT_CACHE` names or the platform's place, and where that cannot be
+    written, a folder that lasts as long as this process.
+    """
+    return [_chosen(), Path(_temporary().name)] if _warned else [_chosen()]
 
 
 @cache
@@ -139,28 +138,40 @@ def _temporary() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory(prefix="zerodrift-", ignore_cleanup_errors=True)
 
 
-def folder() -> Path:
-    """Where compiled systems are kept: `ZERODRIFT_CACHE`, or the platform's place for such."""
-    return _usable(_chosen())
+_warned: set[Path] = set()
 
 
-def library_path(digest: str) -> Path:
-    return folder() / f"{digest}.so"
+def put(name: str, data: bytes) -> Path:
+    """Write a file of the cache, whole or not at all; where it is."""
+    chosen = _chosen()
+    if chosen not in _warned:
+        try:
+            chosen.mkdir(parents=True, exist_ok=True)
+            return _put(chosen, name, data)
+        except OSError as error:
+            _warned.add(chosen)
+            warnings.warn(f"compiled systems are not kept: {chosen} cannot be written ({error.strerror})", CacheWarning,
+                          stacklevel=2)
+    return _put(Path(_temporary().name), name, data)
 
 
-def _intact(path: Path, digest: str) -> bool:
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()[:40] == digest
-    except OSError:
-        return False
-
-
-def put(name: str, data: bytes) -> None:
-    """Write a file of the cache, whole or not at all."""
-    descriptor, temporary = tempfile.mkstemp(dir=folder())
+def _put(folder: Path, name: str, data: bytes) -> Path:
+    descriptor, temporary = tempfile.mkstemp(dir=folder)
     with os.fdopen(descriptor, "wb") as file:
         file.write(data)
-    os.replace(temporary, folder() / name)
+    os.replace(temporary, folder / name)
+    return folder / name
+
+
+def _intact(name: str, digest: str) -> Path | None:
+    """Where a library is that is what it should be."""
+    for path in (folder / name for folder in folders()):
+        try:
+            if hashlib.sha256(path.read_bytes()).hexdigest()[:40] == digest:
+                return path
+        except OSError:
+            continue
+    return None
 
 
 def write(name: str, content: Any) -> None:
@@ -170,9 +181,12 @@ def write(name: str, content: Any) -> None:
 
 def read(name: str, kind: type) -> Any:
     """What was kept under that name; None where there is nothing, or what there is is damaged."""
-    try:
-        kept = json.loads((folder() / f"{name}.json").read_bytes())
-        content = kept["content"]
-        return content if isinstance(content, kind) and digest_of(content) == kept["digest"] else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+    for folder in folders():
+        try:
+            kept = json.loads((folder / f"{name}.json").read_bytes())
+            content = kept["content"]
+            if isinstance(content, kind) and digest_of(content) == kept["digest"]:
+                return content
+        except (OSError, ValueError, KeyError, TypeError):
+            continue
+    return None

@@ -31,6 +31,8 @@ class Definition:
                  speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass: Any, bias: Any,
                  points: Any) -> None:
         self.time = _time() if time is None else time
+        if not isinstance(self.time, sympy.Symbol):
+            raise TypeError(f"time must be a symbol, not {time!r}")
         self.coordinates = _variables("coordinates", coordinates)
         self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
         self._check_times()
@@ -49,13 +51,11 @@ class Definition:
             "kinetic": kinetic, "potential": potential, "force": self._force(force, kinematics), "holonomic": holonomic,
             "nonholonomic": rows, "kinematics": self._kinematics(kinematics), "mass": _matrix("mass", mass),
             "bias": None if bias is None else list(bias), "points": [tuple(point) for point in points],
-            "names": self.constraint_names, "parameters": self._parameters}
+            "names": self.constraint_names, "parameters": [list(self.values), self._parameters]}
         self.coordinate_names = tuple(_name(q) for q in self.coordinates)
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
 
     def _check_times(self) -> None:
-        if not isinstance(self.time, sympy.Symbol):
-            raise TypeError(f"time must be a symbol, not {self.time!r}")
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):
                 raise ValueError(f"coordinate {q} is no function of {self.time} alone")

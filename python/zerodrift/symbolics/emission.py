@@ -16,6 +16,7 @@ from .lowering import Operation
 
 BITS = {"A": "ZD_A", "M": "ZD_M", "d": "ZD_BIAS", "f": "ZD_FORCE", "Phi": "ZD_PHI", "C": "ZD_C", "Phi_t": "ZD_PHI_T",
         "xi": "ZD_XI", "V": "ZD_POTENTIAL", "power": "ZD_POWER"}
+MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
 
 PRINTERS = {"C": C99CodePrinter({"strict": False}), "Python": PythonCodePrinter({"strict": False})}
@@ -57,10 +58,11 @@ class Writer:
 
     def value(self, number: int) -> str:
         """What an operation's value is called, or its expression where it is used but once."""
-        if number not in self.names:
-            operation = self.operations[number]
-            self.names[number] = self.leaf(*operation.arguments) if operation.code == "leaf" else (
-                self.number(operation.arguments[0]) if operation.code == "number" else self.expression(operation))
+        operation = self.operations[number]
+        if operation.code == "leaf":
+            return self.leaf(*operation.arguments)
+        if operation.code == "number":
+            return self.number(operation.arguments[0])
         return self.names[number]
 
     def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
@@ -150,7 +152,7 @@ class CWriter(Writer):
         scratch = sum(number in places for block in blocks.kept for number in block.operations)
         text = "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
-            "#include <math.h>", "#include <zerodrift/system.h>", "",
+            "#include <math.h>", "#include <string.h>", "#include <zerodrift/system.h>", "",
             "const int zd_interface_version = ZD_INTERFACE_VERSION;", "",
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
@@ -195,10 +197,17 @@ class CWriter(Writer):
         for term, numbers in self.blocks.outputs.items():
             block = blocks.get(term)
             statements = self.statements(block.operations, "x{}".format, "const double ") if block else []
-            entries = [f"{term}[{i}] = {unwrapped(self.value(number))};" for i, number in enumerate(numbers)]
-            lines += [f"if (want & {BITS[term]}) {{",
-                      *indented([f"double *restrict const {term} = out->{term};", *statements, *entries]), "}"]
+            entries = [f"double *restrict const {term} = out->{term};", *statements, *self._entries(term, numbers)]
+            lines += [f"if (want & {BITS[term]}) {{", *indented(entries), "}"]
         return lines
+
+    def _entries(self, term: str, numbers: list[int]) -> list[str]:
+        """Assignments to the array of a term; where most are zero, all are set to zero first."""
+        values = [unwrapped(self.value(number)) for number in numbers]
+        zeros = values.count("0.0")
+        sparse = zeros > MANY and 2 * zeros > len(values)
+        head = [f"memset({term}, 0, {len(values)} * sizeof *{term});"] if sparse else []
+        return head + [f"{term}[{i}] = {value};" for i, value in enumerate(values) if not (sparse and value == "0.0")]
 
 
 def wanted(terms: frozenset[str]) -> str:
@@ -249,7 +258,8 @@ class PythonWriter(Writer):
             lines += [f"if not want.isdisjoint({sorted(block.terms)!r}):",
                       *indented(self.statements(block.operations, "x{}".format, "") or ["pass"])]
         for term, numbers in self.blocks.outputs.items():
-            own = [number for block in self.blocks.own if block.terms == {term} for number in block.operations]
+            own = self.statements([number for block in self.blocks.own if block.terms == {term} for number in block.operations],
+                                  "x{}".format, "")
             entries = [f"out[{term!r}][{i}] = {unwrapped(self.value(number))}" for i, number in enumerate(numbers)]
-            lines += [f"if {term!r} in want:", *indented(self.statements(own, "x{}".format, "") + entries or ["pass"])]
+            lines += [f"if {term!r} in want:", *indented(own + entries)]
         return "\n".join(["def evaluate(want, t, p, v, k, out):", *indented(lines or ["pass"]), ""])

@@ -24,6 +24,7 @@ class Operation(NamedTuple):
     stage: int
 
 
+LONGEST = 300       # terms of a sum in which shared factors are looked for, as that takes the square of it
 SIMPLE = ("leaf", "number")     # their arguments are no operations
 
 
@@ -138,7 +139,7 @@ class Lowering:
         return self._added(parts)
 
     def _most_shared(self, terms: list[Term]) -> tuple[Any, Number] | None:
-        if len(terms) < 2:
+        if not 2 <= len(terms) <= LONGEST:
             return None
         counts = Counter((factor, _unit(exponent)) for _, factors in terms for factor, exponent in factors.items())
         best = max(counts, key=lambda item: (counts[item], _stage(item[0]), -_rank(item[0])), default=None)

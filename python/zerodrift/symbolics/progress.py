@@ -19,14 +19,14 @@ class Progress:
         self._thread = threading.Thread(target=self._watch, daemon=True)
 
     def __enter__(self) -> Progress:
-        if self._shown:
-            self._thread.start()
         return self
 
     def __call__(self, what: str) -> None:
         """Says what is being done from now on."""
-        self._what = what
-        if self._said:
+        first, self._what = not self._what, what
+        if first and self._shown:
+            self._thread.start()
+        elif self._said:
             self._say()
 
     def _watch(self) -> None:
@@ -40,5 +40,5 @@ class Progress:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self._over.set()
-        if self._shown:
+        if self._what and self._shown:
             self._thread.join()

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
-from sympy.core.function import AppliedUndef
-from sympy.logic.boolalg import BooleanAtom
+from sympy.core.function import Application, AppliedUndef
+from sympy.logic.boolalg import BooleanFunction
 
 from .graph import Graph, Node
 
@@ -38,12 +38,12 @@ class Reader:
     def read(self, what: str, expression: Any, known: Mapping[Any, Node]) -> Node:
         """The node of an expression; `what` it is, for errors."""
         try:
-            given = sympy.sympify(expression)
+            given = sympy.sympify(expression, strict=True)      # strings would be evaluated
         except sympy.SympifyError as error:
             raise TypeError(f"{what} must be a SymPy expression, not {expression!r}") from error
         if isinstance(given, sympy.Equality):
             given = given.lhs - given.rhs
-        if not isinstance(given, sympy.Expr):
+        if not isinstance(given, sympy.Expr) or given.is_Matrix:
             raise TypeError(f"{what} must be a scalar SymPy expression, not {expression!r}")
         return _Reading(self, what, known)(given)
 
@@ -92,7 +92,7 @@ class _Reading:
             return self._graph.logic(LOGIC[type(e)], *map(self, e.args))
         if type(e) in REWRITTEN:
             return self(REWRITTEN[type(e)](*e.args))
-        if isinstance(e, sympy.Function) and not isinstance(e, AppliedUndef):
+        if isinstance(e, Application) and not isinstance(e, AppliedUndef | BooleanFunction):
             return self._call(e)
         return self._other(e)
 
@@ -150,6 +150,4 @@ class _Reading:
             raise self.refusal(e, "a function that is neither a coordinate nor a speed: put its expression in its place")
         if isinstance(e, sympy.Symbol):
             raise self.refusal(e, "to which parameters gives no value")
-        if isinstance(e, BooleanAtom) or e.is_Boolean:
-            raise self.refusal(e, "which is no comparison")
         raise self.refusal(e, f"and {type(e).__name__} has no counterpart in C")

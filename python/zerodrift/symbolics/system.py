@@ -88,7 +88,7 @@ class SymbolicSystem(BaseSystem):
         """The C code that is compiled."""
         return self._code.c_source
 
-    def with_parameters(self, **changed: float) -> SymbolicSystem:
+    def with_parameters(self, /, **changed: float) -> SymbolicSystem:
         """The same system with some parameters changed; nothing is derived or compiled.
 
         Names that Python does not take as keywords can be handed over as ``**{"lambda": 1.0}``.

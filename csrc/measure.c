@@ -1,0 +1,92 @@
+/* Natural sizes, so that tolerances mean the same in any unit of length, mass and time.
+ *
+ *     unit_i    of an angle, or any other pure number: 1; of a length: L
+ *     size_k    max_i |C_ki| unit_i, the size of row k of Phi
+ *
+ * L is the mechanism's own length: the largest there is among its coordinates, and in C wherever an angle and a length meet in a
+ * row, whose ratio is a lever arm. A tolerance of 1e-12 on Phi in units of its size thus says that the error is as if coordinates
+ * were off by 1e-12 rad, or by 1e-12 of the mechanism's length; multiplying Phi by a number changes nothing.
+ */
+#include "core.h"
+#include "linalg/small.h"
+
+static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
+
+static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[i]; }
+
+/* The lever arm of a row: its largest entry for an angle, over the largest for a length */
+static double lever(const zd_system *system, const double *row)
+{
+    double turn = 0, shift = 0;
+    for (int i = 0; i < system->nv; i++) {
+        double *largest = is_length(system, system->nq + i) ? &shift : &turn;
+        *largest = fmax(*largest, fabs(row[i]));
+    }
+    return shift > 0 ? turn / shift : 0;
+}
+
+static double length_of(const zd_point *point)
+{
+    const zd_system *system = point->system;
+    double length = 0;
+    for (int i = 0; i < system->nq; i++)
+        if (is_length(system, i)) length = fmax(length, fabs(point->p[i]));
+    for (int k = 0; k < zd_constraints(system); k++) length = fmax(length, lever(system, point->terms.C + k * system->nv));
+    return length > 0 && length < INFINITY ? length : 1;     /* nothing has a length here: the unit itself */
+}
+
+/* A row that is nothing at the start, but for rounding, is as large as the largest. */
+static void settle_sizes(int m, double *size, double *per_size)
+{
+    double largest = zd_max_abs(m, size);
+    for (int k = 0; k < m; k++) {
+        if (!(size[k] > NO_ROW * largest)) size[k] = largest;
+        if (!(size[k] > 0 && size[k] < INFINITY)) size[k] = 1;
+        per_size[k] = 1 / size[k];
+    }
+}
+
+int zd_point_measure(zd_point *point)
+{
+    const zd_system *system = point->system;
+    int nv = system->nv;
+    if (point->measured) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C);
+    if (status) return status;
+    double length = system->lengths ? length_of(point) : 1;
+    for (int i = 0; i < system->nq; i++) point->per_unit_p[i] = 1 / (is_length(system, i) ? length : 1);
+    for (int i = 0; i < nv; i++) {
+        point->unit[i] = is_length(system, system->nq + i) ? length : 1;
+        point->per_unit[i] = 1 / point->unit[i];
+    }
+    for (int k = 0; k < zd_constraints(system); k++) {
+        double size = 0;
+        for (int i = 0; i < nv; i++) size = fmax(size, fabs(point->terms.C[k * nv + i]) * point->unit[i]);
+        point->size[k] = size;
+    }
+    settle_sizes(zd_constraints(system), point->size, point->per_size);
+    point->measured = 1;
+    return ZD_DONE;
+}
+
+ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
+{
+    double largest = 0;
+    int broken = 0;
+    for (int i = 0; i < n; i++) {
+        double size = fabs(x[i]) * scale[i];
+        largest = size > largest ? size : largest;
+        broken |= isnan(size);
+    }
+    return broken ? INFINITY : largest;
+}
+
+double zd_max_scaled(int n, const double *x, const double *scale)
+{
+    return ZD_SIZED(largest_scaled, n, x, scale);
+}
+
+double zd_point_violation(const zd_point *point)
+{
+    return zd_max_scaled(point->system->mh, point->terms.Phi, point->per_size);
+}

@@ -1,0 +1,18 @@
+"""Worked models, from their energies: examples of `zerodrift.symbolic` that are systems like any other.
+
+Each is one short file whose function takes the parameters as keywords. They need SymPy, the extra `symbolic`.
+
+>>> import zerodrift as zd
+>>> chain = zd.models.closed_pendulum(links=5)
+>>> sol = zd.simulate(chain, 1.0, step=0.01)
+>>> bool(abs(sol.position_violation).max() < 1e-12)
+True
+"""
+
+from ..symbolics import define  # noqa: F401  (where SymPy is missing, it says what to install)
+from .andrews import andrews
+from .bicycle import bicycle
+from .closed_pendulum import closed_pendulum
+from .slider_crank import slider_crank
+
+__all__ = ["andrews", "bicycle", "closed_pendulum", "slider_crank"]

@@ -1,0 +1,75 @@
+"""The closed n-link pendulum: a chain of slender links between two pins."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import sympy as sp
+from sympy.physics.mechanics import dynamicsymbols
+
+from .. import _check
+from ..operations import assemble
+from ..symbolics.define import symbolic
+from ..symbolics.system import SymbolicSystem
+
+LEAN = np.radians(75.0)     # of the first link at the start, as the last leans the other way but for a quarter
+
+
+def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81,
+                    span: float | None = None) -> SymbolicSystem:
+    """A chain of equal slender links, pinned at both ends on one level; it is let go from an arch above the pins.
+
+    Coordinates are the angles of the links from the x axis, so that the loop leaves two constraints; y points up.
+
+    Parameters
+    ----------
+    links : int
+        How many, at least 3: with the ground between the pins, 3 make a four-bar.
+    length, mass : float
+        Of each link, in m and kg.
+    gravity : float
+        In m/s^2, downwards.
+    span : float, optional
+        Distance of the pins in m, less than all links together; left out: about half of that, and as far as can be from where all
+        links can line up with the pins.
+
+    Notes
+    -----
+    Where all links lie on the line through the pins, the constraints are dependent, and close to it, motions are as wild as the
+    steps are long. That can happen where ``span`` is a sum of the lengths with some signs turned, as with ``links=4, span=2``.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.models.closed_pendulum(links=6)
+    <zd.symbolic closed_pendulum: 6 coordinates, 6 velocities, 2 holonomic and 0 nonholonomic constraints>
+    """
+    n = _check.count("links", links, least=3)
+    length = _check.number("length", length, above=0)
+    half = n // 2 + (n // 2 - n + 1) % 2        # of the other parity than n, and so than any sum of n times plus or minus one
+    span = half * length if span is None else _check.number("span", span, above=0)
+    if span >= n * length:
+        raise ValueError(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}")
+
+    angles = dynamicsymbols(f"theta1:{n + 1}")
+    L, m, g, d = sp.symbols("length mass gravity span", positive=True)
+    t = dynamicsymbols._t
+
+    along = [L * sp.Matrix([sp.cos(angle), sp.sin(angle)]) for angle in angles]
+    joints = [sum(along[:i], sp.zeros(2, 1)) for i in range(n + 1)]
+    middles = [(before + after) / 2 for before, after in pairwise(joints)]
+    speeds = [middle.diff(t) for middle in middles]
+
+    system = symbolic(
+        angles,
+        kinetic=sum(m * speed.dot(speed) / 2 + m * L**2 / 12 * angle.diff(t)**2 / 2
+                    for speed, angle in zip(speeds, angles, strict=True)),
+        potential=sum(m * g * middle[1] for middle in middles),
+        constraints={"closed_x": joints[-1][0] - d, "closed_y": joints[-1][1]},
+        parameters={L: length, m: mass, g: gravity, d: span},
+        points=[tuple(joint) for joint in joints],
+        name="closed_pendulum",
+    )
+    arch = np.linspace(LEAN, -0.75 * LEAN, n)
+    return system.starting(*assemble(system, arch))

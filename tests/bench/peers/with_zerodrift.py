@@ -1,0 +1,101 @@
+"""zerodrift: the four-bar as it is built in; chains written in SymPy and compiled, and written in NumPy."""
+
+import functools
+import itertools
+import time
+
+import numpy as np
+from problems import SPACING
+
+import zerodrift as zd
+
+try:
+    import sympy
+except ImportError:
+    sympy = None
+
+TOLERANCES = 10.0 ** -np.arange(2, 13.5, 0.5)
+STEPS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)     # between outputs
+
+
+def kinds(chain):
+    """How zerodrift may have the chain: functions that make the system, by what to call that."""
+    if chain.name == "four-bar":
+        return {"built in": lambda chain: zd.systems.four_bar()}
+    return ({"compiled": compiled_system} if sympy else {}) | {"Python system": python_system}
+
+
+@functools.cache
+def system_of(chain, kind):
+    """Made once."""
+    return kinds(chain)[kind](chain)
+
+
+def compiled_system(chain):
+    """From its energies and constraints in SymPy; the compiled code is kept for the next time."""
+    p, v = sympy.symbols(f"p:{chain.n}"), sympy.symbols(f"v:{chain.n}")
+    pairs = itertools.product(range(chain.n), repeat=2)
+    return zd.symbolic(
+        p, speeds=v,
+        kinetic=sum(chain.coupling[i, j] * sympy.cos(p[i] - p[j]) * v[i] * v[j] for i, j in pairs) / 2,
+        potential=sum(w * sympy.sin(angle) for w, angle in zip(chain.weight, p, strict=True)),
+        constraints=[sum(length * sympy.cos(angle) for length, angle in zip(chain.lengths, p, strict=True)) - chain.distance,
+                     sum(length * sympy.sin(angle) for length, angle in zip(chain.lengths, p, strict=True))],
+        p0=chain.p0, v0=chain.v0, name=f"chain_of_{chain.n}")
+
+
+def python_system(chain):
+    """In NumPy, with all terms given."""
+    K, w, lengths, distance = chain.coupling, chain.weight, chain.lengths, chain.distance
+
+    def mass(p):
+        c, s = np.cos(p), np.sin(p)
+        return K * (np.outer(c, c) + np.outer(s, s))
+
+    def force(p, v):
+        c, s, squares = np.cos(p), np.sin(p), v * v
+        return c * (K @ (s * squares)) - s * (K @ (c * squares)) - w * c
+
+    return zd.System(
+        [f"alpha{i + 1}" for i in range(chain.n)],
+        mass=mass,
+        force=force,
+        constraints=lambda p: np.array([lengths @ np.cos(p) - distance, lengths @ np.sin(p)]),
+        jacobian=lambda p: np.array([-lengths * np.sin(p), lengths * np.cos(p)]),
+        xi=lambda p, v: np.array([lengths * np.cos(p), lengths * np.sin(p)]) @ (v * v),
+        p0=chain.p0, v0=chain.v0, name=chain.name)
+
+
+def sweeps(chain):
+    """The settings of each method."""
+    found = {}
+    for kind, formulation in itertools.product(kinds(chain), ("schur", "independent")):
+        few = kind == "Python system"
+        label = f"zerodrift, {kind}: {formulation}"
+        for integrator in ("rk4", "dop853"):
+            found[f"{label}, {integrator}, fixed steps"] = [(kind, formulation, integrator, k, None, False)
+                                                            for k in (STEPS[:10] if few else STEPS)]
+        found[f"{label}, dop853, chosen steps"] = [(kind, formulation, "dop853", None, tolerance, False)
+                                                   for tolerance in (TOLERANCES[::2] if few else TOLERANCES)]
+        if not few and formulation == "schur":
+            found[f"{label}, rk4, fixed steps, energy"] = [(kind, formulation, "rk4", k, None, True) for k in STEPS]
+    return found
+
+
+def solve(chain, setting):
+    """Angles (k, n) at the outputs, and seconds of the whole call of `simulate`."""
+    kind, formulation, integrator, steps, tolerance, energy = setting
+    system = system_of(chain, kind)
+    fine = ({"step": SPACING / steps, "save_every": steps} if steps
+            else {"rtol": tolerance, "atol": tolerance, "t_eval": chain.outputs})
+    start = time.process_time()
+    solution = zd.simulate(system, chain.t_end, chain.p0, chain.v0, formulation=formulation, integrator=integrator, energy=energy,
+                           **fine)
+    return solution.p, time.process_time() - start
+
+
+def reference(chain, error):
+    """Angles (k, n) with a certified error, and that error."""
+    system = system_of(chain, next(iter(kinds(chain))))
+    found = zd.reference(system, chain.t_end, chain.p0, chain.v0, error=error, t_eval=chain.outputs)
+    return found.solution.p, found.error

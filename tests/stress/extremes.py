@@ -1,0 +1,142 @@
+"""What happens at the extremes: scales, energies that cannot be corrected, large steps, stiffness. Tables of what was tried.
+
+Run it with ``python tests/stress/extremes.py``; it prints the tables and writes them to ``tests/bench/results/extremes.md``.
+"""
+
+import itertools
+import sys
+import warnings
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+import zerodrift as zd
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+from test_large_steps import LENGTHS, side  # noqa: E402
+from units import MECHANISMS, Units, run  # noqa: E402
+
+RESULTS = HERE.parent / "bench" / "results" / "extremes.md"
+TRIALS = 4000
+DECADES = np.logspace(-3, 3, 13)
+
+
+def table(title, columns, rows):
+    """A table in Markdown."""
+    lines = [f"## {title}", "", "| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
+    return "\n".join([*lines, *("| " + " | ".join(map(str, row)) + " |" for row in rows)]) + "\n"
+
+
+def listened(*arguments, **options):
+    """A run that may fail, and what was said of it."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        sol = zd.simulate(*arguments, on_failure="return", **options)
+    return sol, [warning.category.__name__ for warning in said]
+
+
+# ---- scaling ----
+
+
+def difference(one, other):
+    """The largest, relative to each quantity's size."""
+    keys = ("p", "v", "multipliers", "kinetic_energy")
+    return max(np.abs(one[key] - other[key]).max() / np.abs(one[key]).max() for key in keys)
+
+
+def scaling():
+    """Each mechanism, formulation and integrator in other units."""
+    units = {"micrometres": Units(length=1e6), "kilometres": Units(length=1e-3), "masses * 1e9": Units(mass=1e9),
+             "masses * 1e-9": Units(mass=1e-9), "milliseconds": Units(time=1e3), "lengths * 2^20": Units(length=2.0**20),
+             "masses * 2^30": Units(mass=2.0**30), "times * 2^10": Units(time=2.0**10)}
+    for (what, u), name in itertools.product(units.items(), MECHANISMS):
+        found, same = [], 0
+        for formulation, integrator in itertools.product(zd.formulations(), zd.integrators()):
+            one, other = (run(name, each, formulation=formulation, integrator=integrator) for each in (Units(), u))
+            found.append(difference(one, other))
+            same += all(np.array_equal(one[key], other[key]) for key in one)
+        yield what, name, len(found), f"{same} to the last bit", f"{max(found):.1g}"
+
+
+# ---- energy ----
+
+
+def energy():
+    """Pendulums from nearly no kinetic energy to plenty, corrected after every step."""
+    rng, h = np.random.default_rng(29), 0.02
+    for low, high in ((-20, -12), (-12, -4), (-4, 1)):
+        count, largest, finite = Counter(), 0.0, True
+        for _ in range(100):
+            pendulum = zd.systems.pendulum(angle=rng.uniform(0.01, 3), rate=10 ** rng.uniform(low, high))
+            sol, said = listened(pendulum, 100 * h, step=h, integrator="heun", energy=True)
+            left, told = sol.stats["energy_skipped"], "CorrectionWarning" in said
+            count.update(corrected=sol.stats["energy_corrections"], left=left, said=told, silent=left > 0 and not told)
+            finite &= bool(np.isfinite(sol.v).all())
+            kept = np.flatnonzero(sol.energy_skipped[1:] == 0) + 1
+            scale = sol.kinetic_energy.max() + 2 * 9.81
+            largest = max(largest, np.abs(sol.energy_violation[kept]).max(initial=0) / scale)
+        yield (f"rate 1e{low} ... 1e{high} rad/s", 100, 10000, count["corrected"], count["left"], count["said"], count["silent"],
+               f"{largest:.1g}", finite)
+
+
+# ---- large steps ----
+
+
+def large_steps():
+    """Four-bars from anywhere, whose two assemblies no motion connects."""
+    rng, edges = np.random.default_rng(5), (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, np.inf)
+    counts = {edge: Counter() for edge in edges[:-1]}
+    for _ in range(TRIALS):
+        rate = rng.normal() * 10 ** rng.uniform(0, 1)
+        bar = zd.systems.four_bar(lengths=LENGTHS[rng.integers(3)], assembly=["open", "crossed"][rng.integers(2)],
+                                  crank_angle=rng.uniform(-3, 3), crank_rate=rate)
+        h = 10 ** rng.uniform(-2, 0.3)
+        options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(list(zd.integrators()))}
+        sol, _ = listened(bar, 30 * h, step=h, **{name: str(value) for name, value in options.items()})
+        speed = np.abs(sol.v).max() * h
+        count = counts[max(edge for edge in counts if speed >= edge)]
+        helped = sol.stats["subdivided"] + sol.stats["damped"] > 0
+        count.update(tried=1, jumped=(side(sol) != side(sol)[0]).any(), plain=sol.success and not helped,
+                     helped=sol.success and helped, stopped=not sol.success)
+    for low, high in itertools.pairwise(edges):
+        c = counts[low]
+        yield f"{low:g} ... {high:g}", c["tried"], c["plain"], c["helped"], c["stopped"], int(c["jumped"])
+
+
+# ---- stiffness ----
+
+
+def stiffness():
+    """An oscillator for 1000 steps: the amplitude it ends with, of the true one."""
+    for integrator in zd.integrators():
+        cells = []
+        for omega_h in DECADES:
+            oscillator = zd.systems.oscillator(mass=1.0, stiffness=100.0)
+            sol, said = listened(oscillator, 100 * omega_h, step=omega_h / 10, integrator=integrator)
+            with np.errstate(over="ignore"):
+                swing = np.hypot(sol.p[-1, 0], sol.v[-1, 0] / 10) / 0.1
+            mark = "x" if not sol.success else "!" if "StabilityWarning" in said else ""
+            cells.append(f"{swing:.3g}{mark}")
+        yield integrator, *cells
+
+
+def main():
+    """Measure, print and write."""
+    text = "\n".join([
+        table("Units", ("unit", "mechanism", "runs", "unchanged", "largest relative difference"), scaling()),
+        table("Energy corrections", ("start", "runs", "steps", "corrected", "left out", "runs with a warning", "silent",
+                                     "largest error where corrected", "finite"), energy()),
+        table("Large steps: largest rad per step", ("rad", "runs", "done", "done with help", "stopped", "left their branch"),
+              large_steps()),
+        table("Oscillator: amplitude after 1000 steps, by omega h; ! said, x stopped",
+              ("integrator", *(f"{x:.3g}" for x in DECADES)), stiffness()),
+    ])
+    print(text)
+    RESULTS.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

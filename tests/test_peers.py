@@ -1,0 +1,63 @@
+"""The comparison with other programs: all of them solve the problem that zerodrift solves."""
+
+import importlib
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tolerances as tol
+import zerodrift as zd
+
+PEERS = Path(__file__).resolve().parent / "bench" / "peers"
+SETTINGS = {    # module: package, of each kind of method one setting that is no work
+    "scipy": ("scipy", [("DOP853", 1e-6), ("LSODA", 1e-7)]),
+    "sundials": ("sksundae", [("CVODE Adams", 1e-8), ("IDA", 1e-7)]),
+    "exudyn": ("exudyn", [("trapezoidal, index 2", 32), ("generalized alpha", 32)]),
+    "pinocchio": ("pinocchio", [("rk4", 8), ("DOP853", 1e-6)]),
+    "mujoco": ("mujoco", [("RK4", 2, 64)]),
+}
+CLOSE = 1e-2        # rad: what is wrong in a model or its start, is so by more within seconds
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _path():
+    sys.path.insert(0, str(PEERS))
+    yield
+    sys.path.remove(str(PEERS))
+
+
+@pytest.fixture(scope="module", params=["four_bar", 4])
+def chain(request):
+    problems = importlib.import_module("problems")
+    return problems.four_bar() if request.param == "four_bar" else problems.pendulum_chain(request.param)
+
+
+def test_accelerations_are_those_of_the_system(chain):
+    problems, ours = importlib.import_module("problems"), importlib.import_module("with_zerodrift")
+    p, v = zd.assemble(ours.python_system(chain), chain.p0, chain.v0 + 0.3)
+    expected = problems.accelerations(chain)(p, v)
+    for kind in ours.kinds(chain):
+        found = zd.acceleration(ours.system_of(chain, kind), p, v)[0]
+        np.testing.assert_allclose(found, expected, rtol=0, atol=tol.STEPPED * np.abs(expected).max())
+
+
+def test_the_four_bar_is_the_paper_s():
+    bar, chain = zd.systems.four_bar(), importlib.import_module("problems").four_bar()
+    np.testing.assert_allclose(chain.p0, bar.p0, atol=tol.STEPPED)
+    np.testing.assert_allclose(chain.v0, bar.v0, atol=tol.STEPPED)
+
+
+@pytest.mark.filterwarnings("default")      # what other packages warn of is not ours
+@pytest.mark.parametrize("peer", SETTINGS)
+def test_a_peer_that_is_installed_finds_the_same_motion(chain, peer):
+    package, settings = SETTINGS[peer]
+    pytest.importorskip(package)
+    module, ours = importlib.import_module(f"with_{peer}"), importlib.import_module("with_zerodrift")
+    exact, _ = ours.reference(chain, 1e-8)
+    until = chain.outputs <= 2.0
+    for setting in settings:
+        p, seconds = module.solve(chain, setting)
+        assert seconds > 0
+        assert np.abs(p - exact)[until].max() < CLOSE, setting

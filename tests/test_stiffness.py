@@ -1,0 +1,109 @@
+"""omega h from far too small to far too large: what is unstable or unresolved is said, what is neither is not."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import INTEGRATORS, SYSTEMS, motion
+
+OMEGA, STEPS = 10.0, 300
+CARDS = zd.integrators()
+EXPLICIT = [name for name in INTEGRATORS if CARDS[name].stability]
+
+
+def oscillating(omega_h, integrator, damping=0.0, steps=STEPS):
+    """A damped oscillator that declares no potential, and what was said of its motion."""
+    system = zd.System(1, mass=[[1.0]], force=lambda p, v: -OMEGA**2 * p - 2 * damping * OMEGA * v, p0=[0.1])
+    with np.errstate(all="ignore"):
+        return listened(system, omega_h / OMEGA, steps, integrator)
+
+
+def listened(system, h, steps, integrator, **options):
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        sol = zd.simulate(system, steps * h, step=h, integrator=integrator, on_failure="return", **options)
+    return sol, [str(warning.message) for warning in said if warning.category is zd.StabilityWarning]
+
+
+@pytest.mark.parametrize("omega_h", np.logspace(-3, 3, 25))
+def test_the_oscillator_at_every_omega_h(integrator, omega_h):
+    """Either its amplitude is right to a tenth, or something is said: of the step, or of the energy."""
+    sol, said = listened(zd.systems.oscillator(mass=1.0, stiffness=OMEGA**2), omega_h / OMEGA, STEPS, integrator)
+    swing = np.hypot(sol.p[:, 0], sol.v[:, 0] / OMEGA) / 0.1
+    if abs(swing[-1] - 1) > 0.5 or not np.isfinite(swing).all():
+        assert said or not sol.success
+    if sol.success and not said:
+        assert 0.5 < swing[-1] < 2
+    if omega_h < 0.01:
+        assert not said
+
+
+@pytest.mark.parametrize("damping", [0.1, 1.0])
+def test_beyond_its_limit_each_explicit_method_grows_and_says_so(integrator, damping):
+    if integrator not in EXPLICIT:
+        pytest.skip("stable at any omega h")
+    limit = CARDS[integrator].stability
+    sol, said = oscillating(1.5 * max(limit, 3.4), integrator, damping, steps=40)
+    assert sol.success
+    assert "is stable for" in said[0]
+    assert sol.stats["too_long"] > 0
+    assert np.abs(sol.p[-1]) > 10 * np.abs(sol.p[0])
+    sol, said = oscillating(0.5 * limit, integrator, damping)
+    assert sol.success
+    assert not said
+    assert sol.stats["too_long"] == 0
+
+
+@pytest.mark.parametrize("omega_h", [0.01, 0.3, 1.0, 3.0, 30.0])
+def test_omega_h_is_what_it_is(integrator, omega_h):
+    """Of a linear oscillation, to rounding, whatever the method makes of it."""
+    sol, _ = oscillating(omega_h, integrator, steps=20)
+    assert abs(sol.stats["omega_h"] / omega_h - 1) < 1e-6
+
+
+@pytest.mark.parametrize("omega_h", [3.0, 30.0, 1000.0])
+def test_the_trapezoidal_rule_is_stable_where_it_resolves_nothing(omega_h):
+    sol, said = oscillating(omega_h, "trapezoidal")
+    assert sol.success
+    assert np.abs(sol.p).max() <= 0.1 * (1 + 1e-9)
+    assert "what moves so fast is stable, but wrong" in said[0]
+    _, quiet = oscillating(0.5, "trapezoidal")
+    assert not quiet
+
+
+def stiff(omega):
+    """A slow mass, and a light one that follows it by a hard spring and damper."""
+    return zd.System(2, mass=np.eye(2), p0=[1.0, 1.0], parameters={"w": float(omega)},
+                     force=lambda p, v, w: np.array([-p[0], w * w * (p[0] - p[1]) + 2 * w * (v[0] - v[1])]))
+
+
+@pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
+def test_stiffness_is_noticed_by_chosen_steps(method):
+    with pytest.warns(zd.StabilityWarning, match=f"stiff for '{method}'"):
+        held = zd.simulate(stiff(1e3), 3.0, rtol=1e-5, atol=1e-8, integrator=method)
+    assert held.stats["stiff"] > 0
+    free = zd.simulate(stiff(1.0), 3.0, rtol=1e-5, atol=1e-8, integrator=method)
+    assert free.stats["stiff"] == 0
+    assert held.stats["steps"] > 20 * free.stats["steps"]
+
+
+def test_a_stiff_spring_in_a_mechanism():
+    """The slider-crank with a spring a million times harder: the same words."""
+    hard = zd.systems.slider_crank(stiffness=1e6, relaxed_length=1.2)
+    sol, said = listened(hard, 0.02, 100, "rk4")
+    assert said or not sol.success
+    fine, said = listened(hard, 1e-4, 100, "rk4")
+    assert fine.success
+    assert not said
+
+
+def test_what_blows_up_is_told_why():
+    with pytest.raises(zd.Diverged, match=r"too long for 'rk4' to be stable \(omega h = 10, stable below 2\.7\d\)"):
+        zd.simulate(zd.systems.oscillator(stiffness=1e6), 10.0, step=0.01)
+
+
+def test_energy_that_is_numerical_is_said():
+    with pytest.warns(zd.StabilityWarning, match="the energy is off by 1 of its largest"):
+        motion(SYSTEMS["oscillator"], 50.0, 1000, integrator="euler")
