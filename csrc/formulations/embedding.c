@@ -12,6 +12,7 @@
 #include "../rank.h"
 
 enum { MAX_ITERATIONS = 20 };
+static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
 static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
@@ -118,12 +119,15 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
 }
 
-/* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. */
+/* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. Where that is too far to
+ * be an estimate, where the point is. */
 static void predict(zd_embedding *self, zd_point *point, double t)
 {
-    if (point->terms.A && !(point->known & ZD_A)) memset(self->p, 0, (size_t)self->nq * sizeof(double));
+    double h = t - point->t;
+    if (point->terms.A && !(point->known & ZD_A)) h = 0;
     else zd_point_rate(point, point->v, self->p);
-    for (int i = 0; i < self->nq; i++) self->p[i] = point->p[i] + (t - point->t) * self->p[i];
+    int far = h == 0 || !(fabs(h) * zd_max_scaled(self->nq, self->p, point->per_unit_p) <= FARTHEST);
+    for (int i = 0; i < self->nq; i++) self->p[i] = far ? point->p[i] : point->p[i] + h * self->p[i];
 }
 
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)

@@ -13,6 +13,7 @@
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
 static const double ROUNDING = 8 * 0x1p-52;          /* of a cosine */
+static const double FLAT = 1e-9;                    /* of the ground link is missing where all links are in line */
 
 enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
 
@@ -116,7 +117,7 @@ static int embed(const void *data, double t, const double *q, double *p)
     const constants *k = data;
     double before[N] = {p[0], p[1], p[2]};
     p[ALPHA_1] = q[0];
-    if (!close_loop(k->l0, k->l, 0, p)) return ZD_NO_EMBEDDING;
+    if (!close_loop(k->l0, k->l, k->side, p)) return ZD_NO_EMBEDDING;
     for (int i = ALPHA_2; i < N; i++) p[i] += TURN * round((before[i] - p[i]) / TURN);
     return ZD_DONE;
 }
@@ -138,6 +139,17 @@ void zd_four_bar_start(const given *q, double *p, double *v)
     close_rates(q, p, v);
 }
 
+/* Whether all links can lie in one line: there both assemblies meet. */
+static int can_be_flat(const double *l)
+{
+    for (int signs = 0; signs < 8; signs++) {
+        double sum = l[0];
+        for (int i = 0; i < N; i++) sum += signs & 1 << i ? l[i + 1] : -l[i + 1];
+        if (fabs(sum) <= FLAT * l[0]) return 1;
+    }
+    return 0;
+}
+
 const char *zd_four_bar_prepare(const given *q, constants *to)
 {
     double p[N] = {q->angle};
@@ -151,6 +163,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
     *to = (constants){
         .l0 = q->l[0],
         .l = {l1, l2, l3},
+        .side = can_be_flat(q->l) ? 0 : q->crossed ? -1 : 1,
         .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
         .k12 = (0.5 * m2 + m3) * l1 * l2,
         .k13 = 0.5 * m3 * l1 * l3,
