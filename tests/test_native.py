@@ -290,6 +290,15 @@ def test_another_process(library, describes):
         assert np.array_equal(pool.submit(run_elsewhere, system).result(), motion(system).p)
 
 
+def test_units_say_what_is_a_length(library):
+    long = {"p0": [0.0, -1e3], "parameters": GIVEN["parameters"] | {"length": 1e3}}
+    system = zd.native(library, ["x", "y"], symbol="pendulum", units=["m", "m"], **(GIVEN | long))
+    assert [variable.unit for variable in pickle.loads(pickle.dumps(system)).velocities] == ["m/s", "m/s"]
+    plain = zd.native(library, ["x", "y"], symbol="pendulum", **(GIVEN | long))
+    sizes = [zd.simulate(each, 0.1, step=0.1).position_size for each in (plain, system)]
+    np.testing.assert_allclose(sizes[1], 1e3 * sizes[0])        # the size of Phi where the length is one unit, or a thousand
+
+
 def test_pickling_wants_the_same_library(library, tmp_path):
     copy = Path(shutil.copy(library, tmp_path / "pendulum.so"))
     pickled = [pickle.dumps(system) for system in (pendulum(copy), zd.native(copy, symbol="pendulum"))]

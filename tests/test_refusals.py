@@ -145,3 +145,8 @@ def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():
     options = handed(integrator=list(zd.integrators()).index("rattle"))
     with pytest.raises(zd.ZerodriftError, match="rattle"):
         _gateway.step(edge._core, options, edge.p0.copy(), edge.v0.copy())
+
+
+def test_a_disc_that_lies_flat_is_refused():
+    with pytest.raises(ValueError, match="lean must be between -pi/2 and pi/2"):
+        zd.systems.rolling_disc(lean=2.0)

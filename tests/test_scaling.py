@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy
 
 import tolerances as tol
 import zerodrift as zd
@@ -76,7 +77,15 @@ def own_pendulum(scale, units):
                      constraints=lambda p: np.array([p @ p - L**2]), p0=[L, 0.0])
 
 
-def test_systems_of_ones_own_say_what_is_a_length():
+def symbolic_pendulum(scale, units):
+    """The same, compiled."""
+    x, y, vx, vy, L, g = sympy.symbols("x y vx vy L g")
+    return zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2, potential=g * y, constraints=[x**2 + y**2 - L**2],
+                       units=units, parameters={L: 1.0 * scale, g: 9.81 * scale}, p0=[scale, 0.0])
+
+
+@pytest.mark.parametrize("own_pendulum", [own_pendulum, symbolic_pendulum])
+def test_systems_of_ones_own_say_what_is_a_length(own_pendulum):
     motions = [zd.simulate(own_pendulum(scale, ["mm", "mm"]), 1.0, step=0.01) for scale in (1.0, 1024.0)]
     assert np.array_equal(motions[0].p * 1024, motions[1].p)
     assert np.array_equal(motions[0].iterations, motions[1].iterations)
@@ -90,6 +99,8 @@ def test_systems_of_ones_own_say_what_is_a_length():
 def test_units_that_are_none(units):
     with pytest.raises((ValueError, TypeError), match=r"units must be 2 strings, one for each coordinate, not|has no len"):
         own_pendulum(1.0, units)
+    with pytest.raises((ValueError, TypeError), match=r"units must be 2 strings, one for each coordinate, not|has no len"):
+        symbolic_pendulum(1.0, units)
 
 
 @pytest.mark.parametrize("masses", [(1e-9, 1.0, 1e9), (1e9, 1.0, 1e-9), (1.0, 1e-9, 1e9), (1e-9, 1e9, 1e-9)], ids=str)

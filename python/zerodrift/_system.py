@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -108,3 +109,15 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     if core is None:
         raise TypeError(f"system must be one of zd.systems or a zd.System, not {system!r}")
     return core
+
+
+def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
+               are_rates: bool) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
+    """Coordinates and velocities; where the latter are the rates of the former, so are their units."""
+    size = len(names) if are_rates else len(names) + len(rates)
+    given = [""] * size if units is None else units
+    if isinstance(given, str) or len(given) != size or not all(isinstance(unit, str) for unit in given):
+        raise ValueError(f"units must be {size} strings, one for each coordinate"
+                         f"{'' if are_rates else ' and each velocity'}, not {units!r}")
+    own = given[len(names):] if not are_rates else [f"{unit}/s" if unit else "" for unit in given]
+    return tuple(map(Variable, names, given)), tuple(map(Variable, rates, own))

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _check, _gateway, _jets
 from ._gateway import TERMS, Variable
-from ._system import BaseSystem
+from ._system import BaseSystem, with_units
 
 BIT = {name: bit for name, (bit, _) in TERMS.items()}
 
@@ -103,9 +103,8 @@ class System(BaseSystem):
         sizes = _sizes(len(names), functions, self.p0)
         writer = _Writer(functions, *sizes)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
-        self.coordinates, self.velocities = _with_units(names, rates, units, kinematics is None)
-        self._core = _gateway.PythonCore(sizes, writer.provides, writer, *([variable.unit for variable in group]
-                                                                         for group in (self.coordinates, self.velocities)))
+        self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None)
+        self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities))
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
 
@@ -131,17 +130,6 @@ class System(BaseSystem):
 
 def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
     return kind(**given)
-
-
-def _with_units(names, rates, units, are_rates) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
-    """Coordinates and velocities; where the latter are the rates of the former, so are their units."""
-    size = len(names) if are_rates else len(names) + len(rates)
-    given = [""] * size if units is None else units
-    if isinstance(given, str) or len(given) != size or not all(isinstance(unit, str) for unit in given):
-        raise ValueError(f"units must be {size} strings, one for each coordinate"
-                         f"{'' if are_rates else ' and each velocity'}, not {units!r}")
-    own = given[len(names):] if not are_rates else [f"{unit}/s" if unit else "" for unit in given]
-    return tuple(map(Variable, names, given)), tuple(map(Variable, rates, own))
 
 
 # ---- the callables ----

@@ -79,10 +79,9 @@ class Parameter(NamedTuple):
 PURE = ("", "1", "rad", "deg")
 
 
-def lengths(units: Iterable[str], rates: Iterable[str]) -> Any:
-    """`zd_system.lengths` from the units of coordinates and velocities: what is no pure number, or its rate, is a length."""
-    kinds = [*units, *(unit.removesuffix("/s") if unit != "1/s" else "" for unit in rates)]
-    return ffi.new("int[]", [unit not in PURE for unit in kinds])
+def lengths(variables: Iterable[Variable]) -> Any:
+    """`zd_system.lengths` of coordinates and velocities: what is no pure number, or the rate of one, is a length."""
+    return ffi.new("int[]", [variable.unit != "1/s" and variable.unit.removesuffix("/s") not in PURE for variable in variables])
 
 
 RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}

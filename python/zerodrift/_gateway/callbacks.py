@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE, TERMS, lengths
+from .base import CALLBACK, DONE, TERMS, Variable, lengths
 from .systems import CoreSystem
 
 
@@ -126,14 +126,13 @@ class PythonCore(CoreSystem):
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
-                 units: Sequence[str] | None = None, rates: Sequence[str] = ()) -> None:
+                 variables: Iterable[Variable]) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         for name in names:
             system.provides |= TERMS[name][0]
         system.evaluate = lib.zd_evaluate_in_python
-        self._lengths = ffi.NULL if units is None else lengths(units, rates)
-        system.lengths = self._lengths
+        system.lengths = self._lengths = lengths(variables)
         super().__init__(system, None)
         self.write, self.evaluator = write, None
 

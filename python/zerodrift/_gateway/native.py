@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import TERMS, doubles
+from .base import TERMS, Variable, doubles, lengths
 from .systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION
@@ -20,12 +20,13 @@ UNWRITTEN = np.array([0x7FF8_5A5A_5A5A_5A5A], dtype=np.uint64).view(np.float64)[
 class NativeCore(CoreSystem):
     """A system whose terms the function at `address`, a `zd_evaluate`, computes.
 
-    Its sizes are (nq, nv, mh, mn), its terms those named; it is handed `data`, and `scratch` doubles to keep what it likes.
+    Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; it is handed `data`, and
+    `scratch` doubles to keep what it likes.
     What must live as long as the system goes into `keep`.
     """
 
-    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None, *,
-                 scratch: int = 0, keep: Any = None) -> None:
+    def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None,
+                 variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         for name in names:
@@ -34,7 +35,8 @@ class NativeCore(CoreSystem):
         system.evaluate = ffi.cast("zd_evaluate *", address)
         memory = ffi.NULL if data is None else doubles(data, data.size)
         system.data = memory
-        super().__init__(system, (memory, keep))
+        system.lengths = dimensions = lengths(variables)
+        super().__init__(system, (memory, dimensions, keep))
 
 
 def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:

@@ -39,7 +39,7 @@ class Kind:
             raise ValueError(f"{self.card.name}: {text(reason)}")
         system = ffi.new("zd_system *", self.c.system)
         system.data = constants
-        system.lengths = dimensions = lengths((c.unit for c in self.coordinates), (v.unit for v in self.velocities))
+        system.lengths = dimensions = lengths((*self.coordinates, *self.velocities))
         p0, v0 = np.empty(system.nq), np.empty(system.nv)
         self.c.start(given, doubles(p0, system.nq, writable=True), doubles(v0, system.nv, writable=True))
         return CoreSystem(system, (constants, dimensions)), p0, v0

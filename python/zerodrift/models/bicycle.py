@@ -68,6 +68,7 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
         nonholonomic={"rear": sideways(rear, yaw), "front": sideways(front, yaw + steer)},
         parameters=given,
         points=[tuple(point) for point in (rear - heading * sp.Rational(3, 10), front, front + wheel, front - wheel)],
+        units=["m", "m", "rad", "rad"],
         p0=[0.0, 0.0, 0.0, 0.0], v0=[speed, 0.0, 0.0, 0.0],
         name="bicycle",
     )

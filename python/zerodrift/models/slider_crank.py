@@ -62,6 +62,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
         constraints={"closed_x": x - slider[0], "closed_y": -slider[1]},
         parameters=names,
         points=[(0, 0), tuple(pin), (x, 0), (2 * x - pin[0], -pin[1])],
+        units=["rad", "m", "rad"],
         p0=[angle, a * np.cos(angle) + b * np.cos(start), start],
         name="slider_crank",
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
-from .._system import BaseSystem
+from .._system import BaseSystem, with_units
 from ..errors import NoCompilerWarning
 from . import compiling
 
@@ -56,11 +56,11 @@ class SymbolicSystem(BaseSystem):
         False where there was no compiler and it is evaluated in Python.
     """
 
-    def __init__(self, code: Code, parameters: Mapping[str, float], p0: Any = None, v0: Any = None, name: str = "symbolic",
-                 progress: Callable[[str], Any] = lambda what: None) -> None:
-        self._code, self.name, self.parameters = code, name, dict(parameters)
-        self.coordinates, self.velocities, self.constraints = (
-            tuple(Variable(each, "") for each in names) for names in (code.coordinates, code.velocities, code.constraints))
+    def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
+                 v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None) -> None:
+        self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
+        self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides)
+        self.constraints = tuple(Variable(row, "") for row in code.constraints)
         nq, nv, _, _ = code.sizes
         self.p0, self.v0 = (None if x is None else _check.vector(n, x, size) for n, x, size in (("p0", p0, nq), ("v0", v0, nv)))
         for x in (self.p0, self.v0):
@@ -76,12 +76,13 @@ class SymbolicSystem(BaseSystem):
         library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
         data.flags.writeable = False
         return _gateway.NativeCore(self._code.sizes, self._code.provides, _gateway.address_of(library, "zd_symbolic_evaluate"),
-                                   data, scratch=self._code.scratch, keep=library)
+                                   data, (*self.coordinates, *self.velocities), scratch=self._code.scratch, keep=library)
 
     def _in_python(self, values: list[float]) -> _gateway.CoreSystem:
         warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
                       f"some hundred times slower", NoCompilerWarning, stacklevel=4)
-        return _gateway.PythonCore(self._code.sizes, self._code.provides, _InPython(self._code.python_source, values))
+        return _gateway.PythonCore(self._code.sizes, self._code.provides, _InPython(self._code.python_source, values),
+                                   (*self.coordinates, *self.velocities))
 
     @property
     def c_source(self) -> str:
@@ -107,7 +108,8 @@ class SymbolicSystem(BaseSystem):
         return self._again(p0=self.p0 if p0 is None else p0, v0=self.v0 if v0 is None else v0)
 
     def _again(self, **changed: Any) -> SymbolicSystem:
-        given = {"code": self._code, "parameters": self.parameters, "p0": self.p0, "v0": self.v0, "name": self.name}
+        given = {"code": self._code, "parameters": self.parameters, "units": self._units, "p0": self.p0, "v0": self.v0,
+                 "name": self.name}
         return SymbolicSystem(**(given | changed))
 
     def points(self, p: Any) -> np.ndarray | None:
@@ -127,7 +129,7 @@ class SymbolicSystem(BaseSystem):
                 f"{self.mn} nonholonomic constraints{how}>")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return SymbolicSystem, (self._code, self.parameters, self.p0, self.v0, self.name)
+        return SymbolicSystem, (self._code, self.parameters, self._units, self.p0, self.v0, self.name)
 
 
 # ---- without a compiler ----
