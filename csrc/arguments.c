@@ -30,7 +30,8 @@ static const char *wrong_system(const zd_system *system)
     int nq = system->nq, nv = system->nv, mh = system->mh, mn = system->mn;
     const rule rules[] = {
         {!(nq >= 1 && nq <= LARGEST && nv >= 1 && nv <= LARGEST), "a system has 1 to 8192 coordinates, and as many velocities"},
-        {!(mh >= 0 && mn >= 0 && mh <= nv && mn <= nv - mh), "a system has at most as many constraints as velocities"},
+        {!(mh >= 0 && mh <= LARGEST && mn >= 0 && mn <= LARGEST), "a system has at most 8192 constraints of each kind"},
+        {!lacks(system, ZD_COMPLEMENT) && (double)mh + mn > nv, "a complement is for at most as many constraints as velocities"},
         {system->scratch < 0 || system->scratch > LARGEST * LARGEST, "the scratch of a system is no size"},
         {!system->evaluate || lacks(system, ZD_M), "a system has a function that evaluates it, and a mass matrix"},
         {lacks(system, ZD_A) && nq != nv, "a system without kinematic matrix has as many velocities as coordinates"},

@@ -102,7 +102,7 @@ int zd_control_step(zd_run *run)
             run->control.h = h * fmin(largest, factor(run, norm));
             return ZD_DONE;
         }
-        if (status == ZD_CALLBACK) return status;
+        if (status == ZD_CALLBACK || status == ZD_BIFURCATION) return status;
         run->statistics.rejected++;
         run->control.h = h * (status ? AFTER_FAILURE : factor(run, norm));
         largest = 1;

@@ -15,8 +15,11 @@ enum {                                  /* known beside the system's own terms *
     ZD_FACTORED = 1 << 16,              /* the formulation's leading matrix, at this (t, p) */
     ZD_ACCELERATED = 1 << 17,           /* vdot and lambda, at this (t, p, v) */
     ZD_COMPLEMENTED = 1 << 18,          /* the complement D and what goes with it, at this (t, p) */
+    ZD_RANKED = 1 << 19,                /* which rows of C count, at this (t, p) */
     ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_GAMMA | ZD_ACCELERATED
 };
+
+typedef struct zd_rank zd_rank;         /* rank.h */
 
 typedef struct zd_point {
     const zd_system *system;
@@ -26,6 +29,9 @@ typedef struct zd_point {
     zd_terms terms;
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *force, *rhs;    /* (nv,), (m,): right sides being put together */
+    zd_rank *rank;
+    int rows, holonomic;    /* rows of C that count, and how many of them, which come first, are holonomic: m and mh, unless some */
+    const double *C;        /* (rows, nv)                                                                   follow from others */
     double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see measure.c; and 1 / unit */
     double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
@@ -64,9 +70,11 @@ static inline int zd_point_need(zd_point *point, int want)
 typedef struct zd_formulation {
     zd_card card;
     int violates;           /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
+    int inverts_mass;       /* whether M has to be definite; else M is only where the constraints leave the velocities free */
+    /* Both are told of as many constraints as are independent. */
     int (*state_size)(const zd_system *system);
     void *(*take)(zd_arena *arena, const zd_system *system);
-    /* The leading matrix at the point, from M and C. */
+    /* The leading matrix at the point, from M and the rows of C that count. */
     int (*factor)(void *self, zd_point *point);
     /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
@@ -116,7 +124,7 @@ typedef struct zd_correction {
 
 /* ---- the run ---- */
 
-enum { ZD_CORRECTIONS_MAX = 8, ZD_MESSAGE = 320 };
+enum { ZD_CORRECTIONS_MAX = 8, ZD_MESSAGE = 400 };
 
 typedef struct zd_active {
     const zd_correction *row;
@@ -221,6 +229,7 @@ int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);  /* of energy, besides V: then it is integrated along */
 int zd_run_rate(void *run, double t, const double *y, double *ydot);
 int zd_run_factor(zd_run *run);             /* the leading matrix at the point */
+void zd_run_solve(zd_run *run, const double *force, const double *rhs, double *x, double *lambda);  /* with what was factored */
 int zd_run_accelerate(zd_run *run);         /* vdot, lambda at the point */
 int zd_run_energy_violation(zd_run *run, double *violation, double *kinetic);   /* (28) */
 int zd_run_correct(zd_run *run);            /* all corrections that are on, in their order */
@@ -229,8 +238,10 @@ int zd_run_correct(zd_run *run);            /* all corrections that are on, in t
 int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size);
 int zd_check_run(const zd_system *system, const zd_settings *settings, char *message, int size);
 
-/* run.c: the memory of a run; NULL if there is none, which status and message then say */
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings, int *status, char *message, int size);
+/* run.c: a run standing at (t, p, v), with the rank there found, but not yet checked. NULL if there is no memory, which status and
+ * message then say; otherwise status is what came of finding the rank. */
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+                    char *message, int size);
 int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);

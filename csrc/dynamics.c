@@ -1,6 +1,7 @@
 /* The equations of motion of a run at its point: the rate of the integrated state, and the energy balance. */
 #include "core.h"
 #include "linalg/small.h"
+#include "rank.h"
 
 int zd_has_energy(const zd_system *system)
 {
@@ -24,6 +25,11 @@ int zd_run_factor(zd_run *run)
     return status;
 }
 
+void zd_run_solve(zd_run *run, const double *force, const double *rhs, double *x, double *lambda)
+{
+    zd_rank_solve(run->point, run->formulation, run->solver, force, rhs, x, lambda);
+}
+
 static void stabilize(zd_run *run)
 {
     for (int i = 0; i < run->corrections; i++) {
@@ -44,7 +50,7 @@ int zd_run_accelerate(zd_run *run)
     ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
     stabilize(run);
     run->statistics.solves++;
-    run->formulation->solve(run->solver, point->force, point->rhs, point->vdot, point->lambda);   /* (8), (9), (13) */
+    zd_run_solve(run, point->force, point->rhs, point->vdot, point->lambda);    /* (8), (9), (13) */
     point->known |= ZD_ACCELERATED;
     return ZD_DONE;
 }

@@ -10,6 +10,8 @@
 #include "core.h"
 #include "linalg/small.h"
 
+static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
+
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[i]; }
 
 /* The lever arm of a row: its largest entry for an angle, over the largest for a length */
@@ -33,6 +35,17 @@ static double length_of(const zd_point *point)
     return length > 0 && length < INFINITY ? length : 1;     /* nothing has a length here: the unit itself */
 }
 
+/* A row that is nothing at the start, but for rounding, is as large as the largest. */
+static void settle_sizes(int m, double *size, double *per_size)
+{
+    double largest = zd_max_abs(m, size);
+    for (int k = 0; k < m; k++) {
+        if (!(size[k] > NO_ROW * largest)) size[k] = largest;
+        if (!(size[k] > 0 && size[k] < INFINITY)) size[k] = 1;
+        per_size[k] = 1 / size[k];
+    }
+}
+
 int zd_point_measure(zd_point *point)
 {
     const zd_system *system = point->system;
@@ -49,9 +62,9 @@ int zd_point_measure(zd_point *point)
     for (int k = 0; k < zd_constraints(system); k++) {
         double size = 0;
         for (int i = 0; i < nv; i++) size = fmax(size, fabs(point->terms.C[k * nv + i]) * point->unit[i]);
-        point->size[k] = size > 0 && size < INFINITY ? size : 1;     /* others are refused as dependent, or not finite */
-        point->per_size[k] = 1 / point->size[k];
+        point->size[k] = size;
     }
+    settle_sizes(zd_constraints(system), point->size, point->per_size);
     point->measured = 1;
     return ZD_DONE;
 }

@@ -12,22 +12,15 @@ static int finish(zd_run *run, int status, char *message, int size)
     return status;
 }
 
-/* What is held may bring in more rows than there are velocities; formulations rely on there being no more. */
-static int too_many(const zd_system *system, char *message, int size)
-{
-    snprintf(message, (size_t)size, "the constraints are dependent (row %d follows from those before it)", system->nv);
-    return ZD_DEPENDENT;
-}
-
-int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
+int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size)
 {
-    zd_settings settings = {.formulation = formulation};
+    zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
     int status = zd_check_method(system, &settings, message, message_size);
     if (status) return status;
-    zd_run *run = zd_run_lay_out(system, &settings, &status, message, message_size);
+    zd_run *run = zd_run_open(system, &settings, t, p, v, &status, message, message_size);
     if (!run) return status;
-    status = zd_run_place(run, t, p, v);
+    if (!status) status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_accelerate(run);
     if (!status && !isfinite(zd_max_abs(system->nv, run->point->vdot))) status = ZD_NOT_FINITE;
     memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
@@ -39,12 +32,12 @@ int zd_acceleration(const zd_system *system, int formulation, double t, const do
 static int project_stage(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)
 {
-    if (zd_constraints(system) > system->nv) return too_many(system, message, message_size);
     int status;
-    zd_run *run = zd_run_lay_out(system, settings, &status, message, message_size);
+    zd_system still = *system;
+    still.provides &= ~ZD_XI;       /* nothing here is about accelerations */
+    zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
     if (!run) return status;
     run->violates = ZD_PHI | ZD_C;
-    status = zd_run_place(run, t, p, v);
     if (!status) status = zd_run_correct(run);
     memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
@@ -56,6 +49,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
 {
     zd_settings stage = *settings;
+    stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
     zd_held held;
     int status = zd_check_method(system, settings, message, message_size);
     if (!status && settings->projection.positions) {
@@ -76,9 +70,9 @@ int zd_step(const zd_system *system, const zd_settings *settings, double *p, dou
 {
     int status = zd_check_method(system, settings, message, message_size);
     if (status) return status;
-    zd_run *run = zd_run_lay_out(system, settings, &status, message, message_size);
+    zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
     if (!run) return status;
-    status = zd_suits(system, settings->integrator) ? zd_run_place(run, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
+    if (!status) status = zd_suits(system, settings->integrator) ? zd_run_place(run, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
     if (!status) status = zd_run_start_energy(run);
     if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
     if (!status) status = zd_run_land(run, settings->t1);

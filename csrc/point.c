@@ -5,6 +5,7 @@
  */
 #include "core.h"
 #include "linalg/small.h"
+#include "rank.h"
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
@@ -35,6 +36,7 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .lambda = zd_take_doubles(arena, m),
         .force = zd_take_doubles(arena, nv),
         .rhs = zd_take_doubles(arena, m),
+        .rank = zd_rank_take(arena, system),
         .unit = zd_take_doubles(arena, nv),
         .per_unit = zd_take_doubles(arena, nv),
         .per_unit_p = zd_take_doubles(arena, nq),

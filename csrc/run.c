@@ -3,10 +3,12 @@
 
 #include "core.h"
 #include "linalg/small.h"
+#include "rank.h"
 #include "registry.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
 static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
+static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
 
 /* ---- memory ---- */
 
@@ -53,8 +55,9 @@ static zd_watch take_watch(zd_arena *arena, size_t events)
     };
 }
 
-/* Lays out everything a run has. Done twice: with an empty arena to learn the size, then for good. */
-static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings)
+/* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
+ * arena to learn the size, then for good. */
+static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
 {
     zd_run *here = zd_take(arena, sizeof *here);
     if (here) here->system = *system;       /* the point refers to it */
@@ -65,7 +68,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .integrator = zd_integrator_of(settings->integrator),
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI,
     };
-    run.own_size = run.formulation->state_size(system);
+    run.own_size = run.formulation->state_size(independent);
     int size = enable_corrections(&run, arena, run.own_size);
     run.extras = size - run.own_size;
     if (zd_has_input(system)) {
@@ -73,7 +76,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         size++;
     }
     run.violates = run.formulation->violates;
-    run.solver = run.formulation->take(arena, system);
+    run.solver = run.formulation->take(arena, independent);
     const zd_system *its = here ? &here->system : system;
     run.stepper = run.integrator->take(arena, run.integrator->table, its, size);
     run.point = zd_point_take(arena, its, here ? &here->statistics : NULL);
@@ -99,15 +102,54 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     return here;
 }
 
-zd_run *zd_run_lay_out(const zd_system *system, const zd_settings *settings, int *status, char *message, int size)
+static int least(int a, int b)
 {
+    return a < b ? a : b;
+}
+
+/* The system with so many constraints and no more. What it brings itself is for all of them. */
+static zd_system with_rows(const zd_system *system, int rows, int holonomic)
+{
+    if (rows == zd_constraints(system)) return *system;
+    zd_system independent = *system;
+    independent.mh = holonomic;
+    independent.mn = rows - holonomic;
+    independent.provides &= ~ZD_COMPLEMENT;
+    independent.embed = NULL;
+    return independent;
+}
+
+static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic, char *message, int size)
+{
+    zd_system independent = with_rows(system, rows, holonomic);
     zd_arena counting = {NULL, 0};
-    take_run(&counting, system, settings);
+    take_run(&counting, system, settings, &independent);
     zd_arena arena = {zd_allocate(counting.used), 0};
-    *status = arena.base ? ZD_DONE : ZD_NO_MEMORY;
-    if (arena.base) return take_run(&arena, system, settings);
+    if (arena.base) return take_run(&arena, system, settings, &independent);
     snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
     return NULL;
+}
+
+/* Laid out as if all constraints counted; and where some turn out to be redundant, again for those that are not. */
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+                    char *message, int size)
+{
+    int rows = least(zd_constraints(system), system->nv), holonomic = least(system->mh, rows);
+    for (;;) {
+        zd_run *run = lay_out(system, settings, rows, holonomic, message, size);
+        *status = run ? ZD_DONE : ZD_NO_MEMORY;
+        if (!run) return NULL;
+        run->t = t;
+        zd_point_move(run->point, t, p, v);
+        *status = zd_point_measure(run->point);
+        if (!*status) *status = zd_rank_start(run->point, settings);
+        const zd_rank *rank = run->point->rank;
+        int laid = rows, laid_holonomic = holonomic;
+        run->statistics.rank = rows = least(rank->limit, system->nv);
+        holonomic = least(rank->holonomic_limit, rows);
+        if (*status || (rows == laid && holonomic == laid_holonomic)) return run;
+        zd_run_free(run);
+    }
 }
 
 void zd_run_free(zd_run *run)
@@ -176,12 +218,9 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
-/* Formulations need not notice: some read half of M, some only parts of it. */
-static int check_mass(zd_run *run)
+static int check_symmetry(zd_point *point)
 {
-    zd_point *point = run->point;
-    int n = run->system.nv, status = zd_point_need(point, ZD_M);
-    if (status) return status;
+    int n = point->system->nv;
     const double *M = point->terms.M;
     double largest = zd_max_abs(n * n, M);
     for (int i = 0; i < n; i++)
@@ -189,8 +228,54 @@ static int check_mass(zd_run *run)
             point->culprit = i;
             if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
         }
-    point->culprit = zd_cholesky(n, M, run->factor);
-    return point->culprit < n ? ZD_NOT_DEFINITE : ZD_DONE;
+    return ZD_DONE;
+}
+
+static double unit(int n, const double *M, int i)
+{
+    return M[i * n + i] > 0 ? sqrt(M[i * n + i]) : 1;
+}
+
+/* factor <- M in units that make its diagonal one where there is any mass, + the sum of `rows` rows of C in these units, each of length
+ * one, times itself */
+static void weigh(const zd_run *run, int rows, double *factor)
+{
+    int n = run->system.nv;
+    const double *M = run->point->terms.M;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) factor[i * n + j] = M[i * n + j] / (unit(n, M, i) * unit(n, M, j));
+    for (int k = 0; k < rows; k++) {
+        const double *c = run->point->C + k * n;
+        double length = 0;
+        for (int i = 0; i < n; i++) length += c[i] * c[i] / (unit(n, M, i) * unit(n, M, i));
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) factor[i * n + j] += c[i] * c[j] / (unit(n, M, i) * unit(n, M, j) * length);
+    }
+}
+
+/* M may be singular where constraints hold what has no mass: x^T M x > 0 for all other x that C x = 0 allows, and never negative. */
+static int check_mass(zd_run *run)
+{
+    zd_point *point = run->point;
+    int n = run->system.nv, status = zd_point_need(point, ZD_M);
+    if (!status) status = check_symmetry(point);
+    if (status) return status;
+    double *factor = run->factor;
+    point->culprit = zd_cholesky(n, point->terms.M, factor);
+    if (point->culprit == n) return ZD_DONE;
+    if (run->formulation->inverts_mass) return ZD_NOT_DEFINITE;
+    status = zd_rank_find(point);
+    if (status) return status;
+    weigh(run, 0, factor);
+    for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
+    point->culprit = zd_cholesky(n, factor, factor);
+    if (point->culprit < n) return ZD_NOT_DEFINITE;
+    weigh(run, point->rows, factor);
+    int free = zd_cholesky(n, factor, factor);
+    if (free == n) return ZD_DONE;
+    snprintf(run->message, sizeof run->message, "the mass matrix is singular, and no constraint holds what has no mass "
+             "(first seen at velocity %d)", free);
+    return ZD_NOT_DEFINITE;
 }
 
 int zd_run_start_energy(zd_run *run)
@@ -229,10 +314,16 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
 {
     *status = zd_check_run(system, settings, message, message_size);
     if (*status) return NULL;
-    zd_run *run = zd_run_lay_out(system, settings, status, message, message_size);
+    int why;
+    zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, &why, message, message_size);
+    *status = why;
     if (!run) return NULL;
     run->steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step);
-    int why = zd_run_place(run, settings->t0, p0, v0);
+    if (why == ZD_BIFURCATION || why == ZD_CONTRADICTION) {     /* of a start that is none */
+        int violated = check_constraints(run);
+        why = violated ? violated : why;
+    }
+    if (!why) why = zd_run_place(run, settings->t0, p0, v0);
     if (!why) why = start(run, p0, v0);
     return why ? refuse(run, why, status, message, message_size) : run;
 }
@@ -260,4 +351,5 @@ double zd_run_progress(const zd_run *run)
 
 const char *zd_run_message(const zd_run *run) { return run->message; }
 const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->statistics; }
+int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->point->rank, rows); }
 const double *zd_run_sizes(const zd_run *run) { return run->point->size; }

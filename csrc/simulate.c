@@ -3,6 +3,7 @@
 
 #include "core.h"
 #include "linalg/small.h"
+#include "rank.h"
 
 enum { CLOCK_EVERY = 16, MOST_PARTS = 8 };     /* steps between looks at the clock; of a step that cannot be corrected */
 
@@ -118,6 +119,8 @@ static int take_step(zd_run *run)
     if (run->settings.t_eval || run->settings.events) zd_output_before(run);
     run->step++;
     int status = run->settings.step > 0 ? take_fixed_step(run) : zd_control_step(run);
+    if (run->point->rank->dropped) run->statistics.rank_drops++;
+    run->point->rank->dropped = run->point->rank->near = 0;
     if (!status) run->statistics.steps++;
     return !status && run->settings.events ? zd_events_after(run) : status;
 }

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "core.h"
+#include "rank.h"
 
 static const char *name_of(int term)
 {
@@ -17,6 +18,8 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     const zd_projection *projection = &run->settings.projection;
     const char *failure = run->system.failure;
     int culprit = point->culprit;
+    char rows[64] = "";
+    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
     switch (status) {
     case ZD_NOT_FINITE:
         snprintf(to, size, run->statistics.too_long && run->integrator->card.stability > 0 ? "the state left the range of doubles: the step is too long for '%s' to be stable (omega h = %.3g, "
@@ -25,18 +28,31 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
                  run->integrator->card.name, zd_run_omega_h(run), run->integrator->card.stability);
         break;
     case ZD_NOT_DEFINITE:
-        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)", culprit);
+        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
+                 run->formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
+                                                  "hold what has no mass"
+                                                : "");
         break;
     case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", culprit); break;
     case ZD_DEPENDENT:
         snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", culprit);
         break;
+    case ZD_BIFURCATION:
+        snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
+                 run->formulation->settle ? "nor do independent velocities; 'schur' with on_singular=\"continue\" can go on"
+                                          : "on_singular=\"continue\" takes the branch of least acceleration");
+        break;
+    case ZD_CONTRADICTION:
+        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "
+                 "velocity)", rows, culprit);
+        break;
     case ZD_SINGULAR:
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);
         break;
     case ZD_NO_CONVERGENCE:
-        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened (tolerance %.3g)",
-                 point->defect, projection->max_iterations, projection->tolerance);
+        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened (tolerance %.3g)"
+                 "%s%s%s", point->defect, projection->max_iterations, projection->tolerance, *rows ? "; " : "", rows,
+                 *rows ? " from the others, and may contradict them" : "");
         break;
     case ZD_BRANCH:
         snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");

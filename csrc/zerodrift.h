@@ -56,6 +56,9 @@ typedef struct zd_energy {          /* (28), (29) */
     int every;                      /* 0: off */
 } zd_energy;
 
+/* What to do where constraints that are independent elsewhere are not: a bifurcation. */
+enum zd_on_singular { ZD_STOP, ZD_CONTINUE };   /* the latter: on the branch of least acceleration */
+
 typedef struct zd_settings {
     int formulation, integrator;    /* rows of the tables */
     double t0, t1;                  /* s */
@@ -69,6 +72,7 @@ typedef struct zd_settings {
     zd_projection projection;
     zd_baumgarte baumgarte;
     zd_energy energy;
+    enum zd_on_singular on_singular;
 } zd_settings;
 
 /* ---- a run ---- */
@@ -92,6 +96,8 @@ typedef struct zd_statistics {
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
     long repartitions;          /* changes of the independent variables between steps */
+    long rank;                  /* of C; less than m where constraints are redundant */
+    long rank_drops;            /* steps in which it was less for a while */
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
@@ -118,6 +124,8 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */
 const char *zd_run_message(const zd_run *run);              /* the first failure, one sentence */
 const zd_statistics *zd_run_statistics(const zd_run *run);
+/* The constraints that follow from others wherever the system goes; their number. rows (m,), increasing. */
+int zd_run_redundant(const zd_run *run, int *rows);
 /* (mh,): the size of each row of Phi at the start: what the largest of its coordinates' natural motions makes of it, one radian
  * of an angle or the mechanism's own length. */
 const double *zd_run_sizes(const zd_run *run);
@@ -126,7 +134,7 @@ double zd_run_omega_h(const zd_run *run);                   /* largest omega h o
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */
 
-int zd_acceleration(const zd_system *system, int formulation, double t, const double *p, const double *v,
+int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size);
 /* Corrects p and v in place as settings->projection says, holding coordinates and velocities where hold_p, hold_v are
  * nonzero (either may be NULL); iterations may be NULL. */

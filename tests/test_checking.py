@@ -38,10 +38,19 @@ def test_what_is_wrong_is_said(name):
     assert ("the sign is wrong" in repr(report)) == sign
 
 
-def test_dependent_constraints_and_an_indefinite_mass_are_said():
-    doubled = four_bar(constraints=lambda p, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p)]), jacobian=None, xi=None)
-    assert "of 2 constraints only 1 are independent" in repr(zd.check(doubled))
+def doubled(p, t, L, contradiction=0.0):
+    return np.array([L @ np.sin(p), 2 * L @ np.sin(p) - contradiction * t**2])
+
+
+def test_redundant_constraints_are_right_and_contradicting_ones_are_not():
+    assert zd.check(four_bar(constraints=doubled, jacobian=None, xi=None))
+    report = zd.check(four_bar(constraints=lambda p, t, L: doubled(p, t, L, 0.1), jacobian=None, xi=None))
+    assert "agreement of constraints: they contradict each other" in repr(report)
+
+
+def test_an_indefinite_mass_is_said():
     assert "lowest eigenvalue is -1" in repr(zd.check(four_bar(mass=-np.eye(3))))
+    assert "M is singular, even where" in repr(zd.check(four_bar(mass=np.zeros((3, 3)))))
 
 
 def test_a_balance_that_closes_in_another_split_is_no_mistake():

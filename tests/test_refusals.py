@@ -59,8 +59,10 @@ def test_settings_that_the_core_refuses(changed, sentence):
 @pytest.mark.parametrize(("changed", "sentence"), [
     ({"nq": 0}, "1 to 8192 coordinates"),
     ({"nv": 10**9}, "1 to 8192 coordinates"),
-    ({"mh": -1}, "at most as many constraints as velocities"),
-    ({"mn": 2}, "at most as many constraints as velocities"),
+    ({"mh": -1}, "at most 8192 constraints"),
+    ({"mn": 8193}, "at most 8192 constraints"),
+    ({"mn": 2, "provides": sum(_gateway.TERMS[name][0] for name in ("M", "Phi", "C", "xi", "D", "gamma"))},
+     "a complement is for at most as many constraints as velocities"),
     ({"scratch": -1}, "scratch"),
     ({"provides": 0}, "a mass matrix"),
     ({"nv": 3}, "as many velocities as coordinates"),
@@ -75,7 +77,7 @@ def test_systems_that_the_core_refuses(changed, sentence):
         core.c.provides = core.c.provides & ~_gateway.TERMS["D"][0] & ~_gateway.TERMS["gamma"][0] | _gateway.TERMS["D"][0]
     for name, value in changed.items():
         setattr(core.c, name, value)
-    for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0.0, np.zeros(2), np.zeros(2)),
+    for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2)),
                  lambda: _gateway.project(core, handed(), 0.0, np.zeros(2), np.zeros(2)),
                  lambda: _gateway.step(core, handed(), np.zeros(2), np.zeros(2))):
         with pytest.raises(zd.ZerodriftError, match=sentence):

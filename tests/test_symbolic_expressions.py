@@ -165,7 +165,6 @@ REFUSED = [
     ({"force": [1, 2]}, "force must have 1 entries, one for each velocity, not 2"),
     ({"force": {U: 1}}, "force is given for u\\(t\\), which is no velocity"),
     ({"constraints": {"stop": Q.diff(T)}}, "constraint 'stop' depends on velocities: such belong to nonholonomic"),
-    ({"constraints": [Q, Q**2]}, "2 constraints are too many for 1 velocities"),
     ({"nonholonomic": {"slip": Q.diff(T) ** 2}}, "constraint 'slip' is not linear in the velocities"),
     ({"parameters": {A: 1.0, "a": 2.0}}, "there are two parameters named 'a'"),
     ({"parameters": {A: "heavy"}}, "parameter 'a' must be a real number, not 'heavy'"),

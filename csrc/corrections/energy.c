@@ -40,7 +40,7 @@ static int split(energy *self, zd_run *run, double *kinetic)
     status = zd_run_factor(run);
     if (status) return status;
     for (int k = 0; k < zd_constraints(&run->system); k++) point->rhs[k] = -point->terms.Phi_t[k];
-    run->formulation->solve(run->solver, NULL, point->rhs, self->enforced, NULL);
+    zd_run_solve(run, NULL, point->rhs, self->enforced, NULL);
     for (int i = 0; i < n; i++) *kinetic -= 0.5 * self->enforced[i] * zd_dot(n, point->terms.M + i * n, self->enforced);
     return ZD_DONE;
 }

@@ -11,6 +11,7 @@
 #include "../core.h"
 #include "../linalg/small.h"
 #include "../newton.h"
+#include "../rank.h"
 
 /* Newton's first iteration contracts so well where its start belongs to one solution and no other, after Kantorovich. */
 static const double TRUSTED = 0.25;
@@ -67,14 +68,14 @@ static int position_residual(void *context, double *size)
 
 static int solve_with_identity(projection *self, zd_run *run, const double *rhs, double *x)
 {
-    int status = zd_point_need(run->point, ZD_C);
+    int status = zd_rank_find(run->point);
     if (status) return status;
     zd_point unit = *run->point;
     unit.terms.M = self->identity;
     run->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
     run->point->culprit = unit.culprit;
-    if (!status) zd_schur.solve(self->plain, NULL, rhs, x, NULL);
+    if (!status) zd_rank_solve(&unit, &zd_schur, self->plain, NULL, rhs, x, NULL);
     return status;
 }
 
@@ -84,7 +85,7 @@ static int solve(projection *self, zd_run *run, const double *rhs, double *x)
     run->statistics.solves++;
     if (self->plain) return solve_with_identity(self, run, rhs, x);
     int status = zd_run_factor(run);
-    if (!status) run->formulation->solve(run->solver, NULL, rhs, x, NULL);
+    if (!status) zd_run_solve(run, NULL, rhs, x, NULL);
     return status;
 }
 
@@ -150,6 +151,8 @@ static int correct_positions(projection *self, zd_run *run)
                         run->guard.kept ? TRUSTED : 0, NULL};
     position_problem problem = {self, run, 0};
     int status = iterate(&newton, &problem);
+    /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
+    if (!status && run->point->rank->near && run->point->rank->limit == run->point->rank->m) return improve_position(&problem);
     if (!status || status == ZD_CALLBACK || !problem.begun) return status;
     newton.improve = improve_and_remember;
     newton.contraction = 0;

@@ -3,16 +3,18 @@
  *     G = [M  C^T]        G [vdot; lambda] = [f - d; xi]
  *         [C   0 ]
  *
- * by Gaussian elimination with partial pivoting, which needs of M no more than that G is regular. M and C have different units;
- * C is scaled to the size of M first, and the multipliers back after, so that pivots are compared like with like.
+ * by Gaussian elimination with partial pivoting, which needs of M no more than that G is regular. M and the rows of C have different
+ * units; each row is scaled to the size of M first, and its multiplier back after, so that pivots are compared like with like.
  */
 #include "dependent.h"
 
 #include "../linalg/lu.h"
+#include "../linalg/small.h"
+#include "../rank.h"
 
 typedef struct augmented {
     int n, m;
-    double scale;       /* of C in G */
+    double *scale;      /* (m,): of the rows of C in G */
     double *G;          /* (n + m, n + m) */
     double *b;          /* (n + m,) */
     int *order;         /* (n + m,) */
@@ -24,6 +26,7 @@ static void *take(zd_arena *arena, const zd_system *system)
     augmented self = {
         .n = (int)n,
         .m = (int)m,
+        .scale = zd_take_doubles(arena, m),
         .G = zd_take_doubles(arena, size * size),
         .b = zd_take_doubles(arena, size),
         .order = zd_take(arena, size * sizeof(int)),
@@ -31,11 +34,15 @@ static void *take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* A power of two, so that scaling rounds nothing. */
-static double scale_of_constraints(const augmented *self, const double *M, const double *C)
+/* Powers of two, so that scaling rounds nothing. */
+static void set_scales(augmented *self, const double *M, const double *C)
 {
-    double mass = zd_max_abs(self->n * self->n, M), gradient = zd_max_abs(self->m * self->n, C);
-    return mass > 0 && gradient > 0 && mass < INFINITY && gradient < INFINITY ? exp2(round(log2(mass / gradient))) : 1;
+    int n = self->n;
+    double mass = zd_power_below(zd_max_abs(n * n, M));
+    for (int k = 0; k < self->m; k++) {
+        double row = zd_power_below(zd_max_abs(n, C + k * n));
+        self->scale[k] = mass > 0 && row > 0 && mass < INFINITY && row < INFINITY ? mass / row : 1;
+    }
 }
 
 static void fill(augmented *self, const double *M, const double *C)
@@ -45,7 +52,7 @@ static void fill(augmented *self, const double *M, const double *C)
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) G[i * size + j] = M[i * n + j];
     for (int k = 0; k < self->m; k++) {
-        for (int j = 0; j < n; j++) G[(n + k) * size + j] = G[j * size + n + k] = self->scale * C[k * n + j];
+        for (int j = 0; j < n; j++) G[(n + k) * size + j] = G[j * size + n + k] = self->scale[k] * C[k * n + j];
         for (int l = 0; l < self->m; l++) G[(n + k) * size + n + l] = 0;
     }
 }
@@ -53,9 +60,11 @@ static void fill(augmented *self, const double *M, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
-    int size = self->n + self->m;
-    self->scale = scale_of_constraints(self, point->terms.M, point->terms.C);
-    fill(self, point->terms.M, point->terms.C);                         /* (8) */
+    int status = zd_rank_find(point), size = self->n + point->rows;
+    if (status) return status;
+    self->m = point->rows;
+    set_scales(self, point->terms.M, point->C);
+    fill(self, point->terms.M, point->C);                               /* (8) */
     int column = zd_lu_factor(size, self->G, self->order);
     if (column == size) return ZD_DONE;
     point->culprit = column < self->n ? column : column - self->n;
@@ -68,11 +77,11 @@ static void solve(void *memory, const double *force, const double *rhs, double *
     int n = self->n, m = self->m;
     double *b = self->b;
     for (int i = 0; i < n; i++) b[i] = force ? force[i] : 0;
-    for (int k = 0; k < m; k++) b[n + k] = self->scale * rhs[k];
+    for (int k = 0; k < m; k++) b[n + k] = self->scale[k] * rhs[k];
     zd_lu_solve(n + m, self->G, self->order, b);                        /* (8), (25) */
     memcpy(x, b, (size_t)n * sizeof *x);
     if (!lambda) return;
-    for (int k = 0; k < m; k++) lambda[k] = self->scale * b[n + k];
+    for (int k = 0; k < m; k++) lambda[k] = self->scale[k] * b[n + k];
 }
 
 const zd_formulation zd_augmented = {

@@ -3,6 +3,7 @@
 
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
+#include "../rank.h"
 
 /* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
  * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
@@ -10,18 +11,19 @@ static const double WORSE = 1.1;
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), r = n - m;
-    int own = (system->provides & ZD_COMPLEMENT) != 0;
+    size_t n = (size_t)system->nv;
+    int m = zd_constraints(system), own = (system->provides & ZD_COMPLEMENT) != 0;
     return (zd_complement){
         .n = (int)n,
-        .m = (int)m,
-        .r = (int)r,
+        .m = m,
+        .r = (int)n - m,
+        .brought = own,
         .own = own,
         .order = zd_take(arena, n * sizeof(int)),
         .pivots = zd_take(arena, n * sizeof(int)),
-        .D = zd_take_doubles(arena, n * r),
-        .K = zd_take_doubles(arena, own ? n * n : m * m),
-        .gram = zd_take_doubles(arena, own ? r * r : 0),
+        .D = zd_take_doubles(arena, n * n),
+        .K = zd_take_doubles(arena, n * n),
+        .gram = zd_take_doubles(arena, own ? n * n : 0),
         .work = zd_take_doubles(arena, (n + 1) * n),
     };
 }
@@ -32,7 +34,7 @@ static int choose(zd_complement *self, zd_point *point)
 {
     for (int k = 0; k < self->m; k++)       /* in natural units */
         for (int j = 0; j < self->n; j++)
-            self->work[k * self->n + j] = point->terms.C[k * self->n + j] * point->unit[j] * point->per_size[k];
+            self->work[k * self->n + j] = point->C[k * self->n + j] * point->unit[j] * point->per_size[zd_rank_row(point, k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
     point->culprit = rank;
     self->chosen = rank == self->m;
@@ -57,7 +59,7 @@ void zd_complement_prefer(zd_complement *self, const int *independent)
 static void fill_partitioned(zd_complement *self, const zd_point *point)
 {
     int n = self->n, m = self->m, r = self->r;
-    const double *C = point->terms.C;
+    const double *C = point->C;
     self->largest = 0;
     memset(self->D, 0, (size_t)(n * r) * sizeof(double));
     for (int j = 0; j < r; j++) {
@@ -76,7 +78,7 @@ static void fill_partitioned(zd_complement *self, const zd_point *point)
 static int partition(zd_complement *self, zd_point *point)
 {
     int n = self->n, m = self->m;
-    const double *C = point->terms.C;
+    const double *C = point->C;
     if (!self->chosen) {
         int status = choose(self, point);
         if (status) return status;
@@ -108,10 +110,20 @@ static int adopt(zd_complement *self, zd_point *point)
     return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT;
 }
 
+static void count_rows(zd_complement *self, const zd_point *point)
+{
+    if (point->rows != self->m) self->chosen = 0;
+    self->m = point->rows;
+    self->r = self->n - self->m;
+    self->own = self->brought && self->m == zd_constraints(point->system);
+}
+
 int zd_complement_at(zd_complement *self, zd_point *point)
 {
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, ZD_C | ZD_COMPLEMENT);
+    if (!status) status = zd_rank_find(point);
+    if (!status) count_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
     return status;
@@ -159,7 +171,7 @@ int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u
     if (status) return status;
     memset(v, 0, (size_t)self->n * sizeof *v);
     if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
         zd_complement_particular(self, point->rhs, v);
     }
     zd_complement_add(self, u, v);                                      /* (14) */
@@ -184,7 +196,7 @@ void zd_complement_speeds(const zd_complement *self, const zd_point *point, doub
     double *x = self->work + self->n;
     memset(x, 0, (size_t)self->n * sizeof *x);
     if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[k];
+        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
         zd_complement_particular(self, point->rhs, x);
     }
     for (int i = 0; i < self->n; i++) x[i] = v[i] - x[i];

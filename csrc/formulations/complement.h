@@ -13,7 +13,8 @@
 
 typedef struct zd_complement {
     int n, m, r;
-    int own;            /* whether the system brings D */
+    int brought;        /* whether the system brings D */
+    int own;            /* whether it is used: where all rows of C count */
     int chosen;         /* whether u has been */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */

@@ -3,14 +3,16 @@
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be the identity. It starts from the point before, whose branch it therefore stays on.
+ * so that A need not be the identity. It starts from where the velocity of the point before leads, whose branch it stays on.
  */
 #include "embedding.h"
 
 #include "../linalg/lu.h"
 #include "../newton.h"
+#include "../rank.h"
 
 enum { MAX_ITERATIONS = 20 };
+static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
 static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
@@ -21,6 +23,7 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
         .nv = (int)nv,
         .mh = (int)mh,
         .k = (int)k,
+        .embed = system->embed,
         .index = zd_take(arena, k * sizeof(int)),
         .order = zd_take(arena, (mh + nq) * sizeof(int)),
         .K = zd_take_doubles(arena, nv * nv),
@@ -36,17 +39,26 @@ static double kinematic(const zd_point *point, int i, int j)
     return point->terms.A ? point->terms.A[i * point->system->nv + j] : i == j;
 }
 
+/* C and A at the point, where as many rows of C_H have to count as q was made for. */
+static int need_rows(const zd_embedding *self, zd_point *point)
+{
+    int status = zd_point_need(point, ZD_C | ZD_A);
+    if (status || !self->mh) return status;
+    status = zd_rank_find(point);
+    return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
+}
+
 /* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there, in units of its size. */
 static int factor(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv;
-    int status = zd_point_need(point, ZD_C | ZD_A);
+    int status = need_rows(self, point);
     if (status) return status;
     double gradient = 0;
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
-        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->terms.C[k * nv + j]) * point->unit[j];
-        gradient = fmax(gradient, sum * point->per_size[k]);
+        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]) * point->unit[j];
+        gradient = fmax(gradient, sum * point->per_size[zd_rank_row(point, k)]);
     }
     for (int k = 0; k < self->k; k++)
         for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
@@ -84,7 +96,7 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[k];
+    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[zd_rank_row(point, k)];
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);
@@ -100,12 +112,22 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     problem it = {self, point, q};
     int iterations;
     double left;
-    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
     zd_point_move(point, t, self->p, point->v);
     int status = zd_newton_solve(&newton, &it, &iterations, &left);
     point->statistics->embedding_iterations += iterations;
     point->defect = left * self->rounding;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
+}
+
+/* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. Where that is too far to
+ * be an estimate, where the point is. */
+static void predict(zd_embedding *self, zd_point *point, double t)
+{
+    double h = t - point->t;
+    if (point->terms.A && !(point->known & ZD_A)) h = 0;
+    else zd_point_rate(point, point->v, self->p);
+    int far = h == 0 || !(fabs(h) * zd_max_scaled(self->nq, self->p, point->per_unit_p) <= FARTHEST);
+    for (int i = 0; i < self->nq; i++) self->p[i] = far ? point->p[i] : point->p[i] + h * self->p[i];
 }
 
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)
@@ -116,9 +138,9 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
         zd_point_move(point, t, self->p, point->v);
         return ZD_DONE;
     }
-    if (!system->embed) return place_numerically(self, point, t, q);
-    memcpy(self->p, point->p, (size_t)self->nq * sizeof(double));
-    int status = system->embed(system->data, t, q, self->p);            /* (18) */
+    predict(self, point, t);
+    if (!self->embed) return place_numerically(self, point, t, q);
+    int status = self->embed(system->data, t, q, self->p);            /* (18) */
     if (!status) zd_point_move(point, t, self->p, point->v);
     return status;
 }
@@ -145,7 +167,7 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->terms.C[i * nv + j] * point->per_size[i]
+            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->C[i * nv + j] * point->per_size[zd_rank_row(point, i)]
                                                                    : kinematic(point, i - mh, j) * point->per_unit_p[i - mh]);
     point->culprit = zd_choose_columns(nv, columns, mh, self->work, self->order);
     if (point->culprit < nv) return ZD_DEPENDENT;
@@ -157,10 +179,11 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
 {
     const zd_system *system = point->system;
     *changed = 0;
-    if (self->chosen && (system->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C | ZD_A);
-    if (system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
-    else if (!status) status = choose(self, point);
+    if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
+    int status = need_rows(self, point);
+    if (status) return status;
+    if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
+    else status = choose(self, point);
     if (!status) status = factor(self, point);
     if (status) return status;
     if (self->chosen) point->statistics->repartitions++;

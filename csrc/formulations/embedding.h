@@ -5,7 +5,8 @@
 #include "../core.h"
 
 typedef struct zd_embedding {
-    int nq, nv, mh, k;
+    int nq, nv, mh, k;      /* mh: holonomic rows that count */
+    zd_embed *embed;        /* the system's own g; NULL: there is none, or it is for more rows */
     int chosen;             /* whether q has been */
     double reference;       /* how well q was conditioned when it was */
     double rounding;        /* of Phi */

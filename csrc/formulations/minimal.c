@@ -10,13 +10,14 @@
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
 {
-    size_t n = (size_t)system->nv, r = n - (size_t)zd_constraints(system);
+    size_t n = (size_t)system->nv;
     return (zd_minimal){
         .complement = zd_complement_take(arena, system),
-        .Mu = zd_take_doubles(arena, r * r),
-        .u = zd_take_doubles(arena, r),
+        .Mu = zd_take_doubles(arena, n * n),
+        .size = system->nv - zd_constraints(system),
+        .u = zd_take_doubles(arena, n),
         .b = zd_take_doubles(arena, n),
-        .du = zd_take_doubles(arena, r),
+        .du = zd_take_doubles(arena, n),
     };
 }
 
@@ -54,26 +55,35 @@ void zd_minimal_solve(void *memory, const double *force, const double *rhs, doub
     zd_complement_multipliers(&self->complement, self->b, lambda);
 }
 
+/* Where fewer rows count than in the state, u is too short to say where the motion goes. */
+static int check_size(const zd_minimal *self)
+{
+    return self->complement.r == self->size ? ZD_DONE : ZD_BIFURCATION;
+}
+
 int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
-    int status = zd_complement_velocity(&self->complement, point, self->u, self->b);
+    int status = zd_complement_at(&self->complement, point);
+    if (!status) status = check_size(self);
+    if (!status) status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) zd_point_move_velocity(point, self->b);
     return status;
 }
 
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
 {
-    for (int j = 0; j < self->complement.r; j++) self->u[j] = u[j];
+    for (int j = 0; j < self->size; j++) self->u[j] = u[j];
     return zd_minimal_settle(self, point);
 }
 
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
 {
     int status = zd_complement_review(&self->complement, point);
+    if (!status) status = check_size(self);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
     if (status) return status;
     zd_complement_speeds(&self->complement, point, self->u);
-    for (int j = 0; j < self->complement.r; j++) u[j] = self->u[j];
+    for (int j = 0; j < self->size; j++) u[j] = self->u[j];
     return ZD_DONE;
 }

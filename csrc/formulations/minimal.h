@@ -8,7 +8,8 @@ typedef struct zd_minimal {
     zd_complement complement;
     const double *M;    /* (n, n): the point's */
     double *Mu;         /* (r, r): Cholesky factor of D^T M D */
-    double *u;          /* (r,): that of the state */
+    int size;           /* of the u in the state */
+    double *u;          /* (size,): that */
     double *b;          /* (n,) */
     double *du;         /* (r,) */
 } zd_minimal;

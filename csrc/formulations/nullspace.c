@@ -64,7 +64,7 @@ static int factor(void *memory, zd_point *point)
     int status = zd_complement_review(&self->complement, point);
     if (status) return status;
     self->M = point->terms.M;
-    fill(self, self->M, point->terms.C);                                /* (9) */
+    fill(self, self->M, point->C);                                      /* (9) */
     point->culprit = zd_lu_factor(n, self->H, self->order);
     return point->culprit < n ? ZD_SINGULAR : ZD_DONE;
 }

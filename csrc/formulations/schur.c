@@ -18,16 +18,17 @@
 #include "dependent.h"
 
 #include "../linalg/small.h"
+#include "../rank.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-enum { DEPENDENT_BELOW = 1024 };    /* units of rounding left of a row after taking out the others: then it is one of them */
+static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
 
 typedef struct schur {
     int n, m;
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
     double *Q;      /* (m, n) */
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
-    const double *C;    /* (m, n): the point's */
+    const double *C;    /* (m, n): the point's rows that count */
     double *b;      /* (m,) */
     double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
 } schur;
@@ -61,17 +62,17 @@ ZD_INLINE double orthogonalize(const int n, int k, const int again, const schur 
     return zd_metric_dot(n, self->L, q, q);
 }
 
-/* Returns m, or the row that depends on those before it. */
-ZD_INLINE int factor_rows(const int n, const schur *self, const double *C)
+/* Returns m, or the row of which only rounding is left when those before it are taken out. */
+ZD_INLINE int factor_rows(const int n, const schur *self)
 {
+    const double *C = self->C;
     int m = self->m;
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n, *g = self->G + k * m;
         zd_forward(n, self->L, C + k * n, q);
         double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, k, 0, self, q, g);
         if (rest < 0.01 * whole) rest = orthogonalize(n, k, 1, self, q, g);    /* twice is enough */
-        double least = DEPENDENT_BELOW * 0x1p-53;
-        if (!(rest > least * least * whole) || !(rest < INFINITY)) return k;
+        if (!(rest > LEAST * LEAST * whole) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
@@ -80,10 +81,13 @@ ZD_INLINE int factor_rows(const int n, const schur *self, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
-    self->C = point->terms.C;
     point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
     if (point->culprit < self->n) return ZD_NOT_DEFINITE;
-    point->culprit = ZD_SIZED(factor_rows, self->n, self, point->terms.C);
+    int status = zd_rank_find(point);
+    if (status) return status;
+    self->m = point->rows;
+    self->C = point->C;
+    point->culprit = ZD_SIZED(factor_rows, self->n, self);
     return point->culprit < self->m ? ZD_DEPENDENT : ZD_DONE;
 }
 
@@ -140,6 +144,7 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 const zd_formulation zd_schur = {
     .card = {"schur", "Dependent variables; multipliers from the small matrix C M^-1 C^T, then accelerations.", "(13), (27)", 0},
     ZD_DEPENDENT_STATE,
+    .inverts_mass = 1,
     .take = take,
     .factor = factor,
     .solve = solve,

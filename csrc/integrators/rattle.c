@@ -131,7 +131,7 @@ static int residual(void *context, double *size)
     for (int i = 0; i < n; i++) self->F[i] = self->start[i] + self->h / 2 * self->F[i] - self->mean[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = -self->probe->terms.Phi[k] / self->h;
     run->statistics.solves++;
-    run->formulation->solve(run->solver, self->F, self->rhs, self->x, NULL);
+    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
 
     double change = zd_max_abs(n, self->x), whole = zd_max_abs(n, self->w);
     int rounding = change >= self->before / 2 && change <= SMALL * (whole + zd_max_abs(n, self->p) / fabs(self->h));
@@ -197,7 +197,7 @@ static int find_velocities(rattle *self)
     for (int i = 0; i < n; i++) self->F[i] = self->mean[i] + self->h / 2 * self->F[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = point->terms.Phi_t ? -point->terms.Phi_t[k] : 0;
     run->statistics.solves++;
-    run->formulation->solve(run->solver, self->F, self->rhs, self->x, NULL);
+    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
     zd_point_move_velocity(point, self->x);
     return run->formulation->leave(run->solver, point, run->y);
 }

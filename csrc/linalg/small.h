@@ -5,6 +5,8 @@
 #define ZD_SMALL_H
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #if defined(__GNUC__) || defined(__clang__)
 #define ZD_INLINE static inline __attribute__((always_inline))
@@ -56,6 +58,16 @@ ZD_INLINE double zd_largest(const int n, const double *x)
         broken |= isnan(size);
     }
     return broken ? INFINITY : largest;
+}
+
+/* The power of two at or below x > 0; 0 where x is too small to be scaled by one. */
+ZD_INLINE double zd_power_below(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits &= UINT64_C(0x7ff) << 52;
+    memcpy(&x, &bits, sizeof x);
+    return x;
 }
 
 /* Cholesky's factors without square roots, M = L D L^T, in one matrix (n, n): L below its diagonal of ones, and D, in reciprocals,

@@ -12,6 +12,9 @@
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
+static const double ROUNDING = 8 * 0x1p-52;          /* of a cosine */
+static const double FLAT = 1e-9;                    /* of the ground link is missing where all links are in line */
+
 enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
 
 typedef zd_four_bar_given given;
@@ -94,13 +97,15 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
 
 /* ---- alpha_2 and alpha_3 from alpha_1 ---- */
 
-/* alpha_2, alpha_3 in (-pi, pi] close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0). Returns whether they can. */
+/* alpha_2, alpha_3 close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0), with joint 3 on that side of it (1 or -1) or,
+ * with side 0, on the side where alpha_2 has it. Returns whether they can. */
 static int close_loop(double l0, const double *l, double side, double *p)
 {
-    double x = l0 - l[0] * cos(p[ALPHA_1]), y = -l[0] * sin(p[ALPHA_1]), diagonal = hypot(x, y);
+    double x = l0 - l[0] * cos(p[ALPHA_1]), y = -l[0] * sin(p[ALPHA_1]), diagonal = hypot(x, y), direction = atan2(y, x);
     double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
-    if (!(fabs(cosine) <= 1)) return 0;
-    p[ALPHA_2] = atan2(y, x) + side * acos(cosine);
+    if (!(fabs(cosine) <= 1 + ROUNDING)) return 0;
+    if (side == 0) side = p[ALPHA_2] - direction < TURN * round((p[ALPHA_2] - direction) / TURN) ? -1 : 1;
+    p[ALPHA_2] = direction + side * acos(fmax(-1, fmin(cosine, 1)));
     p[ALPHA_3] = atan2(y - l[1] * sin(p[ALPHA_2]), x - l[1] * cos(p[ALPHA_2]));
     return 1;
 }
@@ -134,6 +139,17 @@ void zd_four_bar_start(const given *q, double *p, double *v)
     close_rates(q, p, v);
 }
 
+/* Whether all links can lie in one line: there both assemblies meet. */
+static int can_be_flat(const double *l)
+{
+    for (int signs = 0; signs < 8; signs++) {
+        double sum = l[0];
+        for (int i = 0; i < N; i++) sum += signs & 1 << i ? l[i + 1] : -l[i + 1];
+        if (fabs(sum) <= FLAT * l[0]) return 1;
+    }
+    return 0;
+}
+
 const char *zd_four_bar_prepare(const given *q, constants *to)
 {
     double p[N] = {q->angle};
@@ -147,7 +163,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
     *to = (constants){
         .l0 = q->l[0],
         .l = {l1, l2, l3},
-        .side = q->crossed ? -1 : 1,
+        .side = can_be_flat(q->l) ? 0 : q->crossed ? -1 : 1,
         .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
         .k12 = (0.5 * m2 + m3) * l1 * l2,
         .k13 = 0.5 * m3 * l1 * l3,

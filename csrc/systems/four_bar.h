@@ -19,7 +19,7 @@ typedef struct zd_four_bar_given {
 /* what evaluate() needs of them */
 typedef struct zd_four_bar_constants {
     double l0, l[ZD_FOUR_BAR_N];
-    double side;                        /* of the diagonal that joint 3 is on: 1 open, -1 crossed */
+    double side;                        /* of the diagonal that joint 3 is on: 1 open, -1 crossed; 0: it changes where they meet */
     double diagonal[ZD_FOUR_BAR_N];     /* M_ii, kg m^2 */
     double k12, k13, k23;               /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
     double weight[ZD_FOUR_BAR_N];       /* -f_i / cos(alpha_i), N m */

@@ -336,5 +336,5 @@ def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[fl
 def default_steps(system, span, p0, v0) -> list[float]:
     """Fixed steps around the mean one of an accurate run, in s."""
     method = max(settings.integrators().values(), key=lambda card: card.order).name
-    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method)
+    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method, formulation="augmented")
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

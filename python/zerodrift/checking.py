@@ -16,6 +16,7 @@ from .settings import Projection
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, in units of what is varied
 AGREE = 1e-5                            # relative: far above the 1e-10 a difference leaves, far below any mistake
+NEGLIGIBLE = 1e-9                       # relative: eigenvalues and singular values that are zero but for rounding
 SPREAD = 0.1                            # of the sampled states about the start
 
 
@@ -117,7 +118,7 @@ def _samples(system: BaseSystem, p: np.ndarray, v: np.ndarray, t: float, samples
         guess = p + SPREAD * random.standard_normal(system.nq) * max(np.abs(p).max(initial=0.0), 1e-3)
         rates = v + random.standard_normal(system.nv) * max(np.abs(v).max(initial=0.0), 1.0)
         try:
-            yield project(system, guess, rates, t, projection=Projection(tol=1e-9, max_iterations=50))
+            yield project(system, guess, rates, t, projection=Projection(tol=1e-9, max_iterations=50), formulation="augmented")
         except ZerodriftError:      # too far away, or a wrong Jacobian: the state itself will do
             yield guess, rates
 
@@ -141,16 +142,33 @@ def _disagreement(given: Any, derived: Any, what: str) -> str:
 def _mass(state: _State) -> Iterator[tuple[str, str]]:
     M = state.terms.M
     yield "symmetry of mass", _disagreement(M, M.T, "M is not its own transpose") if M.size else ""
-    lowest = np.linalg.eigvalsh((M + M.T) / 2).min(initial=1.0)
-    yield "definiteness of mass", "" if lowest > 0 else f"M is not positive definite, its lowest eigenvalue is {lowest:.3g}"
+    free = _free_directions(state.terms.C, M)
+    lowest, lowest_free = (np.linalg.eigvalsh(D.T @ (M + M.T) @ D / 2).min(initial=1.0) for D in (np.eye(len(M)), free))
+    if lowest < -NEGLIGIBLE * np.abs(M).max():
+        yield "definiteness of mass", f"M is not positive definite, its lowest eigenvalue is {lowest:.3g}"
+    else:
+        problem = "M is singular, even where the constraints leave the velocities free"
+        yield "definiteness of mass", "" if lowest_free > 0 else problem
+
+
+def _free_directions(C: np.ndarray | None, M: np.ndarray) -> np.ndarray:
+    """Columns that span what C leaves free."""
+    if C is None:
+        return np.eye(len(M))
+    _, values, vectors = np.linalg.svd(C)
+    return vectors[(values > NEGLIGIBLE * values.max(initial=0.0)).sum():].T
 
 
 def _consistency(state: _State) -> Iterator[tuple[str, str]]:
-    C = state.terms.C
+    C, xi = state.terms.C, state.terms.xi
     if C is None:
         return
-    rank = np.linalg.matrix_rank(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300))
-    yield "rank of constraints", "" if rank == len(C) else f"of {len(C)} constraints only {rank} are independent"
+    length = np.maximum(np.linalg.norm(C, axis=1), 1e-300)
+    C, xi = C / length[:, None], xi / length
+    vdot = np.linalg.lstsq(C, xi, rcond=NEGLIGIBLE)[0]
+    left = np.abs(C @ vdot - xi).max()
+    agree = left <= AGREE * max(np.abs(xi).max(), np.abs(state.v).max() ** 2 / (1 + np.abs(state.p).max()))
+    yield "agreement of constraints", "" if agree else f"they contradict each other: the best vdot leaves {left:.3g} of (6)"
 
 
 def _jacobian(state: _State) -> Iterator[tuple[str, str]]:
@@ -189,7 +207,7 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
     if terms.V is None:
         return
     try:
-        vdot, multipliers = acceleration(state.system, state.p, v, state.t)
+        vdot, multipliers = acceleration(state.system, state.p, v, state.t, "augmented")
     except ZerodriftError:
         return      # said elsewhere: the mass or the constraints are at fault
     zero = np.zeros(state.system.nv)

@@ -32,7 +32,8 @@ class System(BaseSystem):
         ``"rad"``) is taken for a length: tolerances then mean the same in any unit, see `Projection`. Left out: all are
         pure numbers.
     mass : callable or array_like -> (nv, nv)
-        M of (2): symmetric and positive definite. Its size says how many velocities there are.
+        M of (2): symmetric and positive definite; for formulations other than "schur" it may be singular where the constraints
+        hold what has no mass. Its size says how many velocities there are.
     force, bias : callable or array_like -> (nv,)
         f and d of (2).
     constraints : callable -> (mh,)
@@ -216,8 +217,6 @@ def _sizes(nq: int, functions: dict[str, _Function], p0: np.ndarray | None) -> t
     if "kinematics" not in functions and nv != nq:
         raise ValueError(f"mass is for {nv} velocities and there are {nq} coordinates: then kinematics is needed")
     mh, mn = shape("constraints", 1)[0], shape("nonholonomic", 2)[0]
-    if mh + mn > nv:
-        raise ValueError(f"{mh + mn} constraints are too many for {nv} velocities")
     if "power" in functions and "potential" not in functions:
         raise ValueError("power is given without potential: without it there is no energy balance")
     _check_shapes(functions, {"nq": nq, "nv": nv, "mh": mh, "mn": mn, "m": mh + mn}, p)

@@ -38,7 +38,11 @@ class UnsuitedIntegrator(ZerodriftError, ValueError):
 
 
 class SingularSystem(ZerodriftError, ArithmeticError):
-    """The mass matrix is not positive definite, or the constraints are dependent."""
+    """The mass matrix is not positive definite where it has to be, or the constraints are dependent or contradict each other."""
+
+
+class Bifurcation(SingularSystem):
+    """Constraints that are independent elsewhere are not here, and do not determine the motion."""
 
 
 class Diverged(ZerodriftError, ArithmeticError):

@@ -42,7 +42,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     Raises
     ------
     CorrectionFailed
-        If no consistent position was found: links cannot close, or the guess is too far away.
+        If no consistent position was found: links cannot close, what is held contradicts them, or the guess is too far away.
     SingularSystem
         If what is held leaves no way to satisfy the constraints.
 
@@ -63,7 +63,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
         _check.choice("hold", name, known)
     holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
     v = np.zeros(system.nv) if v is None else v
-    return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "schur", holds)
+    return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
@@ -113,7 +113,8 @@ def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndar
     return p, v
 
 
-def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = "schur") -> tuple[np.ndarray, np.ndarray]:
+def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = "schur",
+                 on_singular: str = "stop") -> tuple[np.ndarray, np.ndarray]:
     """Accelerations and multipliers at (t, p, v).
 
     Parameters
@@ -126,11 +127,15 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
         Time in s.
     formulation : str
         One of `formulations()`.
+    on_singular : {"stop", "continue"}
+        At a bifurcation, where constraints that are independent elsewhere are not: raise `Bifurcation`, or give the least
+        acceleration that they allow.
 
     Returns
     -------
     vdot, multipliers : ndarray (nv,), (m,)
-        With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``.
+        With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``. Where constraints are redundant,
+        the smallest multipliers: ``sum(multipliers**2 * s**2)`` is least, with ``s**2 = diag(C inv(M) C.T)``.
 
     Examples
     --------
@@ -140,5 +145,5 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     array([-1.])
     """
     core = core_of(system)
-    return _gateway.acceleration(core, settings.formulation_row(formulation), _check.number("t", t),
-                                 _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))
+    return _gateway.acceleration(core, settings.formulation_row(formulation), settings.on_singular_row(on_singular),
+                                 _check.number("t", t), _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))

@@ -203,6 +203,14 @@ def integrator_row(name: Any) -> int:
     return list(_INTEGRATORS).index(_check.choice("integrator", name, _INTEGRATORS))
 
 
+ON_SINGULAR = ("stop", "continue")
+
+
+def on_singular_row(value: Any) -> int:
+    """What the core calls the argument `on_singular`."""
+    return ON_SINGULAR.index(_check.choice("on_singular", value, ON_SINGULAR))
+
+
 # Settings that the core takes as they are.
 _PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eval")
 
@@ -210,7 +218,8 @@ _PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eva
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     options = {"formulation": formulation_row(chosen["formulation"]),
-               "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1]}
+               "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
+               "on_singular": on_singular_row(chosen.get("on_singular", "stop"))}
     options |= {name: chosen[name] for name in _PLAIN if chosen.get(name) is not None}
     for correction in (chosen["stabilization"], chosen["energy"]):
         options |= correction._core() if correction else {}

@@ -43,6 +43,7 @@ def simulate(
     energy: bool | settings.EnergyCorrection | None = None,
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,
+    on_singular: str = "stop",
     on_failure: str = "raise",
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
@@ -83,6 +84,10 @@ def simulate(
         Steps between saved rows; start and end are always saved.
     progress : bool or callable
         True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
+    on_singular : {"stop", "continue"}
+        What to do at a bifurcation, where constraints that are independent elsewhere are not, and do not determine the motion:
+        stop, or continue on the branch of least acceleration (in "augmented", "nullspace" and "schur"). Constraints that are
+        redundant wherever the system goes need no choice.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
@@ -126,8 +131,9 @@ def simulate(
     """
     core, span = core_of(system), _check.span(t_span)
     control = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
+    settings.on_singular_row(on_singular)
     chosen = {**_steps(span, step, integrator, control), **_chosen(system, formulation, integrator, stabilization, energy),
-              **_saved(span, save_every, t_eval)}
+              **_saved(span, save_every, t_eval), "on_singular": on_singular}
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events)
     p0, v0 = system._start(p0, v0)
@@ -249,7 +255,7 @@ def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
         energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
         energy_skipped=arrays["energy_skipped"], position_size=run.sizes,
-        stats=run.statistics | {"seconds": outcome.seconds}, status=outcome.status,
+        stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
         system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
 

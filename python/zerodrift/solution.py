@@ -47,7 +47,8 @@ class Solution:
     stats : dict
         Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
         product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
-        `largest_kinetic`, in J, are looked at every few steps.
+        `largest_kinetic`, in J, are looked at every few steps. Of the constraints, `rank` are independent, `redundant` lists rows
+        that follow from the others, and in `rank_drops` steps the rank was less for a while.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -112,6 +113,11 @@ class Solution:
         if self.system.m:
             lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
                          f"max |Psi| = {_largest(self.velocity_violation)}")
+        if stats.get("redundant"):
+            names = ", ".join(self.system.constraints[row].name for row in stats["redundant"])
+            lines.append(f"  redundant  {names}: rank {stats['rank']} of {self.system.m}")
+        if stats.get("rank_drops"):
+            lines.append(f"  singular   the rank dropped in {stats['rank_drops']} steps")
         if self.energy_violation is not None:
             lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
         return "\n".join(lines)

@@ -35,7 +35,7 @@ enum zd_status {
     ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
-    ZD_DEPENDENT = -3,        /* the rows of C are dependent */
+    ZD_DEPENDENT = -3,        /* rows of C that count are dependent, to the formulation's own precision */
     ZD_SINGULAR = -4,         /* a leading matrix is singular */
     ZD_NO_CONVERGENCE = -5,   /* the position correction did not reach its tolerance */
     ZD_NO_STEP = -6,          /* the equations of an implicit step were not solved */
@@ -50,7 +50,9 @@ enum zd_status {
     ZD_UNSUITED = -15,        /* the formulation cannot take this system */
     ZD_BAD_TERM = -16,        /* a term of the system is not finite where the state is */
     ZD_UNSUITED_INTEGRATOR = -17,   /* the integrator cannot take this system */
-    ZD_BRANCH = -18           /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
+    ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
+    ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
+    ZD_CONTRADICTION = -20    /* constraints that follow from others ask for something else */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -90,7 +92,7 @@ typedef struct zd_terms {
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns ZD_DONE; anything else: it failed. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
-/* p = g(q) of (18), on the branch that p is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
+/* p = g(q) of (18), on the branch that p, an estimate of it, is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
 typedef int zd_embed(const void *data, double t, const double *q, double *p);
 
 typedef struct zd_system {

@@ -21,6 +21,8 @@ ERRORS = {
     lib.ZD_NOT_DEFINITE: errors.SingularSystem,
     lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
     lib.ZD_DEPENDENT: errors.SingularSystem,
+    lib.ZD_BIFURCATION: errors.Bifurcation,
+    lib.ZD_CONTRADICTION: errors.SingularSystem,
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
     lib.ZD_BRANCH: errors.BranchJump,

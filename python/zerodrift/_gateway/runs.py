@@ -113,6 +113,12 @@ class Run:
         return text(lib.zd_run_message(self._run))
 
     @property
+    def redundant(self) -> list[int]:
+        """The constraints that follow from others wherever the system goes."""
+        rows = ffi.new("int[]", max(1, self._core.m))
+        return list(rows[0:lib.zd_run_redundant(self._run, rows)])
+
+    @property
     def statistics(self) -> dict[str, Any]:
         """Counts of what the run did, and its largest omega h."""
         c = lib.zd_run_statistics(self._run)
@@ -134,11 +140,12 @@ def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:
         raise core.error or error_of(status, text(message))
 
 
-def acceleration(core: CoreSystem, formulation: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float, p: np.ndarray,
+                 v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`zd_acceleration`: vdot (nv,) and multipliers (m,)."""
     core = core.for_run()
     vdot, multipliers, message = np.empty(core.nv), np.empty(core.m), ffi.new("char[]", MESSAGE_SIZE)
-    status = lib.zd_acceleration(core.c, formulation, t, doubles(p, core.nq), doubles(v, core.nv),
+    status = lib.zd_acceleration(core.c, formulation, on_singular, t, doubles(p, core.nq), doubles(v, core.nv),
                                  doubles(vdot, core.nv, writable=True), doubles(multipliers, core.m, writable=True),
                                  message, MESSAGE_SIZE)
     if status:

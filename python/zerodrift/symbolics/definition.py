@@ -180,9 +180,6 @@ class Definition:
                 raise ValueError(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
 
     def _check_stages(self, given: Given) -> None:
-        m = len(given.holonomic) + len(given.nonholonomic)
-        if m > given.nv:
-            raise ValueError(f"{m} constraints are too many for {given.nv} velocities")
         for i, row in enumerate(given.holonomic):
             if row.stage >= MOVING:
                 raise ValueError(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")

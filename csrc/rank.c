@@ -1,0 +1,417 @@
+/* The rank of C from its numbers, and what becomes of rows that follow from others.
+ *
+ * Rows are orthogonalized, always the one next of which most is left, in two metrics: the plain one, which masses far apart do
+ * not disturb, and that of M^-1, which units do not. The larger rank of the two counts. With C_r the rows chosen, and those not
+ * chosen C_d = T C_r, the motion is that of the constraints C_r alone, and
+ *
+ *     C^T lambda = C_r^T lambda_r
+ *
+ * leaves the multipliers undetermined. The smallest are taken, sum s_k^2 lambda_k^2 = min, with s_k^2 = C_k M^-1 C_k^T: what is
+ * smallest are the accelerations that each constraint's own reaction would cause, which no unit of a row or of a coordinate
+ * changes. With W = diag(1 / s_k^2) and B = [I; T],
+ *
+ *     lambda = W B (B^T W B)^-1 lambda_r.
+ *
+ * Where M is singular, or all but singular, s_k is the plain length of the row.
+ */
+#include "rank.h"
+
+#include <stdio.h>
+
+#include "linalg/small.h"
+
+static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
+static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
+static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
+static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
+
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    zd_rank self = {
+        .n = (int)n,
+        .m = (int)m,
+        .mh = system->mh,
+        .limit = (int)m,
+        .holonomic_limit = system->mh,
+        .redundant = zd_take(arena, m * sizeof(int)),
+        .row = zd_take(arena, m * sizeof(int)),
+        .length = zd_take_doubles(arena, m),
+        .C = zd_take_doubles(arena, m * n),
+        .Q = zd_take_doubles(arena, m * n),
+        .G = zd_take_doubles(arena, m * m),
+        .whole = zd_take_doubles(arena, m),
+        .left = zd_take_doubles(arena, m),
+        .weight = zd_take_doubles(arena, m),
+        .K = zd_take_doubles(arena, m * m),
+        .L = zd_take_doubles(arena, n * n),
+        .rhs = zd_take_doubles(arena, m),
+        .lambda = zd_take_doubles(arena, m),
+        .sample = zd_take_doubles(arena, 2 * n + m * m),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* ---- the choice of rows ---- */
+
+/* Q <- C, or C L^-T D^-1/2: then plain products are those of M^-1. */
+static void set_rows(zd_rank *self, const double *C, const double *L)
+{
+    int n = self->n;
+    for (int k = 0; k < self->m; k++) {
+        double *q = self->Q + k * n;
+        if (L) zd_forward(n, L, C + k * n, q);
+        else zd_copy(n, C + k * n, q);
+        for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
+        self->whole[k] = self->left[k] = zd_dot(n, q, q);
+        double length = zd_dot(n, C + k * n, C + k * n);
+        if (!(length > SQUARED * self->length[k])) self->left[k] = 0;
+    }
+}
+
+/* The row among these of which most is left, or -1: a later one only if that is twice as much, so that the choice is a steady one. */
+static int choose_row(const zd_rank *self, int begin, int end)
+{
+    int best = -1;
+    double most = SQUARED;
+    for (int k = begin; k < end; k++)
+        if (self->left[k] > most * self->whole[k]) {
+            best = k;
+            most = 4 * self->left[k] / self->whole[k];
+        }
+    return best;
+}
+
+static void take_out(zd_rank *self, int chosen, int rank)
+{
+    int n = self->n;
+    double *q = self->Q + chosen * n, length = sqrt(zd_dot(n, q, q));
+    for (int i = 0; i < n; i++) q[i] /= length;
+    self->G[chosen * self->m + rank] = length;
+    self->left[chosen] = -1;
+    for (int k = 0; k < self->m; k++) {
+        double *other = self->Q + k * n;
+        if (self->left[k] < 0) continue;
+        double along = self->G[k * self->m + rank] = zd_dot(n, q, other);
+        zd_add_scaled(n, other, -along, q);
+        if (self->left[k] > 0) self->left[k] = zd_dot(n, other, other);
+    }
+}
+
+static int orthogonalize(zd_rank *self, const double *C, const double *L)
+{
+    int rank = 0, chosen;
+    set_rows(self, C, L);
+    while (rank < self->limit && rank < self->holonomic_limit && (chosen = choose_row(self, 0, self->mh)) >= 0) {
+        take_out(self, chosen, rank);
+        self->row[rank++] = chosen;
+    }
+    while (rank < self->limit && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
+        take_out(self, chosen, rank);
+        self->row[rank++] = chosen;
+    }
+    for (int k = 0, next = rank; k < self->m; k++)
+        if (self->left[k] >= 0) self->row[next++] = k;
+    return rank;
+}
+
+static void set_weights(zd_rank *self)
+{
+    for (int k = 0; k < self->m; k++) self->weight[k] = self->left[k] != 0 && self->whole[k] > 0 ? 1 / self->whole[k] : 0;
+}
+
+/* Whether M^-1 is one: with so little of a pivot left, rounding in that metric would be as large as the tolerance. */
+static int has_metric(zd_rank *self, const double *M)
+{
+    int n = self->n;
+    if (zd_cholesky(n, M, self->L) < n) return 0;
+    for (int i = 0; i < n; i++)
+        if (!(1 > LEAST_PIVOT * M[i * n + i] * self->L[i * n + i])) return 0;
+    return 1;
+}
+
+/* The larger of the two ranks; with it in G what rows had along those that were chosen. */
+static int rank_of(zd_rank *self, const double *C, const double *M)
+{
+    int rank = orthogonalize(self, C, NULL);
+    if (rank == self->m) return rank;
+    set_rows(self, C, NULL);
+    set_weights(self);
+    if (!has_metric(self, M)) return orthogonalize(self, C, NULL);
+    set_rows(self, C, self->L);
+    set_weights(self);
+    int other = orthogonalize(self, C, self->L);
+    return other < rank ? orthogonalize(self, C, NULL) : other;
+}
+
+/* T, in the rows of G that do not count: T G_r = G_d, where G_r is triangular in the order of choice. */
+static void express_others(zd_rank *self, int rank)
+{
+    int m = self->m;
+    for (int d = rank; d < m; d++) {
+        double *T = self->G + self->row[d] * m;
+        for (int a = rank - 1; a >= 0; a--) {
+            for (int b = a + 1; b < rank; b++) T[a] -= T[b] * self->G[self->row[b] * m + a];
+            T[a] /= self->G[self->row[a] * m + a];
+        }
+    }
+}
+
+/* B^T W B, factored */
+static void set_shares(zd_rank *self, int rank)
+{
+    for (int a = 0; a < rank; a++)
+        for (int b = 0; b < rank; b++) {
+            double sum = a == b ? self->weight[self->row[a]] : 0;
+            for (int d = rank; d < self->m; d++) {
+                const double *T = self->G + self->row[d] * self->m;
+                sum += T[a] * self->weight[self->row[d]] * T[b];
+            }
+            self->K[a * rank + b] = sum;
+        }
+    zd_cholesky(rank, self->K, self->K);
+}
+
+static void use_all(zd_point *point)
+{
+    point->known |= ZD_RANKED;
+    point->rows = point->rank->m;
+    point->holonomic = point->rank->mh;
+    point->C = point->terms.C;
+}
+
+static int use_chosen(zd_point *point, int rank)
+{
+    zd_rank *self = point->rank;
+    int n = self->n;
+    express_others(self, rank);
+    set_shares(self, rank);
+    for (int a = 0; a < rank; a++) zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
+    point->rows = rank;
+    point->C = self->C;
+    point->holonomic = 0;
+    while (point->holonomic < rank && self->row[point->holonomic] < self->mh) point->holonomic++;
+    self->dropped |= rank < self->limit;
+    if (rank < self->limit && !self->may_drop) return ZD_BIFURCATION;
+    point->known |= ZD_RANKED;
+    return ZD_DONE;
+}
+
+static int reduce(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    self->near = 1;
+    int status = zd_point_need(point, ZD_M);
+    if (status) return status;
+    if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
+    int rank = rank_of(self, point->terms.C, point->terms.M);
+    if (rank < self->m) return use_chosen(point, rank);
+    use_all(point);
+    return ZD_DONE;
+}
+
+/* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
+ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
+{
+    int m = self->m;
+    double *whole = self->whole, *left = self->left;
+    for (int k = 0; k < m; k++) {
+        whole[k] = zd_dot(n, C + k * n, C + k * n);
+        if (!(whole[k] > DOUBTFUL * self->length[k])) return 1;
+    }
+    if (m < 2) return 0;
+    double along = zd_dot(n, C, C + n);
+    if (m == 2) return !((1 - DOUBTFUL) * whole[0] * whole[1] > along * along);     /* without the divisions of what follows */
+    for (int k = 0; k < m; k++) {
+        double *q = self->Q + k * n;
+        zd_copy(n, C + k * n, q);
+        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
+        left[k] = zd_dot(n, q, q);
+        if (!(left[k] > DOUBTFUL * whole[k])) return 1;
+    }
+    return 0;
+}
+
+int zd_rank_find(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    if (point->known & ZD_RANKED) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C);
+    if (status) return status;
+    if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
+    use_all(point);
+    return ZD_DONE;
+}
+
+/* ---- solving with fewer rows ---- */
+
+/* lambda of all rows, the smallest, from that of those that count */
+static void share_out(zd_rank *self, int rank, double *lambda)
+{
+    double *y = self->lambda;
+    zd_forward(rank, self->K, y, y);
+    zd_backward(rank, self->K, y, y);
+    for (int a = 0; a < rank; a++) lambda[self->row[a]] = self->weight[self->row[a]] * y[a];
+    for (int d = rank; d < self->m; d++)
+        lambda[self->row[d]] = self->weight[self->row[d]] * zd_dot(rank, self->G + self->row[d] * self->m, y);
+}
+
+void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
+                           const double *rhs, double *x, double *lambda)
+{
+    zd_rank *self = point->rank;
+    for (int a = 0; a < point->rows; a++) self->rhs[a] = rhs[self->row[a]];
+    formulation->solve(solver, force, self->rhs, x, lambda ? self->lambda : NULL);
+    if (lambda) share_out(self, point->rows, lambda);
+}
+
+/* ---- the start ---- */
+
+/* How large the rows are where nothing is singular; a row that is nothing at the start is as large as the largest. */
+static void measure(const zd_point *point)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    for (int k = 0; k < m; k++) self->length[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
+    double largest = zd_max_abs(m, self->length);
+    for (int k = 0; k < m; k++)
+        if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
+}
+
+/* Q <- an orthonormal basis of the rows that count */
+static void set_basis(const zd_point *point)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n;
+    for (int a = 0; a < point->rows; a++) {
+        double *q = self->Q + a * n;
+        zd_copy(n, point->C + a * n, q);
+        for (int again = 0; again < 2; again++)
+            for (int b = 0; b < a; b++) zd_add_scaled(n, q, -zd_dot(n, self->Q + b * n, q), self->Q + b * n);
+        double length = sqrt(zd_dot(n, q, q));
+        for (int i = 0; i < n; i++) q[i] /= length;
+    }
+}
+
+/* v <- another velocity that the constraints allow where they allow v0 */
+static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n;
+    double size = 1 + zd_max_abs(n, v0);
+    for (int i = 0; i < n; i++) {
+        *seed = *seed * 1664525u + 1013904223u;
+        v[i] = size * ((double)(*seed >> 8) * 0x1p-23 - 1);
+    }
+    for (int a = 0; a < point->rows; a++) zd_add_scaled(n, v, -zd_dot(n, self->Q + a * n, v), self->Q + a * n);
+    for (int i = 0; i < n; i++) v[i] += v0[i];
+}
+
+static double unit_of(const zd_rank *self, int k)
+{
+    return self->length[k] > 0 ? sqrt(self->length[k]) : 1;
+}
+
+/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
+ * they are redundant. In units of the rows; (m - rows,) */
+static void curvature(const zd_point *point, double *w)
+{
+    const zd_rank *self = point->rank;
+    const double *xi = point->terms.xi;
+    double speed = zd_max_abs(self->n, point->v), largest = 0;
+    for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
+    for (int d = point->rows; d < self->m; d++) {
+        int row = self->row[d];
+        double sum = xi[row] / unit_of(self, row), terms = 1;
+        for (int a = 0; a < point->rows; a++) {
+            double share = self->G[row * self->m + a] / unit_of(self, row);
+            sum -= share * xi[self->row[a]];
+            terms += fabs(share) * unit_of(self, self->row[a]);
+        }
+        double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
+        w[d - point->rows] = fabs(sum) <= CURVED * scale ? 0 : sum;
+    }
+}
+
+/* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
+ * as soon as the system moves. Returns how many do. */
+static int count_curved(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, others = self->m - point->rows, curved = 0, status = ZD_DONE;
+    double *v0 = self->sample, *v = v0 + n, *basis = v + n;
+    unsigned seed = 1;
+    zd_copy(n, point->v, v0);
+    set_basis(point);
+    for (int sample = 0; sample < n && curved < others && !status; sample++) {
+        double *w = basis + curved * others;
+        vary(point, &seed, v0, v);
+        zd_point_move_velocity(point, v);
+        status = zd_point_need(point, ZD_XI);
+        if (status) break;
+        curvature(point, w);
+        double whole = zd_dot(others, w, w);
+        for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
+        double left = zd_dot(others, w, w);
+        if (!(left > SQUARED * whole)) continue;
+        for (int i = 0; i < others; i++) w[i] /= sqrt(left);
+        curved++;
+    }
+    zd_point_move_velocity(point, v0);
+    return status ? -1 : curved;
+}
+
+static int tell_redundant(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    double *w = self->sample;
+    int status = zd_point_need(point, ZD_XI);
+    if (status) return status;
+    curvature(point, w);
+    for (int d = point->rows; d < self->m; d++) {
+        point->culprit = self->row[d];
+        if (w[d - point->rows] != 0) return ZD_CONTRADICTION;       /* there is no vdot */
+    }
+    int curved = count_curved(point);
+    if (curved < 0) return ZD_CALLBACK;
+    self->limit = point->rows + curved;
+    if (curved) return ZD_DONE;
+    self->holonomic_limit = point->holonomic;
+    for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
+    return ZD_DONE;
+}
+
+int zd_rank_start(zd_point *point, const zd_settings *settings)
+{
+    zd_rank *self = point->rank;
+    if (!self->m) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C | ZD_M);
+    if (status) return status;
+    self->may_drop = 1;
+    measure(point);
+    status = zd_rank_find(point);
+    self->may_drop = settings->on_singular == ZD_CONTINUE;
+    if (status || point->rows == self->m) return status;
+    status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
+    if (status) return status;
+    self->dropped = point->rows < self->limit;
+    return self->dropped && !self->may_drop ? ZD_BIFURCATION : ZD_DONE;
+}
+
+int zd_rank_redundant(const zd_rank *self, int *rows)
+{
+    int count = 0;
+    for (int k = 0; k < self->m; k++)
+        if (self->redundant[k]) rows[count++] = k;
+    return count;
+}
+
+void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
+{
+    int first = point->rows, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
+    for (int d = first; d < end && (size_t)length < size; d++) {
+        const char *before = d == first ? " " : d == end - 1 ? " and " : ", ";
+        length += snprintf(to + length, size - (size_t)length, "%s%d", before, point->rank->row[d]);
+    }
+    if ((size_t)length < size) snprintf(to + length, size - (size_t)length, end - first > 1 ? " follow" : " follows");
+}

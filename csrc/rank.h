@@ -1,0 +1,61 @@
+/* Which rows of C count. Where some follow from others, all formulations work with an independent choice of them, and the
+ * multipliers are shared out over all rows afterwards.
+ */
+#ifndef ZD_RANK_H
+#define ZD_RANK_H
+
+#include "core.h"
+
+struct zd_rank {
+    int n, m, mh;
+    int limit, holonomic_limit;     /* most rows that count, of all and of the holonomic: less than m, mh where some are redundant */
+    int may_drop;       /* whether fewer are taken as they come; else that is ZD_BIFURCATION */
+    int dropped;        /* whether that has happened, in this step */
+    int near;           /* whether a closer look was needed, in this step */
+    int *redundant;     /* (m,): whether the row was redundant at the start */
+    int *row;           /* (m,): the rows that count, holonomic ones first, then those that follow from them */
+    double *length;     /* (m,): squares of the lengths of the rows at the start */
+    double *C;          /* (rows, n): those that count */
+    double *Q;          /* (m, n): rows being orthogonalized */
+    double *G;          /* (m, m): what they had along each other, and then (rows beyond those that count) T: C_other = T C */
+    double *whole, *left;   /* (m,): squares of their lengths, before and after */
+    double *weight;     /* (m,): 1 / |row|^2 */
+    double *K;          /* (rows, rows): factored; see zd_rank_share_out */
+    double *L;          /* (n, n): of M */
+    double *rhs, *lambda;   /* (rows,) */
+    double *sample;     /* (2 n + m m,): for the start */
+};
+
+/* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
+ * of M^-1, that is: both whatever the masses and whatever the units of the coordinates. As near as s to a bifurcation, its branches
+ * are as far as s from each other, and Phi differs by s^2: so they cannot be told apart with less than the root of the rounding. */
+#define ZD_RANK_TOLERANCE 0x1p-23
+/* Rows of which this share is left, plainly, need no closer look. */
+#define ZD_DOUBTFUL 0x1p-10
+
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
+/* Finds the rank at the start, and from (6) whether rows that follow from others contradict them, do so wherever the system goes (they
+ * are redundant), or only here (a bifurcation). A system without (6) is not asked. */
+int zd_rank_start(zd_point *point, const zd_settings *settings);
+/* Which rows count at the point, into point->rows, point->C. */
+int zd_rank_find(zd_point *point);
+/* Which row of all stands there among those that count. */
+static inline int zd_rank_row(const zd_point *point, int k)
+{
+    return point->rows == point->rank->m ? k : point->rank->row[k];
+}
+/* The formulation's solve, with right sides and multipliers of all rows. */
+void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
+                           const double *rhs, double *x, double *lambda);
+static inline void zd_rank_solve(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
+                                 const double *rhs, double *x, double *lambda)
+{
+    if (point->rows == point->rank->m) formulation->solve(solver, force, rhs, x, lambda);
+    else zd_rank_solve_reduced(point, formulation, solver, force, rhs, x, lambda);
+}
+/* The rows that are redundant, increasing; their number. */
+int zd_rank_redundant(const zd_rank *self, int *rows);
+/* "row 2 follows", "rows 0 and 2 follow": those that do not count, at the point */
+void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
+
+#endif

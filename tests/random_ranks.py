@@ -1,0 +1,150 @@
+"""Random systems whose constraints are dependent, by construction: what test_rank.py compares a few hundred of, and
+stress/random_systems.py as many as it is told to.
+"""
+
+import numpy as np
+
+import tolerances as tol
+import zerodrift as zd
+from support import FORMULATIONS, assert_close, condition
+
+INTEGRATED_VELOCITIES = ("augmented", "nullspace", "schur")     # v is their state: they can go on where the rank drops
+LARGEST_CONDITION = 1e7     # beyond, too few digits are left to compare
+
+
+class Ranked:
+    """A random system of n velocities: Phi and C_NH of full rank times a matrix of more rows than columns.
+
+    In p, all of it is quadratic or linear, so that there are closed forms. `curved` rows are dependent at the start and nowhere
+    else; with `massless`, M has so much less than full rank, and is definite where C leaves the velocities free.
+    """
+
+    def __init__(self, seed):
+        rng = np.random.default_rng(seed)
+        n = self.n = int(rng.integers(1, 10))
+        rank = int(rng.integers(1, n + 1))
+        mh = int(rng.integers(0, rank + 1))
+        self.mixing_h, self.mixing_n = (self._mixing(rng, rows) for rows in (mh, rank - mh))
+        self.mh, self.mn, self.rank = len(self.mixing_h), len(self.mixing_n), rank
+        self.linear, self.quadratic = rng.normal(size=(mh, n)), 0.1 * rng.normal(size=(mh, n, n))
+        self.quadratic += self.quadratic.transpose(0, 2, 1)
+        self.rows, self.slopes = rng.normal(size=(rank - mh, n)), 0.1 * rng.normal(size=(rank - mh, n, n))
+        self.p, self.v, self.f = rng.normal(size=(3, n))
+        self.curvature = np.zeros((self.mh, n, n))
+        scale = 10.0 ** rng.uniform(-2, 2, n)
+        root = rng.normal(size=(n, n))
+        self.M = (root @ root.T + np.eye(n)) * np.sqrt(np.outer(scale, scale))
+        self.rng = rng
+
+    @staticmethod
+    def _mixing(rng, rows):
+        """All of these rows, and up to three that follow from them, in any order and in units of their own."""
+        more = int(rng.integers(0, 4)) if rows else 0
+        mixing = np.vstack([np.eye(rows), rng.normal(size=(more, rows)) * (rng.random((more, rows)) < 0.7)])
+        return rng.permutation(mixing) * 10.0 ** rng.uniform(-2, 2, (rows + more, 1))
+
+    def curved(self):
+        """The same, with every holonomic row that is redundant bent; at rest, where all of them agree."""
+        self.curvature = self.rng.normal(size=self.curvature.shape)
+        self.curvature += self.curvature.transpose(0, 2, 1)
+        self.v = np.zeros(self.n)
+        return self
+
+    def massless(self):
+        """The same, with no more coordinates without mass than constraints can hold."""
+        some = self.rng.permutation(self.n)[: self.rng.integers(1, self.rank + 1)]
+        self.M[some] = self.M[:, some] = 0.0
+        return self
+
+    def Phi(self, p):
+        from_start = p - self.p
+        base = self.linear @ from_start + (p @ self.quadratic @ p - self.p @ self.quadratic @ self.p) / 2
+        return self.mixing_h @ base + (self.curvature @ from_start) @ from_start / 2
+
+    def C(self, p):
+        return np.vstack([self.mixing_h @ (self.linear + self.quadratic @ p) + self.curvature @ (p - self.p),
+                          self.mixing_n @ (self.rows + self.slopes @ p)])
+
+    def xi(self, v):
+        """(6): minus the rate of C along the motion, times v."""
+        return -np.concatenate([self.mixing_h @ ((self.quadratic @ v) @ v) + (self.curvature @ v) @ v,
+                                self.mixing_n @ ((self.slopes @ v) @ v)])
+
+    def system(self):
+        terms = {"mass": self.M, "force": self.f, "potential": 0.0, "p0": self.p, "v0": self.v}
+        if self.mh:
+            terms["constraints"] = self.Phi
+        if self.mn:
+            terms["nonholonomic"] = lambda p: self.mixing_n @ (self.rows + self.slopes @ p)
+        return zd.System(self.n, **terms)
+
+    def condition(self):
+        """Of (8) with an orthonormal basis of the rows of C, and of C itself with rows of length one."""
+        C = self.C(self.p)
+        C = C / np.maximum(np.linalg.norm(C, axis=1), 1e-300)[:, None]
+        values, basis = np.linalg.svd(C)[1:]
+        return max(condition(self.M, basis[: self.rank]), (values[0] / values[self.rank - 1]) ** 2)
+
+    def solved(self):
+        """NumPy's vdot of (8), and its multipliers: those of least norm, where row k is measured by sqrt(C_k inv(M) C_k^T)."""
+        C, xi = self.C(self.p), self.xi(self.v)
+        basis = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1), 1e-300)[:, None])[2]
+        rows, free = basis[: self.rank], basis[self.rank:]
+        particular = np.linalg.lstsq(C @ rows.T, xi, rcond=None)[0] @ rows
+        vdot = particular + free.T @ np.linalg.solve(free @ self.M @ free.T, free @ (self.f - self.M @ particular))
+        reaction = self.f - self.M @ vdot
+        singular = not self.M.diagonal().all()
+        size = np.linalg.norm(C, axis=1) if singular else np.sqrt(np.einsum("ki,ki->k", C, np.linalg.solve(self.M, C.T).T))
+        size = np.where(size > 0, size, 1.0)
+        return vdot, size, np.linalg.lstsq((C / size[:, None]).T, reaction, rcond=1e-9)[0] / size
+
+
+def compare(random, formulations, **options):
+    """Accelerations and multipliers of these formulations with NumPy's; whether there was something to compare."""
+    bound = random.condition()
+    if bound > LARGEST_CONDITION:
+        return False
+    system, (vdot, size, multipliers) = random.system(), random.solved()
+    for name in formulations:
+        got, reactions = zd.acceleration(system, random.p, random.v, formulation=name, **options)
+        assert_close(got, vdot, 1e4 * tol.EPS * bound, scale=1.0, what=f"vdot of {name}")
+        assert_close(size * reactions, size * multipliers, 1e4 * tol.EPS * bound, scale=1.0, what=f"lambda of {name}")
+    return True
+
+
+def raises(error, call):
+    """Whether that is what is raised."""
+    try:
+        call()
+    except error:
+        return True
+    return False
+
+
+def check_redundant(seed):
+    """Every formulation finds the same motion and the smallest multipliers, whatever the rank."""
+    return compare(Ranked(seed), FORMULATIONS)
+
+
+def check_massless(seed):
+    """So do all that do not invert M where it is singular, and the one that does says so."""
+    random = Ranked(seed).massless()
+    if not compare(random, [name for name in FORMULATIONS if name != "schur"]):
+        return False
+    assert raises(zd.SingularSystem, lambda: zd.acceleration(random.system(), random.p, random.v, formulation="schur"))
+    return True
+
+
+def check_bifurcation(seed):
+    """Where the rank is less only here, every formulation says so; those that can go on find the least acceleration."""
+    random = Ranked(seed).curved()
+    if random.mh == random.mixing_h.shape[1] or random.n == random.rank:    # no such row, or no motion that it could hinder
+        return False
+    if not compare(random, INTEGRATED_VELOCITIES, on_singular="continue"):
+        return False
+    for name in FORMULATIONS:
+        assert raises(zd.Bifurcation, lambda name=name: zd.acceleration(random.system(), random.p, random.v, formulation=name))
+    return True
+
+
+CHECKS = {"redundant": check_redundant, "massless": check_massless, "bifurcation": check_bifurcation}
