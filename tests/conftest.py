@@ -5,6 +5,7 @@ a system and an integrator, once for each pair that the core takes.
 import atexit
 import os
 import shutil
+import signal
 import tempfile
 
 import pytest
@@ -17,7 +18,8 @@ TAKEN = {f"{name}-{integrator}": (system, integrator)
 
 
 def pytest_configure():
-    """What tests compile is not looked for, nor kept, among what the user has compiled."""
+    """What tests compile is not looked for, nor kept, among what the user has compiled. Ctrl-C is heard, whoever started them."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)    # processes in the background begin with it ignored
     folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
     os.environ["ZERODRIFT_CACHE"] = folder
     atexit.register(shutil.rmtree, folder, ignore_errors=True)

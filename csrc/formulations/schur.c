@@ -51,11 +51,11 @@ static void *take(zd_arena *arena, const zd_system *system)
 
 /* Takes out of q what it has along the first k rows of Q; how much that was goes to g, row k of G, or is added if it is done
  * again. Gives what is left of q, squared. */
-ZD_INLINE double orthogonalize(const int n, int k, const int again, const schur *self, double *q, double *g)
+ZD_INLINE double orthogonalize(const int n, const int m, int k, const int again, const schur *self, double *q, double *g)
 {
     for (int j = 0; j < k; j++) {
         const double *other = self->Q + j * n;
-        double along = self->G[j * self->m + j] * zd_metric_dot(n, self->L, other, q);
+        double along = self->G[j * m + j] * zd_metric_dot(n, self->L, other, q);
         g[j] = again ? g[j] + along : along;
         zd_add_scaled(n, q, -along, other);
     }
@@ -63,20 +63,21 @@ ZD_INLINE double orthogonalize(const int n, int k, const int again, const schur 
 }
 
 /* Returns m, or the row of which only rounding is left when those before it are taken out. */
-ZD_INLINE int factor_rows(const int n, const schur *self)
+ZD_INLINE int factor_all(const int n, const int m, const schur *self)
 {
     const double *C = self->C;
-    int m = self->m;
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n, *g = self->G + k * m;
         zd_forward(n, self->L, C + k * n, q);
-        double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, k, 0, self, q, g);
-        if (rest < 0.01 * whole) rest = orthogonalize(n, k, 1, self, q, g);    /* twice is enough */
+        double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
+        if (rest < 0.01 * whole) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
         if (!(rest > LEAST * LEAST * whole) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
 }
+
+ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(factor_all, n, self->m, self); }
 
 static int factor(void *memory, zd_point *point)
 {
@@ -92,24 +93,29 @@ static int factor(void *memory, zd_point *point)
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */
-ZD_INLINE void exchange(const int n, const schur *self, const double *force, double *b, double *x)
+ZD_INLINE void exchange_all(const int n, const int m, const schur *self, const double *force, double *b, double *x)
 {
     if (force) zd_forward(n, self->L, force, x);                            /* y */
     else
         for (int i = 0; i < n; i++) x[i] = 0;
-    for (int k = 0; k < self->m; k++) {
+    for (int k = 0; k < m; k++) {
         const double *q = self->Q + k * n;
         b[k] = (force ? zd_metric_dot(n, self->L, q, x) : 0) - b[k];
-        zd_add_scaled(n, x, -self->G[k * self->m + k] * b[k], q);
+        zd_add_scaled(n, x, -self->G[k * m + k] * b[k], q);
     }
     zd_backward(n, self->L, x, x);                                          /* (13), (27) */
 }
 
+ZD_INLINE void exchange(const int n, const schur *self, const double *force, double *b, double *x)
+{
+    ZD_ROWS(exchange_all, n, self->m, self, force, b, x);
+}
+
 /* rest <- rhs - C x; returns whether it is more than the rounding of x makes it */
-ZD_INLINE int is_left(const int n, const schur *self, const double *rhs, const double *x, double *rest)
+ZD_INLINE int is_any_left(const int n, const int m, const schur *self, const double *rhs, const double *x, double *rest)
 {
     int left = 0;
-    for (int k = 0; k < self->m; k++) {
+    for (int k = 0; k < m; k++) {
         double sum = rhs[k], size = fabs(rhs[k]);
         for (int i = 0; i < n; i++) {
             double term = self->C[k * n + i] * x[i];
@@ -120,6 +126,11 @@ ZD_INLINE int is_left(const int n, const schur *self, const double *rhs, const d
         left |= fabs(sum) > ROUNDING * size;
     }
     return left;
+}
+
+ZD_INLINE int is_left(const int n, const schur *self, const double *rhs, const double *x, double *rest)
+{
+    return ZD_ROWS(is_any_left, n, self->m, self, rhs, x, rest);
 }
 
 static void refine(const schur *self, const double *rhs, double *x)

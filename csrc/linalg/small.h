@@ -24,6 +24,12 @@
      : (n) == 6 ? kernel(6, __VA_ARGS__)          \
                 : kernel((n), __VA_ARGS__))
 
+/* kernel(n, m, ...), within a kernel of n that is called so, with m known as well where it is one or two */
+#define ZD_ROWS(kernel, n, m, ...)              \
+    ((m) == 2   ? kernel(n, 2, __VA_ARGS__)     \
+     : (m) == 1 ? kernel(n, 1, __VA_ARGS__)     \
+                : kernel(n, (m), __VA_ARGS__))
+
 ZD_INLINE void zd_copy(const int n, const double *from, double *to)
 {
     for (int i = 0; i < n; i++) to[i] = from[i];
