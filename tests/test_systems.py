@@ -126,3 +126,12 @@ def test_a_system_repeats_itself(system):
         assert again.parameters == system.parameters
         assert np.array_equal(again.p0, system.p0)
         assert np.array_equal(again.evaluate().M, system.evaluate().M)
+
+
+def test_parameters_may_be_changed(system):
+    """The first that is a number; the others stay."""
+    key, value = next((key, value) for key, value in system.parameters.items() if isinstance(value, float) and value > 0)
+    changed = system.with_parameters(**{key: 1.01 * value})
+    assert changed.parameters == system.parameters | {key: 1.01 * value}
+    with pytest.raises(ValueError, match="parameter"):
+        system.with_parameters(no_such_thing=1.0)

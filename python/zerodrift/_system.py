@@ -51,6 +51,8 @@ class BaseSystem:
     Attributes
     ----------
     name : str
+    parameters : dict
+        What it depends on, by name; `with_parameters` changes it.
     coordinates, velocities, constraints : tuple of Variable(name, unit)
         What the entries of p, of v and of the multipliers are.
     p0, v0 : ndarray (nq,), (nv,)
@@ -58,6 +60,7 @@ class BaseSystem:
     """
 
     name: str
+    parameters: dict[str, Any]
     coordinates: tuple[Variable, ...]
     velocities: tuple[Variable, ...]
     constraints: tuple[Variable, ...]
@@ -92,6 +95,29 @@ class BaseSystem:
         if v is None:
             v = np.zeros(self.nv) if self.v0 is None else self.v0
         return p, _check.vector(v_name, v, self.nv)
+
+    def with_parameters(self, /, **changed: Any) -> Any:
+        """The same system with some parameters changed; nothing is derived or compiled again.
+
+        Names that Python does not take as keywords can be handed over as ``**{"lambda": 1.0}``.
+
+        Raises
+        ------
+        ValueError
+            If the system has no parameter of that name.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> zd.systems.oscillator().with_parameters(mass=2.0)
+        zd.systems.oscillator(mass=2.0)
+        """
+        for key in changed:
+            _check.choice("parameter", key, self.parameters)
+        return self._with(changed)
+
+    def _with(self, changed: dict[str, Any]) -> Any:
+        raise NotImplementedError
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""

@@ -151,16 +151,7 @@ class Native(BaseSystem):
                        "terms": terms, "units": units, "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
         _try(self)
 
-    def with_parameters(self, **changed: float) -> Native:
-        """The same system with some parameters changed.
-
-        Raises
-        ------
-        ValueError
-            If the system has no parameter of that name.
-        """
-        for key in changed:
-            _check.choice("parameter", key, self.parameters)
+    def _with(self, changed: dict[str, Any]) -> Native:
         return Native(self._found, **self._given, parameters=self.parameters | changed)
 
     def __repr__(self) -> str:
@@ -191,6 +182,9 @@ class NativeKind(OfKind):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again_of_kind, (self._found.again, self._given)
+
+    def _with(self, changed: dict[str, Any]) -> NativeKind:
+        return NativeKind(self._found, self._kind, self._given | changed)
 
 
 def _described_by_library(library: Any, symbol: Any, parameters: Any, others: list[str]) -> NativeKind:

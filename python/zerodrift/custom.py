@@ -108,16 +108,7 @@ class System(BaseSystem):
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
 
-    def with_parameters(self, **changed: Any) -> System:
-        """The same system with some parameters changed.
-
-        Raises
-        ------
-        ValueError
-            If the system has no parameter of that name.
-        """
-        for key in changed:
-            _check.choice("parameter", key, self.parameters)
+    def _with(self, changed: dict[str, Any]) -> System:
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))
 
     def __repr__(self) -> str:

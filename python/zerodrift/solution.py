@@ -257,7 +257,7 @@ class Described(BaseSystem):
     """A system of which only the description was saved: enough for tables and plots, not for another run."""
 
     def __init__(self, description: dict[str, Any]) -> None:
-        self.name = description["name"]
+        self.name, self.parameters = description["name"], {}
         for group in ("coordinates", "velocities", "constraints"):
             setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
 

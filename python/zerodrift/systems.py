@@ -51,6 +51,9 @@ class BuiltIn(OfKind):
     def __reduce__(self) -> tuple[Any, ...]:
         return BuiltIn, (self.name, self._given)
 
+    def _with(self, changed: dict[str, Any]) -> BuiltIn:
+        return BuiltIn(self.name, self._given | changed)
+
     def _described(self) -> dict[str, Any]:
         return {**super()._described(), "parameters": self._given}
 

@@ -89,18 +89,7 @@ class SymbolicSystem(BaseSystem):
         """The C code that is compiled."""
         return self._code.c_source
 
-    def with_parameters(self, /, **changed: float) -> SymbolicSystem:
-        """The same system with some parameters changed; nothing is derived or compiled.
-
-        Names that Python does not take as keywords can be handed over as ``**{"lambda": 1.0}``.
-
-        Raises
-        ------
-        ValueError
-            If the system has no parameter of that name.
-        """
-        for key in changed:
-            _check.choice("parameter", key, self.parameters)
+    def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
         return self._again(parameters=self.parameters | changed)
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
