@@ -30,8 +30,8 @@ typedef struct zd_point {
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *force, *rhs;    /* (nv,), (m,): right sides being put together */
     zd_rank *rank;
-    int rows, holonomic;    /* rows of C that count, and how many of them, which come first, are holonomic: m and mh, unless some */
-    const double *C;        /* (rows, nv)                                                                   follow from others */
+    int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
+    const double *C;        /* (rows, nv): those that count */
     double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see measure.c; and 1 / unit */
     double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */

@@ -12,21 +12,11 @@ static const char *name_of(int term)
     return names[i];
 }
 
-static void describe(const zd_run *run, int status, char *to, size_t size)
+/* What the mass matrix or the constraints have; returns whether it was that. */
+static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
-    const zd_point *point = run->point;
-    const zd_projection *projection = &run->settings.projection;
-    const char *failure = run->system.failure;
-    int culprit = point->culprit;
-    char rows[64] = "";
-    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
+    int culprit = run->point->culprit;
     switch (status) {
-    case ZD_NOT_FINITE:
-        snprintf(to, size, run->statistics.too_long && run->integrator->card.stability > 0 ? "the state left the range of doubles: the step is too long for '%s' to be stable (omega h = %.3g, "
-                 "stable below %.3g); try a smaller step, or an implicit method"
-                 : "the state left the range of doubles; try a smaller step or another stabilization",
-                 run->integrator->card.name, zd_run_omega_h(run), run->integrator->card.stability);
-        break;
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
                  run->formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
@@ -49,10 +39,34 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_SINGULAR:
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);
         break;
+    default: return 0;
+    }
+    return 1;
+}
+
+static void describe_divergence(const zd_run *run, char *to, size_t size)
+{
+    double limit = run->integrator->card.stability;
+    int length = snprintf(to, size, "the state left the range of doubles");
+    if (run->statistics.too_long && limit > 0)
+        snprintf(to + length, size - (size_t)length, ": the step is too long for '%s' to be stable (omega h = %.3g, stable below %.3g); "
+                 "try a smaller step, or an implicit method", run->integrator->card.name, zd_run_omega_h(run), limit);
+    else snprintf(to + length, size - (size_t)length, "; try a smaller step or another stabilization");
+}
+
+static void describe(const zd_run *run, int status, char *to, size_t size)
+{
+    const zd_point *point = run->point;
+    const char *failure = run->system.failure;
+    char rows[64] = "";
+    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
+    if (describe_matrices(run, status, rows, to, size)) return;
+    switch (status) {
+    case ZD_NOT_FINITE: describe_divergence(run, to, size); break;
     case ZD_NO_CONVERGENCE:
-        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened (tolerance %.3g)"
-                 "%s%s%s", point->defect, projection->max_iterations, projection->tolerance, *rows ? "; " : "", rows,
-                 *rows ? " from the others, and may contradict them" : "");
+        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
+                 "(tolerance %.3g)%s%s%s", point->defect, run->settings.projection.max_iterations,
+                 run->settings.projection.tolerance, *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
         break;
     case ZD_BRANCH:
         snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");
@@ -81,7 +95,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed");
         break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
-    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(culprit)); break;
+    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(point->culprit)); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }

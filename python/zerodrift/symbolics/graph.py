@@ -184,20 +184,27 @@ def power(base: Number, exponent: Number) -> Number:
     return int(result) if isinstance(result, Fraction) and result.denominator == 1 else result
 
 
-class Derivative:
-    """Of any node, in one direction; what was found is kept."""
+class _Walk:
+    """Something of any node that follows from that of some leaves; what was found is kept."""
 
-    def __init__(self, graph: Graph, direction: Mapping[Node, Node]) -> None:
-        self._graph, self._known = graph, dict(direction)
-        self._lowest = min((leaf.stage for leaf in direction), default=MOVING + 1)
+    def __init__(self, graph: Graph, leaves: Mapping[Node, Node]) -> None:
+        self._graph, self._known = graph, dict(leaves)
+        self._lowest = min((leaf.stage for leaf in leaves), default=MOVING + 1)
 
     def __call__(self, node: Node) -> Node:
         if node.stage < self._lowest:
-            return self._graph.zero
+            return self._elsewhere(node)
         found = self._known.get(node)
         if found is None:
             found = self._known[node] = self._of(node)
         return found
+
+
+class Derivative(_Walk):
+    """The derivative of any node in the direction that leaves are given."""
+
+    def _elsewhere(self, node: Node) -> Node:
+        return self._graph.zero
 
     def _of(self, node: Node) -> Node:
         graph = self._graph
@@ -224,20 +231,11 @@ class Derivative:
         return self._graph.product([*node.content, (base, -1), (rate, 1)])
 
 
-class Replacement:
+class Replacement(_Walk):
     """Any node with values in place of leaves."""
 
-    def __init__(self, graph: Graph, values: Mapping[Node, Node]) -> None:
-        self._graph, self._known = graph, dict(values)
-        self._lowest = min((leaf.stage for leaf in values), default=MOVING + 1)
-
-    def __call__(self, node: Node) -> Node:
-        if node.stage < self._lowest:
-            return node
-        found = self._known.get(node)
-        if found is None:
-            found = self._known[node] = self._of(node)
-        return found
+    def _elsewhere(self, node: Node) -> Node:
+        return node
 
     def _of(self, node: Node) -> Node:
         graph = self._graph
