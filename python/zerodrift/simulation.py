@@ -61,7 +61,9 @@ def simulate(
         chooses its steps by its error estimate, if it has one.
     rtol, atol : float, optional
         Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
-        at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y: of all tolerances it alone depends on them.
+        at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y: of all tolerances it alone depends on them. What
+        is left after many steps is more: after half a second of any built-in system with ``rtol = atol``, tests find at
+        most 3000 times these. `zerodrift.tune` finds settings for an error of the motion itself.
     first_step, max_step : float, optional
         Where steps are chosen: the first, and the largest, in s.
     t_eval : array_like (k,), optional
