@@ -49,6 +49,8 @@ int zd_run_accelerate(zd_run *run)
     zd_point_force(point, point->force);
     ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
     stabilize(run);
+    status = zd_rank_replace(point, ZD_LIMIT_XI, point->rhs);
+    if (status) return status;
     run->statistics.solves++;
     zd_run_solve(run, point->force, point->rhs, point->vdot, point->lambda);    /* (8), (9), (13) */
     point->known |= ZD_ACCELERATED;

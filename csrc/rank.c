@@ -21,13 +21,11 @@
 #include "linalg/small.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
-static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
 static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
-static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_rank self = {
         .n = (int)n,
         .m = (int)m,
@@ -36,6 +34,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .holonomic_limit = system->mh,
         .redundant = zd_take(arena, m * sizeof(int)),
         .row = zd_take(arena, m * sizeof(int)),
+        .place = zd_take(arena, m * sizeof(int)),
         .length = zd_take_doubles(arena, m),
         .C = zd_take_doubles(arena, m * n),
         .Q = zd_take_doubles(arena, m * n),
@@ -48,6 +47,18 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .rhs = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
         .sample = zd_take_doubles(arena, 2 * n + m * m),
+        .away = zd_take_doubles(arena, m),
+        .p = zd_take_doubles(arena, nq),
+        .v = zd_take_doubles(arena, n),
+        .pdot = zd_take_doubles(arena, nq),
+        .moved = zd_take_doubles(arena, nq),
+        .Cdot = zd_take_doubles(arena, m * n),
+        .xidot = zd_take_doubles(arena, m),
+        .R = zd_take_doubles(arena, m * m),
+        .T = zd_take_doubles(arena, m * m),
+        .K_rate = zd_take_doubles(arena, m * m),
+        .w = zd_take_doubles(arena, m * n),
+        .wdot = zd_take_doubles(arena, m * n),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -65,7 +76,7 @@ static void set_rows(zd_rank *self, const double *C, const double *L)
         for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
         self->whole[k] = self->left[k] = zd_dot(n, q, q);
         double length = zd_dot(n, C + k * n, C + k * n);
-        if (!(length > SQUARED * self->length[k])) self->left[k] = 0;
+        if (!(length > self->tolerance * self->length[k])) self->left[k] = 0;
     }
 }
 
@@ -73,7 +84,7 @@ static void set_rows(zd_rank *self, const double *C, const double *L)
 static int choose_row(const zd_rank *self, int begin, int end)
 {
     int best = -1;
-    double most = SQUARED;
+    double most = self->tolerance;
     for (int k = begin; k < end; k++)
         if (self->left[k] > most * self->whole[k]) {
             best = k;
@@ -174,40 +185,57 @@ static void set_shares(zd_rank *self, int rank)
 
 static void use_all(zd_point *point)
 {
-    point->known |= ZD_RANKED;
     point->rows = point->rank->m;
     point->holonomic = point->rank->mh;
     point->C = point->terms.C;
+    point->rank->lost = 0;
 }
 
-static int use_chosen(zd_point *point, int rank)
+static void use_chosen(zd_point *point, int rank)
 {
     zd_rank *self = point->rank;
     int n = self->n;
     express_others(self, rank);
     set_shares(self, rank);
-    for (int a = 0; a < rank; a++) zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
-    point->rows = rank;
+    for (int a = 0; a < rank; a++) {
+        self->place[a] = self->row[a];
+        zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
+    }
+    self->independent = point->rows = rank;
+    self->lost = 0;
     point->C = self->C;
     point->holonomic = 0;
     while (point->holonomic < rank && self->row[point->holonomic] < self->mh) point->holonomic++;
-    self->dropped |= rank < self->limit;
-    if (rank < self->limit && !self->may_drop) return ZD_BIFURCATION;
-    point->known |= ZD_RANKED;
-    return ZD_DONE;
+}
+
+static void use(zd_point *point, double tolerance)
+{
+    zd_rank *self = point->rank;
+    self->tolerance = tolerance;
+    int rank = rank_of(self, point->terms.C, point->terms.M);
+    if (rank < self->m) use_chosen(point, rank);
+    else use_all(point);
 }
 
 static int reduce(zd_point *point)
 {
+    static const double region = ZD_BRANCH_REGION * ZD_BRANCH_REGION;
     zd_rank *self = point->rank;
     self->near = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
-    int rank = rank_of(self, point->terms.C, point->terms.M);
-    if (rank < self->m) return use_chosen(point, rank);
-    use_all(point);
-    return ZD_DONE;
+    int by_limits = self->begun && self->may_drop;
+    use(point, by_limits ? region : SQUARED);
+    if (by_limits && point->rows < self->limit) {
+        status = zd_branch_find(point);
+        if (!status && !self->lost) use(point, SQUARED);
+    }
+    int dropped = self->lost || point->rows < self->limit;
+    self->dropped |= dropped;
+    if (dropped && !self->may_drop) return ZD_BIFURCATION;
+    if (!status) point->known |= ZD_RANKED;
+    return status;
 }
 
 /* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
@@ -240,6 +268,7 @@ int zd_rank_find(zd_point *point)
     if (status) return status;
     if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
     use_all(point);
+    point->known |= ZD_RANKED;
     return ZD_DONE;
 }
 
@@ -260,142 +289,12 @@ void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulat
                            const double *rhs, double *x, double *lambda)
 {
     zd_rank *self = point->rank;
-    for (int a = 0; a < point->rows; a++) self->rhs[a] = rhs[self->row[a]];
+    int holonomic = point->holonomic - self->lost, others = self->independent - holonomic;
+    for (int a = 0; a < point->rows; a++) self->rhs[a] = rhs[self->place[a]];
     formulation->solve(solver, force, self->rhs, x, lambda ? self->lambda : NULL);
-    if (lambda) share_out(self, point->rows, lambda);
-}
-
-/* ---- the start ---- */
-
-/* How large the rows are where nothing is singular; a row that is nothing at the start is as large as the largest. */
-static void measure(const zd_point *point)
-{
-    const zd_rank *self = point->rank;
-    int n = self->n, m = self->m;
-    for (int k = 0; k < m; k++) self->length[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
-    double largest = zd_max_abs(m, self->length);
-    for (int k = 0; k < m; k++)
-        if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
-}
-
-/* Q <- an orthonormal basis of the rows that count */
-static void set_basis(const zd_point *point)
-{
-    const zd_rank *self = point->rank;
-    int n = self->n;
-    for (int a = 0; a < point->rows; a++) {
-        double *q = self->Q + a * n;
-        zd_copy(n, point->C + a * n, q);
-        for (int again = 0; again < 2; again++)
-            for (int b = 0; b < a; b++) zd_add_scaled(n, q, -zd_dot(n, self->Q + b * n, q), self->Q + b * n);
-        double length = sqrt(zd_dot(n, q, q));
-        for (int i = 0; i < n; i++) q[i] /= length;
-    }
-}
-
-/* v <- another velocity that the constraints allow where they allow v0 */
-static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
-{
-    const zd_rank *self = point->rank;
-    int n = self->n;
-    double size = 1 + zd_max_abs(n, v0);
-    for (int i = 0; i < n; i++) {
-        *seed = *seed * 1664525u + 1013904223u;
-        v[i] = size * ((double)(*seed >> 8) * 0x1p-23 - 1);
-    }
-    for (int a = 0; a < point->rows; a++) zd_add_scaled(n, v, -zd_dot(n, self->Q + a * n, v), self->Q + a * n);
-    for (int i = 0; i < n; i++) v[i] += v0[i];
-}
-
-static double unit_of(const zd_rank *self, int k)
-{
-    return self->length[k] > 0 ? sqrt(self->length[k]) : 1;
-}
-
-/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
- * they are redundant. In units of the rows; (m - rows,) */
-static void curvature(const zd_point *point, double *w)
-{
-    const zd_rank *self = point->rank;
-    const double *xi = point->terms.xi;
-    double speed = zd_max_abs(self->n, point->v), largest = 0;
-    for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
-    for (int d = point->rows; d < self->m; d++) {
-        int row = self->row[d];
-        double sum = xi[row] / unit_of(self, row), terms = 1;
-        for (int a = 0; a < point->rows; a++) {
-            double share = self->G[row * self->m + a] / unit_of(self, row);
-            sum -= share * xi[self->row[a]];
-            terms += fabs(share) * unit_of(self, self->row[a]);
-        }
-        double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
-        w[d - point->rows] = fabs(sum) <= CURVED * scale ? 0 : sum;
-    }
-}
-
-/* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
- * as soon as the system moves. Returns how many do. */
-static int count_curved(zd_point *point)
-{
-    zd_rank *self = point->rank;
-    int n = self->n, others = self->m - point->rows, curved = 0, status = ZD_DONE;
-    double *v0 = self->sample, *v = v0 + n, *basis = v + n;
-    unsigned seed = 1;
-    zd_copy(n, point->v, v0);
-    set_basis(point);
-    for (int sample = 0; sample < n && curved < others && !status; sample++) {
-        double *w = basis + curved * others;
-        vary(point, &seed, v0, v);
-        zd_point_move_velocity(point, v);
-        status = zd_point_need(point, ZD_XI);
-        if (status) break;
-        curvature(point, w);
-        double whole = zd_dot(others, w, w);
-        for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
-        double left = zd_dot(others, w, w);
-        if (!(left > SQUARED * whole)) continue;
-        for (int i = 0; i < others; i++) w[i] /= sqrt(left);
-        curved++;
-    }
-    zd_point_move_velocity(point, v0);
-    return status ? -1 : curved;
-}
-
-static int tell_redundant(zd_point *point)
-{
-    zd_rank *self = point->rank;
-    double *w = self->sample;
-    int status = zd_point_need(point, ZD_XI);
-    if (status) return status;
-    curvature(point, w);
-    for (int d = point->rows; d < self->m; d++) {
-        point->culprit = self->row[d];
-        if (w[d - point->rows] != 0) return ZD_CONTRADICTION;       /* there is no vdot */
-    }
-    int curved = count_curved(point);
-    if (curved < 0) return ZD_CALLBACK;
-    self->limit = point->rows + curved;
-    if (curved) return ZD_DONE;
-    self->holonomic_limit = point->holonomic;
-    for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
-    return ZD_DONE;
-}
-
-int zd_rank_start(zd_point *point, const zd_settings *settings)
-{
-    zd_rank *self = point->rank;
-    if (!self->m) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C | ZD_M);
-    if (status) return status;
-    self->may_drop = 1;
-    measure(point);
-    status = zd_rank_find(point);
-    self->may_drop = settings->on_singular == ZD_CONTINUE;
-    if (status || point->rows == self->m) return status;
-    status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
-    if (status) return status;
-    self->dropped = point->rows < self->limit;
-    return self->dropped && !self->may_drop ? ZD_BIFURCATION : ZD_DONE;
+    if (!lambda) return;
+    memmove(self->lambda + holonomic, self->lambda + point->holonomic, (size_t)others * sizeof(double));
+    share_out(self, self->independent, lambda);
 }
 
 int zd_rank_redundant(const zd_rank *self, int *rows)
@@ -408,7 +307,7 @@ int zd_rank_redundant(const zd_rank *self, int *rows)
 
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
 {
-    int first = point->rows, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
+    int first = point->rank->independent, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
     for (int d = first; d < end && (size_t)length < size; d++) {
         const char *before = d == first ? " " : d == end - 1 ? " and " : ", ";
         length += snprintf(to + length, size - (size_t)length, "%s%d", before, point->rank->row[d]);

@@ -107,10 +107,10 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* The system with so many constraints and no more. What it brings itself is for all of them. */
-static zd_system with_rows(const zd_system *system, int rows, int holonomic)
+/* The system with so many constraints and no more. What it brings itself is for all of them, and for where all of them count. */
+static zd_system with_rows(const zd_system *system, enum zd_on_singular on_singular, int rows, int holonomic)
 {
-    if (rows == zd_constraints(system)) return *system;
+    if (rows == zd_constraints(system) && on_singular == ZD_STOP) return *system;
     zd_system independent = *system;
     independent.mh = holonomic;
     independent.mn = rows - holonomic;
@@ -121,7 +121,7 @@ static zd_system with_rows(const zd_system *system, int rows, int holonomic)
 
 static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic, char *message, int size)
 {
-    zd_system independent = with_rows(system, rows, holonomic);
+    zd_system independent = with_rows(system, settings->on_singular, rows, holonomic);
     zd_arena counting = {NULL, 0};
     take_run(&counting, system, settings, &independent);
     zd_arena arena = {zd_allocate(counting.used), 0};

@@ -10,6 +10,7 @@
  */
 #include "../core.h"
 #include "../linalg/small.h"
+#include "../rank.h"
 
 static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */
@@ -40,6 +41,8 @@ static int split(energy *self, zd_run *run, double *kinetic)
     status = zd_run_factor(run);
     if (status) return status;
     for (int k = 0; k < zd_constraints(&run->system); k++) point->rhs[k] = -point->terms.Phi_t[k];
+    status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, point->rhs);
+    if (status) return status;
     zd_run_solve(run, NULL, point->rhs, self->enforced, NULL);
     for (int i = 0; i < n; i++) *kinetic -= 0.5 * self->enforced[i] * zd_dot(n, point->terms.M + i * n, self->enforced);
     return ZD_DONE;

@@ -66,26 +66,28 @@ static int position_residual(void *context, double *size)
     return status;
 }
 
-static int solve_with_identity(projection *self, zd_run *run, const double *rhs, double *x)
+static int solve_with_identity(projection *self, zd_run *run, enum zd_limit what, double *x)
 {
     int status = zd_rank_find(run->point);
+    if (!status) status = zd_rank_replace(run->point, what, self->rhs);
     if (status) return status;
     zd_point unit = *run->point;
     unit.terms.M = self->identity;
     run->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
     run->point->culprit = unit.culprit;
-    if (!status) zd_rank_solve(&unit, &zd_schur, self->plain, NULL, rhs, x, NULL);
+    if (!status) zd_rank_solve(&unit, &zd_schur, self->plain, NULL, self->rhs, x, NULL);
     return status;
 }
 
-/* x with C x = rhs, orthogonal to the manifold in the chosen metric */
-static int solve(projection *self, zd_run *run, const double *rhs, double *x)
+/* x with C x = rhs, that of Phi or of Psi, orthogonal to the manifold in the chosen metric */
+static int solve(projection *self, zd_run *run, enum zd_limit what, double *x)
 {
     run->statistics.solves++;
-    if (self->plain) return solve_with_identity(self, run, rhs, x);
+    if (self->plain) return solve_with_identity(self, run, what, x);
     int status = zd_run_factor(run);
-    if (!status) zd_run_solve(run, NULL, rhs, x, NULL);
+    if (!status) status = zd_rank_replace(run->point, what, self->rhs);
+    if (!status) zd_run_solve(run, NULL, self->rhs, x, NULL);
     return status;
 }
 
@@ -100,7 +102,7 @@ static int improve_position(void *context)
     if (!problem->begun) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
     problem->begun = 1;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
-    status = solve(self, problem->run, self->rhs, self->x);
+    status = solve(self, problem->run, ZD_LIMIT_PHI, self->x);
     if (status) return status;
     zd_point_rate(point, self->x, self->p);
     ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
@@ -169,7 +171,7 @@ static int correct_velocities(projection *self, zd_run *run)
     int status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
     if (status) return status;
     zd_point_velocity_violation(point, self->rhs);
-    status = solve(self, run, self->rhs, self->x);
+    status = solve(self, run, ZD_LIMIT_PSI, self->x);
     if (status) return status;
     ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
     zd_point_move_velocity(point, self->v);

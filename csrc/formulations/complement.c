@@ -115,13 +115,13 @@ static void count_rows(zd_complement *self, const zd_point *point)
     if (point->rows != self->m) self->chosen = 0;
     self->m = point->rows;
     self->r = self->n - self->m;
-    self->own = self->brought && self->m == zd_constraints(point->system);
+    self->own = self->brought && zd_rank_is_full(point);
 }
 
 int zd_complement_at(zd_complement *self, zd_point *point)
 {
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C | ZD_COMPLEMENT);
+    int status = zd_point_need(point, self->brought ? ZD_C | ZD_COMPLEMENT : ZD_C);
     if (!status) status = zd_rank_find(point);
     if (!status) count_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
@@ -164,18 +164,27 @@ void zd_complement_multipliers(const zd_complement *self, const double *reaction
     for (int k = 0; k < self->m; k++) lambda[k] = b[k];
 }
 
+/* x with C x = -Phi_t, or with what stands for that where rows are lost */
+static int enforce(const zd_complement *self, zd_point *point, double *x)
+{
+    const double *Phi_t = point->terms.Phi_t;
+    memset(x, 0, (size_t)self->n * sizeof *x);
+    if (!Phi_t && !point->rank->lost) return ZD_DONE;
+    double *all = point->rank->rhs, *rhs = point->rhs;
+    for (int k = 0; k < zd_constraints(point->system); k++) all[k] = Phi_t ? -Phi_t[k] : 0;
+    int status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, all);
+    for (int k = 0; k < self->m; k++) rhs[k] = all[zd_rank_row(point, k)];
+    if (!status) zd_complement_particular(self, rhs, x);
+    return status;
+}
+
 int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u, double *v)
 {
     int status = zd_complement_at(self, point);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
-    if (status) return status;
-    memset(v, 0, (size_t)self->n * sizeof *v);
-    if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
-        zd_complement_particular(self, point->rhs, v);
-    }
-    zd_complement_add(self, u, v);                                      /* (14) */
-    return ZD_DONE;
+    if (!status) status = enforce(self, point, v);
+    if (!status) zd_complement_add(self, u, v);                         /* (14) */
+    return status;
 }
 
 /* u with D u = x, in the sense of least squares; x is destroyed */
@@ -186,21 +195,18 @@ static void invert(const zd_complement *self, double *x, double *u)
     zd_backward(self->r, self->gram, u, u);
 }
 
-void zd_complement_speeds(const zd_complement *self, const zd_point *point, double *u)
+int zd_complement_speeds(const zd_complement *self, zd_point *point, double *u)
 {
     const double *v = point->v;
     if (!self->own) {
         for (int j = 0; j < self->r; j++) u[j] = v[self->order[self->m + j]];
-        return;
+        return ZD_DONE;
     }
     double *x = self->work + self->n;
-    memset(x, 0, (size_t)self->n * sizeof *x);
-    if (point->terms.Phi_t) {
-        for (int k = 0; k < self->m; k++) point->rhs[k] = -point->terms.Phi_t[zd_rank_row(point, k)];
-        zd_complement_particular(self, point->rhs, x);
-    }
+    int status = enforce(self, point, x);
     for (int i = 0; i < self->n; i++) x[i] = v[i] - x[i];
     invert(self, x, u);
+    return status;
 }
 
 int zd_complement_rate(zd_complement *self, zd_point *point, double *udot)

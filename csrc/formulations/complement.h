@@ -14,7 +14,7 @@
 typedef struct zd_complement {
     int n, m, r;
     int brought;        /* whether the system brings D */
-    int own;            /* whether it is used: where all rows of C count */
+    int own;            /* whether it is used: where all rows of C count as they are */
     int chosen;         /* whether u has been */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */
@@ -40,7 +40,7 @@ void zd_complement_multipliers(const zd_complement *self, const double *reaction
 /* v of u at the point, (14) */
 int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u, double *v);
 /* u of the point's v */
-void zd_complement_speeds(const zd_complement *self, const zd_point *point, double *u);
+int zd_complement_speeds(const zd_complement *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_complement_rate(zd_complement *self, zd_point *point, double *udot);
 /* b <- D^T b (r,), x <- x + D u */

@@ -11,7 +11,7 @@
 #include "../newton.h"
 #include "../rank.h"
 
-enum { MAX_ITERATIONS = 20 };
+enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
 static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
 static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
 
@@ -75,6 +75,13 @@ typedef struct problem {
     const double *q;
 } problem;
 
+/* What cannot be told from zero: where a row is lost, Phi is of second order in what the others leave open. */
+static double resolution(const zd_embedding *self, zd_point *point)
+{
+    int lost = point->rank->near && zd_rank_find(point) == ZD_DONE && point->rank->lost;
+    return lost ? fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE) : self->rounding;
+}
+
 /* In units of rounding; at least 2 as long as q is not what it should be. */
 static int residual(void *context, double *size)
 {
@@ -83,7 +90,7 @@ static int residual(void *context, double *size)
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
     if (status) return status;
     double Phi = it->self->mh ? zd_point_violation(point) : 0;
-    *size = Phi > 0 ? Phi / it->self->rounding : 0;
+    *size = Phi > 0 ? Phi / resolution(it->self, point) : 0;
     for (int k = 0; k < it->self->k; k++)
         if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
     return ZD_DONE;
@@ -96,7 +103,7 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = -point->terms.Phi[zd_rank_row(point, k)];
+    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);

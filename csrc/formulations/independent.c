@@ -29,6 +29,7 @@ static int state_size(const zd_system *system)
 static int enter(void *memory, zd_point *point, double t, const double *y)
 {
     independent *self = memory;
+    zd_minimal_leave_behind(&self->minimal, point, t);
     int status = zd_embedding_place(&self->embedding, point, t, y);
     return status ? status : zd_minimal_enter(&self->minimal, point, y + self->embedding.k);
 }

@@ -7,6 +7,10 @@
 #include "minimal.h"
 
 #include "../linalg/small.h"
+#include "../rank.h"
+
+enum { MAX_TURNS = 12 };
+static const double SETTLED = 0x1p-46, NEARLY = 0x1p-30;    /* parts of the speed: that it still changes by; that are rounding at most */
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
 {
@@ -61,14 +65,51 @@ static int check_size(const zd_minimal *self)
     return self->complement.r == self->size ? ZD_DONE : ZD_BIFURCATION;
 }
 
+/* v of u, and the point with it; how much that has changed, in natural units */
+static int turn(zd_minimal *self, zd_point *point, double *change)
+{
+    int status = zd_complement_velocity(&self->complement, point, self->u, self->b);
+    if (!status) status = check_size(self);
+    if (status) return status;
+    for (int i = 0; i < self->complement.n; i++) self->du[i] = self->b[i] - point->v[i];
+    *change = zd_max_scaled(self->complement.n, self->du, point->per_unit);
+    zd_point_move_velocity(point, self->b);
+    return ZD_DONE;
+}
+
+/* At a bifurcation u tells the velocities of a branch from each other, but not the branches: the one is taken which is next to what
+ * the acceleration before has led to. Limits depend on the velocity: this is Newton's iteration for c(v) = 0 of branch.c. */
+static int settle_on_branch(zd_minimal *self, zd_point *point)
+{
+    zd_copy(self->complement.n, point->v, self->b);
+    zd_add_scaled(self->complement.n, self->b, self->since, point->vdot);
+    zd_point_move_velocity(point, self->b);
+    self->since = 0;
+    double change = INFINITY, before;
+    for (int i = 0; i < MAX_TURNS; i++) {
+        before = change;
+        int status = i ? zd_branch_turn(point) : ZD_DONE;
+        if (!status) status = turn(self, point, &change);
+        if (status) return status;
+        if (change <= SETTLED * point->rank->speed || (change <= NEARLY * point->rank->speed && change >= before / 2)) return ZD_DONE;
+    }
+    return ZD_BIFURCATION;
+}
+
 int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
     int status = zd_complement_at(&self->complement, point);
+    if (!status && point->rank->lost) return settle_on_branch(self, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) zd_point_move_velocity(point, self->b);
     return status;
+}
+
+void zd_minimal_leave_behind(zd_minimal *self, const zd_point *point, double t)
+{
+    self->since = point->known & ZD_ACCELERATED ? t - point->t : 0;
 }
 
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
@@ -82,8 +123,8 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
     int status = zd_complement_review(&self->complement, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
-    if (status) return status;
-    zd_complement_speeds(&self->complement, point, self->u);
-    for (int j = 0; j < self->size; j++) u[j] = self->u[j];
-    return ZD_DONE;
+    if (!status) status = zd_complement_speeds(&self->complement, point, self->u);
+    for (int j = 0; j < self->size && !status; j++) u[j] = self->u[j];
+    self->since = 0;
+    return status;
 }

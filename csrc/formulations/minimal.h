@@ -11,12 +11,15 @@ typedef struct zd_minimal {
     int size;           /* of the u in the state */
     double *u;          /* (size,): that */
     double *b;          /* (n,) */
-    double *du;         /* (r,) */
+    double *du;         /* (n,) */
+    double since;       /* s: what the point's acceleration was computed before, if it still stands for where it came from */
 } zd_minimal;
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
+/* What the point's acceleration leads to at time t is wanted, should u not be enough there: before the point moves. */
+void zd_minimal_leave_behind(zd_minimal *self, const zd_point *point, double t);
 /* Remembers u, and gives the point the v that belongs to it. */
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
 /* The point's u, in terms of independent velocities that are reviewed first. */

@@ -14,6 +14,7 @@ static int state_size(const zd_system *system)
 
 static int enter(void *self, zd_point *point, double t, const double *y)
 {
+    zd_minimal_leave_behind(self, point, t);
     zd_point_move(point, t, y, point->v);
     return zd_minimal_enter(self, point, y + point->system->nq);
 }

@@ -22,6 +22,7 @@
 #include "../core.h"
 #include "../linalg/small.h"
 #include "../newton.h"
+#include "../rank.h"
 
 enum { MAX_ITERATIONS = 60 };
 static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
@@ -130,6 +131,8 @@ static int residual(void *context, double *size)
     if (self->varies) multiply(n, 0.5, self->probe->terms.M, self->w, 1, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->start[i] + self->h / 2 * self->F[i] - self->mean[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = -self->probe->terms.Phi[k] / self->h;
+    status = zd_rank_replace(run->point, ZD_LIMIT_PHI, self->rhs);
+    if (status) return status;
     run->statistics.solves++;
     zd_run_solve(run, self->F, self->rhs, self->x, NULL);
 
@@ -196,6 +199,8 @@ static int find_velocities(rattle *self)
     if (!self->varies) multiply(n, 1, point->terms.M, self->w, 0, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->mean[i] + self->h / 2 * self->F[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = point->terms.Phi_t ? -point->terms.Phi_t[k] : 0;
+    status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, self->rhs);
+    if (status) return status;
     run->statistics.solves++;
     zd_run_solve(run, self->F, self->rhs, self->x, NULL);
     zd_point_move_velocity(point, self->x);

@@ -1,0 +1,255 @@
+/* At a bifurcation: rows that are lost there are replaced by their limits along the motion.
+ *
+ * Where the row C_d comes to follow from others, C_d = T C_r, its own part w = C_d - T C_r vanishes, but not its rate along the
+ * motion: the velocity is that of a branch, and the nearer the motion comes along this branch, the more w points like wdot. With
+ * phi = Phi_d - T Phi_r, T as it is here, all derivatives of phi along the motion vanish, as everywhere; since w does, too, the
+ * second holds without an acceleration, and the third without a jerk:
+ *
+ *     c(v) := wdot v + ... = T xi_r - xi_d = 0,        so v + dv is on the branch if  wdot dv = -c(v) / 2
+ *     3 wdot vdot = d/dt (xi_d - T xi_r)  at this v
+ *
+ * The factors are those of Phi's being a function of p and t: so only holonomic rows have such limits. With wdot for w there are
+ * as many rows again as elsewhere, and every formulation goes on as it does elsewhere: to the accelerations that the motion has
+ * before and after. What the limit cannot give is lambda_d, which grows beyond bounds: it is left out.
+ *
+ * A distance s along the path away from it, w is s wdot but for s^2. What rounding makes of Phi, e, puts p aside by e / s, and turns
+ * the velocity by e / s^2: these are known from w itself, almost down to the bifurcation. But accelerations err by e / s^3, and by s
+ * where the limit is taken: so that serves as soon as the fourth root of the rounding is reached. If w does not point like wdot there,
+ * the mechanism is one that only comes near.
+ *
+ * Rates are differences over a short path, and all of the above is in natural units of it rather than of time.
+ */
+#include "rank.h"
+
+#include "linalg/small.h"
+
+static const double PATH = 0x1p-17;     /* radians, or parts of the mechanism's length: squared, it is rounding over it */
+static const double LEAST = 0x1p-12;    /* of a row's size, for each unit of path, is a rate by which the branch is known */
+static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
+static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
+
+/* C and xi less `weight` times their values `s` further along the motion, while the point stays where it is */
+static int add_ahead(zd_point *point, double s, double weight)
+{
+    zd_rank *self = point->rank;
+    const zd_system *system = point->system;
+    for (int i = 0; i < system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
+    zd_point_move(point, self->t + s, self->moved, self->v);
+    int status = zd_point_need(point, ZD_C | ZD_XI);
+    if (status) return status;
+    zd_add_scaled(self->m * self->n, self->Cdot, weight, point->terms.C);
+    zd_add_scaled(self->m, self->xidot, weight, point->terms.xi);
+    return ZD_DONE;
+}
+
+/* Cdot, and the part of xidot that no acceleration makes; both for each unit of path */
+static int differentiate(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    const int nq = point->system->nq, known = point->known;
+    memcpy(self->p, point->p, (size_t)nq * sizeof(double));
+    memcpy(self->v, point->v, (size_t)self->n * sizeof(double));
+    memset(self->Cdot, 0, (size_t)(self->m * self->n) * sizeof(double));
+    memset(self->xidot, 0, (size_t)self->m * sizeof(double));
+    self->t = point->t;
+    double s = PATH / self->speed;
+    int status = add_ahead(point, s, 0.5 / PATH);
+    if (!status) status = add_ahead(point, -s, -0.5 / PATH);
+    zd_point_move(point, self->t, self->p, self->v);
+    int back = zd_point_need(point, known);
+    return status ? status : back;
+}
+
+static double along_others(const zd_rank *self, const double *share, const double *y, int stride)
+{
+    double sum = 0;
+    for (int a = 0; a < self->independent; a++) sum += share[a] * y[self->row[a] * stride];
+    return sum;
+}
+
+/* y_d - T y_r, of something that there is for every row */
+static double own_part(const zd_rank *self, int row, const double *y, int stride)
+{
+    return y[row * stride] - along_others(self, self->T + row * self->m, y, stride);
+}
+
+static void in_natural_units(const zd_point *point, int row, double *x)
+{
+    for (int i = 0; i < point->rank->n; i++) x[i] *= point->unit[i] * point->per_size[row];
+}
+
+/* Q <- in natural units, an orthonormal basis of the rows that count, C_r = R Q */
+static void set_basis(const zd_point *point)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    memset(self->R, 0, (size_t)(m * m) * sizeof(double));
+    for (int a = 0; a < self->independent; a++) {
+        double *q = self->Q + a * n, *r = self->R + a * m;
+        zd_copy(n, point->terms.C + self->row[a] * n, q);
+        in_natural_units(point, self->row[a], q);
+        for (int again = 0; again < 2; again++)
+            for (int b = 0; b < a; b++) {
+                double along = zd_dot(n, self->Q + b * n, q);
+                r[b] += along;
+                zd_add_scaled(n, q, -along, self->Q + b * n);
+            }
+        r[a] = sqrt(zd_dot(n, q, q));
+        for (int i = 0; i < n; i++) q[i] /= r[a];
+    }
+}
+
+/* x <- what x, of this row and in natural units, has besides those that count; share (independent,) <- theirs in the rest of it */
+static void split(const zd_point *point, int row, double *x, double *share)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n, rank = self->independent;
+    for (int a = 0; a < rank; a++) {
+        share[a] = zd_dot(n, x, self->Q + a * n);
+        zd_add_scaled(n, x, -share[a], self->Q + a * n);
+    }
+    for (int a = rank - 1; a >= 0; a--) {
+        for (int b = a + 1; b < rank; b++) share[a] -= share[b] * self->R[b * self->m + a];
+        share[a] /= self->R[a * self->m + a];
+    }
+    for (int a = 0; a < rank; a++) share[a] *= point->per_size[self->row[a]] * point->size[row];
+}
+
+/* w = C_d - T C_r and wdot - K C_r of all other holonomic rows, the latter also behind the basis */
+static void set_rates(const zd_point *point)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    set_basis(point);
+    for (int d = self->independent; d < m; d++) {
+        int row = self->row[d];
+        double *w = self->w + row * n, *wdot = self->wdot + row * n;
+        memset(wdot, 0, (size_t)n * sizeof(double));
+        if (row < self->mh) {
+            zd_copy(n, point->terms.C + row * n, w);
+            in_natural_units(point, row, w);
+            split(point, row, w, self->T + row * m);
+            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, self->Cdot + i, n);
+            in_natural_units(point, row, wdot);
+            split(point, row, wdot, self->K_rate + row * m);
+        }
+        zd_copy(n, wdot, self->Q + d * n);
+    }
+}
+
+/* Brings the row whose rate has most that the chosen ones do not have to the front of those not chosen; whether that is enough. */
+static int choose_next(zd_rank *self, int chosen)
+{
+    int n = self->n, best = -1;
+    double most = LEAST * LEAST;
+    for (int d = chosen; d < self->m; d++) {
+        double left = zd_dot(n, self->Q + d * n, self->Q + d * n);
+        if (left > most) best = d, most = left;
+    }
+    if (best < 0) return 0;
+    int row = self->row[best];
+    self->row[best] = self->row[chosen];
+    self->row[chosen] = row;
+    double *q = self->Q + chosen * n, *other = self->Q + best * n;
+    for (int i = 0; i < n; i++) {
+        double swapped = other[i];
+        other[i] = q[i];
+        q[i] = swapped / sqrt(most);
+    }
+    for (int d = chosen + 1; d < self->m; d++) zd_add_scaled(n, self->Q + d * n, -zd_dot(n, q, self->Q + d * n), q);
+    return 1;
+}
+
+/* How far along the path the bifurcation is away, for this lost row, from w = s wdot; infinite where w does not point like wdot, though
+ * it is long enough to tell. */
+static double distance(const zd_rank *self, int row)
+{
+    const double *w = self->w + row * self->n, *wdot = self->wdot + row * self->n;
+    double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), whole = zd_dot(self->n, wdot, wdot);
+    double aside = own - along / whole * along;
+    int resolved = own > ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
+    return resolved && !(aside <= PARALLEL * PARALLEL * own) ? INFINITY : along / whole;
+}
+
+/* Puts the limits among the rows that count, behind the holonomic ones. */
+static void insert(zd_point *point, int wanted)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, before = point->holonomic, behind = self->independent - before;
+    memmove(self->C + (before + wanted) * n, self->C + before * n, (size_t)(behind * n) * sizeof(double));
+    memmove(self->place + before + wanted, self->place + before, (size_t)behind * sizeof(int));
+    for (int j = 0; j < wanted; j++) {
+        int row = self->place[before + j] = self->row[self->independent + j];
+        for (int i = 0; i < n; i++)
+            self->C[(before + j) * n + i] = self->wdot[row * n + i] * point->per_unit[i] * point->size[row];
+    }
+    self->lost = wanted;
+    point->rows += wanted;
+    point->holonomic += wanted;
+}
+
+int zd_branch_find(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    const zd_system *system = point->system;
+    int wanted = self->limit - self->independent;
+    if (!(system->provides & ZD_XI)) return ZD_DONE;
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
+    zd_point_rate(point, point->v, self->pdot);
+    self->speed = zd_max_scaled(system->nq, self->pdot, point->per_unit_p);
+    if (!(self->speed > 0 && self->speed < INFINITY)) return ZD_DONE;   /* at rest it is on all branches */
+    status = differentiate(point);
+    if (status) return status;
+    set_rates(point);
+    for (int j = 0; j < wanted; j++) {
+        if (!choose_next(self, self->independent + j)) return ZD_DONE;
+        self->away[j] = distance(self, self->row[self->independent + j]);
+        if (!(fabs(self->away[j]) < INFINITY)) return ZD_DONE;
+    }
+    insert(point, wanted);
+    return ZD_DONE;
+}
+
+/* Where wdot x is so much and C_r x = rhs: (wdot - K C_r) x */
+static double besides_others(const zd_rank *self, int row, double so_much, const double *rhs)
+{
+    return so_much - along_others(self, self->K_rate + row * self->m, rhs, 1);
+}
+
+/* Of Phi or Psi: the row's, for each unit of the path that is left; or from c(v). */
+static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
+{
+    const zd_rank *self = point->rank;
+    if (fabs(self->away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->away[j];
+    if (what == ZD_LIMIT_PHI) return 0;
+    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->speed / 2, rhs);
+}
+
+/* What the point's velocity makes of the limit, less its violation. rhs has -Phi_t. */
+static double enforced(const zd_point *point, int j, int row, const double *limit, const double *rhs)
+{
+    double *Psi = point->rank->lambda;
+    int n = point->rank->n;
+    for (int k = 0; k < point->rank->m; k++) Psi[k] = zd_dot(n, point->terms.C + k * n, point->v) - rhs[k];
+    return zd_dot(n, limit, point->v) - violation(point, j, row, ZD_LIMIT_PSI, Psi);
+}
+
+int zd_branch_replace(zd_point *point, enum zd_limit what, double *rhs)
+{
+    const zd_rank *self = point->rank;
+    int first = point->holonomic - self->lost, status = zd_point_need(point, ZD_XI);
+    for (int j = 0; j < self->lost && !status; j++) {
+        int row = self->place[first + j];
+        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->xidot, 1) / 3, rhs)
+                 : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)
+                 : violation(point, j, row, what, rhs);
+    }
+    return status;
+}
+
+int zd_branch_turn(zd_point *point)
+{
+    point->known &= ~(ZD_RANKED | ZD_FACTORED | ZD_COMPLEMENTED | ZD_ACCELERATED);
+    return zd_rank_find(point);
+}

@@ -1,0 +1,143 @@
+/* What becomes of dependent rows at the start: whether they are redundant, dependent only there, or contradict the others. Then
+ * comes which rows count anywhere, in rank.c.
+ */
+#include "rank.h"
+
+#include "linalg/small.h"
+
+static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
+static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
+static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
+
+/* How large the rows are where nothing is singular; a row that is nothing at the start is as large as the largest. */
+static void measure(const zd_point *point)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    for (int k = 0; k < m; k++) self->length[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
+    double largest = zd_max_abs(m, self->length);
+    for (int k = 0; k < m; k++)
+        if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
+}
+
+/* Q <- an orthonormal basis of the rows that count */
+static void set_basis(const zd_point *point)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n;
+    for (int a = 0; a < point->rows; a++) {
+        double *q = self->Q + a * n;
+        zd_copy(n, point->C + a * n, q);
+        for (int again = 0; again < 2; again++)
+            for (int b = 0; b < a; b++) zd_add_scaled(n, q, -zd_dot(n, self->Q + b * n, q), self->Q + b * n);
+        double length = sqrt(zd_dot(n, q, q));
+        for (int i = 0; i < n; i++) q[i] /= length;
+    }
+}
+
+/* v <- another velocity that the constraints allow where they allow v0 */
+static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
+{
+    const zd_rank *self = point->rank;
+    int n = self->n;
+    double size = 1 + zd_max_abs(n, v0);
+    for (int i = 0; i < n; i++) {
+        *seed = *seed * 1664525u + 1013904223u;
+        v[i] = size * ((double)(*seed >> 8) * 0x1p-23 - 1);
+    }
+    for (int a = 0; a < point->rows; a++) zd_add_scaled(n, v, -zd_dot(n, self->Q + a * n, v), self->Q + a * n);
+    for (int i = 0; i < n; i++) v[i] += v0[i];
+}
+
+static double unit_of(const zd_rank *self, int k)
+{
+    return self->length[k] > 0 ? sqrt(self->length[k]) : 1;
+}
+
+/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
+ * they are redundant. In units of the rows; (m - rows,) */
+static void curvature(const zd_point *point, double *w)
+{
+    const zd_rank *self = point->rank;
+    const double *xi = point->terms.xi;
+    double speed = zd_max_abs(self->n, point->v), largest = 0;
+    for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
+    for (int d = point->rows; d < self->m; d++) {
+        int row = self->row[d];
+        double sum = xi[row] / unit_of(self, row), terms = 1;
+        for (int a = 0; a < point->rows; a++) {
+            double share = self->G[row * self->m + a] / unit_of(self, row);
+            sum -= share * xi[self->row[a]];
+            terms += fabs(share) * unit_of(self, self->row[a]);
+        }
+        double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
+        w[d - point->rows] = fabs(sum) <= CURVED * scale ? 0 : sum;
+    }
+}
+
+/* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
+ * as soon as the system moves. Returns how many do. */
+static int count_curved(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, others = self->m - point->rows, curved = 0, status = ZD_DONE;
+    double *v0 = self->sample, *v = v0 + n, *basis = v + n;
+    unsigned seed = 1;
+    zd_copy(n, point->v, v0);
+    set_basis(point);
+    for (int sample = 0; sample < n && curved < others && !status; sample++) {
+        double *w = basis + curved * others;
+        vary(point, &seed, v0, v);
+        zd_point_move_velocity(point, v);
+        status = zd_point_need(point, ZD_XI);
+        if (status) break;
+        curvature(point, w);
+        double whole = zd_dot(others, w, w);
+        for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
+        double left = zd_dot(others, w, w);
+        if (!(left > SQUARED * whole)) continue;
+        for (int i = 0; i < others; i++) w[i] /= sqrt(left);
+        curved++;
+    }
+    zd_point_move_velocity(point, v0);
+    return status ? -1 : curved;
+}
+
+static int tell_redundant(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    double *w = self->sample;
+    int status = zd_point_need(point, ZD_XI);
+    if (status) return status;
+    curvature(point, w);
+    for (int d = point->rows; d < self->m; d++) {
+        point->culprit = self->row[d];
+        if (w[d - point->rows] != 0) return ZD_CONTRADICTION;       /* there is no vdot */
+    }
+    int curved = count_curved(point);
+    if (curved < 0) return ZD_CALLBACK;
+    self->limit = point->rows + curved;
+    if (curved) return ZD_DONE;
+    self->holonomic_limit = point->holonomic;
+    for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
+    return ZD_DONE;
+}
+
+int zd_rank_start(zd_point *point, const zd_settings *settings)
+{
+    zd_rank *self = point->rank;
+    if (!self->m) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C | ZD_M);
+    if (status) return status;
+    self->may_drop = 1;
+    measure(point);
+    status = zd_rank_find(point);
+    self->may_drop = settings->on_singular == ZD_CONTINUE;
+    self->begun = 1;
+    if (status || point->rows == self->m) return status;
+    status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
+    if (status) return status;
+    self->dropped = point->rows < self->limit;
+    if (self->dropped && !self->may_drop) return ZD_BIFURCATION;
+    return self->dropped ? zd_branch_turn(point) : ZD_DONE;
+}
