@@ -80,7 +80,8 @@ static int attempt(zd_run *run, double h, double t1, double *norm)
     if (isnan(*norm)) return ZD_NOT_FINITE;
     if (!(*norm <= 1)) return ZD_DONE;
     watch_stiffness(run, lambda_h);
-    return zd_run_land(run, t1);
+    status = zd_run_land(run, t1);
+    return status == ZD_PASSED ? zd_crossing_pass(run, h, t1) : status;
 }
 
 static double factor(const zd_run *run, double norm)
@@ -107,6 +108,7 @@ int zd_control_step(zd_run *run)
         run->control.h = h * (status ? AFTER_FAILURE : factor(run, norm));
         largest = 1;
         if (!(run->control.h > tiny)) return status ? status : ZD_TINY_STEP;
-        zd_run_return(run);
+        status = zd_run_return(run);
+        if (status) return status;
     }
 }

@@ -165,6 +165,16 @@ typedef struct zd_guard {   /* where a step began, with which its end is compare
     double kinetic;         /* energy, likewise */
 } zd_guard;
 
+typedef struct zd_crossing {    /* the rows of C where the step began, to see what has become of them */
+    int kept;               /* whether there are such */
+    int passes;             /* whether the step may pass a bifurcation */
+    double *C;              /* (m, nv), times the squares of the natural units */
+    double *before;         /* likewise, at the last look */
+    double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): where one is, and the end */
+    double *turn;           /* (m, m) */
+    int *order;             /* (m,) */
+} zd_crossing;
+
 typedef struct zd_output {
     zd_place before, after; /* the step */
     long next;              /* of settings.t_eval */
@@ -210,6 +220,7 @@ struct zd_run {
     zd_output output;       /* where something between steps is wanted */
     zd_watch watch;
     zd_guard guard;
+    zd_crossing crossing;
     zd_place whole;         /* where the step that is made in parts began */
     int parts;              /* of the step being made, if more than one: each is corrected */
     int iterations;         /* most position iterations of a step since the last saved row */
@@ -246,11 +257,12 @@ int zd_run_place(zd_run *run, double t, const double *p, const double *v);
 int zd_run_start_energy(zd_run *run);       /* E0 of (28), from the point */
 double zd_run_time(const zd_run *run, long step);
 
-/* simulate.c: the two halves of a step */
+/* simulate.c: a step, and its two halves */
+int zd_run_step(zd_run *run, double h, double t1);
 int zd_run_make_step(zd_run *run, double h);    /* as the integrator does it */
 int zd_run_integrate(zd_run *run, double h);    /* y from t to t + h */
 int zd_run_land(zd_run *run, double t1);        /* the point at t1, corrected, and y to match */
-void zd_run_return(zd_run *run);                /* point and y to where the step began */
+int zd_run_return(zd_run *run);                 /* point and y to where the step began */
 
 /* control.c: a step whose size the error decides */
 int zd_control_start(zd_run *run);
@@ -260,6 +272,13 @@ int zd_control_step(zd_run *run);
 zd_guard zd_guard_take(const zd_run *run, zd_arena *arena);
 int zd_guard_begin(zd_run *run);            /* keeps where the run is */
 int zd_guard_step(zd_run *run, double h);   /* compares with that where a step of size h has led, and keeps it */
+
+/* crossing.c: whether a bifurcation lies within a step */
+zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system);
+int zd_crossing_keep(zd_run *run);          /* where the run is */
+/* From there to where it has come, in a step of size h by this much in natural units: ZD_PASSED if one does. */
+int zd_crossing_check(zd_run *run, double h, double moved);
+int zd_crossing_pass(zd_run *run, double h, double t1);     /* the step again, through it, if that is wanted and the motion leads there */
 
 /* output.c: values between steps */
 void zd_place_keep(const zd_run *run, zd_place *place);

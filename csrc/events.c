@@ -1,10 +1,10 @@
 /* Events: instants at which a function of the motion passes through zero.
  *
  * A step at whose ends the function has different signs brackets such an instant. It is narrowed down to the rounding of t by
- * shorter steps, as output.c makes them, whose sizes the ITP method chooses: it converges like the secant method and takes at most
- * one step more than bisection (Oliveira and Takahashi, ACM Trans. Math. Softw. 47 (2021) 5). Reported is that end of the bracket
- * where the event has happened, so that a run which starts there does not meet it again.
+ * shorter steps, as output.c makes them. Reported is that end of the bracket where the event has happened, so that a run which starts
+ * there does not meet it again.
  */
+#include "bracket.h"
 #include "core.h"
 
 static const double RESOLUTION = 4 * 0x1p-52;   /* of the largest |t| of the step: the width of a bracket that is done */
@@ -37,33 +37,17 @@ static int happens(const zd_run *run, int event)
     return (before < 0 && now >= 0 && direction >= 0) || (before > 0 && now <= 0 && direction <= 0);
 }
 
-typedef struct bracket {
-    double a, b;        /* s */
-    double ga, gb;      /* of different signs; gb may be zero */
-} bracket;
-
-/* Where to look next: by the secant, moved a little towards the middle, and no further from that than `reach` allows. */
-static double choose(const bracket *it, double whole, double resolution, double reach)
-{
-    double width = it->b - it->a, middle = it->a + width / 2, secant = it->a + width * (it->ga / (it->ga - it->gb));
-    double inwards = copysign(1, middle - secant), shift = fmax(0.2 * width * width / whole, resolution / 2);
-    double t = shift <= fabs(middle - secant) ? secant + inwards * shift : middle, allowed = reach - width / 2;
-    return fabs(t - middle) <= allowed ? t : middle - inwards * allowed;
-}
-
 static int locate(zd_run *run, int event, double *time)
 {
     const zd_place *before = &run->output.before, *after = &run->output.after;
-    bracket it = {before->t, after->t, run->watch.before[event], run->watch.now[event]};
-    double whole = it.b - it.a, resolution = RESOLUTION * fmax(fabs(it.a), fabs(it.b)), reach = resolution;
-    while (reach < whole) reach *= 2;       /* bisection's bound, doubled: for the step more */
-    for (; it.b - it.a > resolution; reach /= 2) {
-        double g, t = choose(&it, whole, resolution, reach);
+    double resolution = RESOLUTION * fmax(fabs(before->t), fabs(after->t));
+    zd_bracket it = zd_bracket_of(before->t, after->t, run->watch.before[event], run->watch.now[event], resolution);
+    while (it.b - it.a > resolution) {
+        double g, t = zd_bracket_choose(&it);
         int status = zd_output_move(run, t);
         if (!status) status = look(run, event, &g);
         if (status) return status;
-        if (it.ga < 0 ? g < 0 : g > 0) it.a = t, it.ga = g;
-        else it.b = t, it.gb = g;
+        zd_bracket_narrow(&it, t, g);
     }
     *time = it.b;
     return ZD_DONE;

@@ -155,8 +155,9 @@ ZD_INLINE void keep(zd_run *run, double speed)
 int zd_guard_begin(zd_run *run)
 {
     int status = look(run);
-    if (!status) keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->last.p, run->point->p, 0, run->point->per_unit_p).speed);
-    return status;
+    if (status) return status;
+    keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->last.p, run->point->p, 0, run->point->per_unit_p).speed);
+    return zd_crossing_keep(run);
 }
 
 int zd_guard_step(zd_run *run, double h)
@@ -174,10 +175,14 @@ int zd_guard_step(zd_run *run, double h)
         status = look(run);
         if (status) return status;
     }
-    if (guard->looking && !run->parts) estimate_omega(run, sum.moved, h);
-    if (guard->looking && zd_has_energy(&run->system)) see_energy(run);
+    status = zd_crossing_check(run, h, sqrt(sum.moved));
+    if (status) return status;
+    if (guard->looking && !run->parts) {        /* parts may be given up yet */
+        estimate_omega(run, sum.moved, h);
+        if (zd_has_energy(&run->system)) see_energy(run);
+    }
     keep(run, sum.speed);
-    return ZD_DONE;
+    return zd_crossing_keep(run);
 }
 
 double zd_run_omega_h(const zd_run *run)

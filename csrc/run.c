@@ -88,6 +88,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run.last.p = zd_take_doubles(arena, (size_t)system->nq);
     run.last.v = zd_take_doubles(arena, (size_t)system->nv);
     run.guard = zd_guard_take(&run, arena);
+    run.crossing = zd_crossing_take(arena, system);
     if (!(settings->step > 0)) run.control = take_control(arena, (size_t)size);
     run.whole = take_place(arena, system, (size_t)(size - run.own_size));
     if (settings->events) run.watch = take_watch(arena, (size_t)settings->events->count);

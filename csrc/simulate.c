@@ -23,12 +23,13 @@ static void remember(zd_run *run, double h)
     ZD_SIZED(zd_copy, run->system.nv, run->point->v, run->last.v);
 }
 
-void zd_run_return(zd_run *run)
+int zd_run_return(zd_run *run)
 {
     run->t = run->last.t;
     run->state = run->y;
     zd_copy(run->rate.size, run->last.y, run->y);
     zd_point_move(run->point, run->last.t, run->last.p, run->last.v);
+    return run->formulation->settle ? run->formulation->leave(run->solver, run->point, run->y) : ZD_DONE;   /* in what variables, may be anew */
 }
 
 int zd_run_make_step(zd_run *run, double h)
@@ -62,6 +63,13 @@ int zd_run_land(zd_run *run, double t1)
     return status ? status : zd_guard_step(run, h);
 }
 
+int zd_run_step(zd_run *run, double h, double t1)
+{
+    int status = zd_run_integrate(run, h);
+    if (!status) status = zd_run_land(run, t1);
+    return status == ZD_PASSED ? zd_crossing_pass(run, h, t1) : status;
+}
+
 /* From where the step began to t1, in equal parts. */
 static int take_parts(zd_run *run, double t1)
 {
@@ -70,8 +78,7 @@ static int take_parts(zd_run *run, double t1)
     if (!status) status = zd_guard_begin(run);
     for (int part = 1; !status && part <= run->parts; part++) {
         double t = part == run->parts ? t1 : t0 + (t1 - t0) * part / run->parts;
-        status = zd_run_integrate(run, t - run->t);
-        if (!status) status = zd_run_land(run, t);
+        status = zd_run_step(run, t - run->t, t);
     }
     return status;
 }
@@ -87,7 +94,7 @@ static void remember_whole(zd_run *run)
 
 static int is_too_far(int status)
 {
-    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING;
+    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_PASSED;
 }
 
 /* A step that has led too far away to be corrected is made in parts; if that does not help, either, it stays so and is named. */
@@ -109,8 +116,7 @@ static int divide_step(zd_run *run, int status, double t1)
 static int take_fixed_step(zd_run *run)
 {
     double t1 = zd_run_time(run, run->step);
-    int status = zd_run_integrate(run, run->step == run->steps ? t1 - run->t : run->settings.step);
-    if (!status) status = zd_run_land(run, t1);
+    int status = zd_run_step(run, run->step == run->steps ? t1 - run->t : run->settings.step, t1);
     return is_too_far(status) && run->guard.kept ? divide_step(run, status, t1) : status;
 }
 

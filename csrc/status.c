@@ -4,6 +4,8 @@
 #include "core.h"
 #include "rank.h"
 
+#define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
+
 static const char *name_of(int term)
 {
     static const char *const names[] = {"A", "M", "bias d", "force f", "Phi", "C", "Phi_t", "xi", "potential V", "power", "D", "gamma"};
@@ -29,8 +31,12 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->formulation->settle ? "nor do independent velocities; 'schur' with on_singular=\"continue\" can go on"
-                                          : "on_singular=\"continue\" takes the branch of least acceleration");
+                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR : "nor does its velocity, which independent velocities need; 'schur' "
+                                                                      "can go on by the least acceleration");
+        break;
+    case ZD_PASSED:
+        snprintf(to, size, "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow "
+                 "the motion; a smaller step shows which, " ON_SINGULAR);
         break;
     case ZD_CONTRADICTION:
         snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "

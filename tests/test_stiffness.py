@@ -105,5 +105,5 @@ def test_what_blows_up_is_told_why():
 
 
 def test_energy_that_is_numerical_is_said():
-    with pytest.warns(zd.StabilityWarning, match="the energy is off by 1 of its largest"):
+    with pytest.warns(zd.AccuracyWarning, match="the energy balance is off by 1 of the largest kinetic energy"):
         motion(SYSTEMS["oscillator"], 50.0, 1000, integrator="euler")

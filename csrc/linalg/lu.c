@@ -74,6 +74,13 @@ void zd_lu_solve_transposed(int n, const double *LU, const int *order, double *b
     for (int k = n - 1; k >= 0; k--) swap(b + k, b + order[k]);
 }
 
+double zd_lu_determinant(int n, const double *LU, const int *order)
+{
+    double inverse = 1;
+    for (int k = 0; k < n; k++) inverse *= order[k] == k ? LU[k * n + k] : -LU[k * n + k];
+    return 1 / inverse;
+}
+
 static void swap_columns(int rows, int columns, double *A, int a, int b)
 {
     for (int i = 0; i < rows; i++) swap(A + i * columns + a, A + i * columns + b);

@@ -13,6 +13,7 @@ from . import systems
 from .checking import check
 from .custom import System
 from .errors import (
+    AccuracyWarning,
     Bifurcation,
     BranchJump,
     CacheWarning,
@@ -39,12 +40,13 @@ from .solution import Solution, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed", "CorrectionWarning",
-    "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted", "NoCompilerWarning", "Projection", "SingularSystem",
-    "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System", "UnreachableTolerance", "UnsuitedFormulation",
-    "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations",
-    "from_mechanics", "get_include", "integrators", "load", "models", "native", "numba_signature", "plot", "project",
-    "reference", "simulate", "stability_map", "symbolic", "systems", "tune", "work_precision",
+    "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted", "NoCompilerWarning",
+    "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
+    "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
+    "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "models", "native",
+    "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
+    "work_precision",
 ]
 _LATER = {      # imported at first use
     "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",

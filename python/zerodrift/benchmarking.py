@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import itertools
-import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +14,8 @@ import numpy as np
 from . import _check, _gateway, certified, settings
 from ._system import BaseSystem
 from .compare import states_of
-from .errors import CorrectionWarning, Interrupted, StabilityWarning
-from .simulation import doubts, progress_of, simulate
+from .errors import Interrupted, StabilityWarning
+from .simulation import doubts, progress_of, simulate, unwarned
 from .solution import Solution
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
@@ -290,9 +289,7 @@ class Bench:
         return _largest(solution.p - self._exact) if solution.success else np.nan
 
     def _run(self, setting: Setting, **saved: Any) -> Solution:
-        with warnings.catch_warnings():
-            for category in (CorrectionWarning, StabilityWarning):      # they are the row's message
-                warnings.simplefilter("ignore", category)
+        with unwarned():        # errors are measured, the rest is the row's message
             solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, on_failure="return")
         if solution.status == _gateway.INTERRUPTED:
             raise KeyboardInterrupt

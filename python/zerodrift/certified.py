@@ -16,7 +16,7 @@ import numpy as np
 from . import _check, settings
 from ._system import BaseSystem
 from .errors import UnreachableTolerance, ZerodriftError
-from .simulation import simulate
+from .simulation import simulate, unwarned
 from .solution import Solution
 
 SAFETY = 10         # of the largest difference of two runs: rounding that all of them share is not seen in it
@@ -129,7 +129,8 @@ def reference(
     first, second = _different(formulations)
     method = max(settings.integrators().values(), key=lambda card: card.order).name
     options = {"integrator": method, "stabilization": stabilization}
-    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=first, **options)
+    with unwarned():
+        probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=first, **options)
     size = float(np.abs(probe.p).max())
     if wanted is not None and wanted < SPACING * size:
         raise UnreachableTolerance(f"error must be at least {SPACING * size:.2g}, the spacing of doubles at the size of this "
@@ -189,7 +190,8 @@ def _certified(run, steps, fine, coarse, formulations, stride) -> Reference:
 def _attempt(run, steps, formulation) -> Solution | None:
     """A run; None where its steps were too long for it."""
     try:
-        return run(steps, formulation)
+        with unwarned():
+            return run(steps, formulation)
     except ZerodriftError as error:
         if error.solution is None:      # it did not even start
             raise

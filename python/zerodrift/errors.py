@@ -69,6 +69,10 @@ class CorrectionWarning(UserWarning):
     """Some corrections were left out because they had no bounded solution; `Solution.energy_skipped` says where."""
 
 
+class AccuracyWarning(UserWarning):
+    """The energy balance shows that steps were too long: what was computed satisfies the constraints, but is not the motion."""
+
+
 class StabilityWarning(UserWarning):
     """Steps were longer than the integrator is stable for, or stability rather than accuracy held them down."""
 

@@ -38,7 +38,7 @@ class Projection:
     Examples
     --------
     >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.05, stabilization=zd.Projection(tol=1e-10))
+    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, stabilization=zd.Projection(tol=1e-10))
     >>> bool(abs(sol.position_violation).max() <= 1e-10)
     True
     """

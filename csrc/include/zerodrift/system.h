@@ -52,7 +52,8 @@ enum zd_status {
     ZD_UNSUITED_INTEGRATOR = -17,   /* the integrator cannot take this system */
     ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
     ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
-    ZD_CONTRADICTION = -20    /* constraints that follow from others ask for something else */
+    ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
+    ZD_PASSED = -21           /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

@@ -22,6 +22,7 @@ ERRORS = {
     lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
     lib.ZD_DEPENDENT: errors.SingularSystem,
     lib.ZD_BIFURCATION: errors.Bifurcation,
+    lib.ZD_PASSED: errors.Bifurcation,
     lib.ZD_CONTRADICTION: errors.SingularSystem,
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,

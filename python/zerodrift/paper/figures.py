@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import plot
-from ..simulation import simulate
+from ..simulation import simulate, unwarned
 from ..solution import Solution
 from . import FOUR_BAR, STEP, reference
 from .claims import Runs, energy_errors, largest, link_1_error
@@ -122,7 +122,8 @@ def costs() -> dict[str, np.ndarray]:
 def _run_with_step(settings: dict[str, Any], step: float) -> Solution:
     every = max(1, round(reference.SPACING / step))     # only where the exact motion is stored
     settings = settings | {"step": step, "save_every": every, "on_failure": "return"}
-    return simulate(FOUR_BAR.system, FOUR_BAR.end, **settings)
+    with unwarned():
+        return simulate(FOUR_BAR.system, FOUR_BAR.end, **settings)
 
 
 def _cost(repetitions: list[Solution]) -> tuple[float, float]:

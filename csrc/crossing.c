@@ -1,0 +1,174 @@
+/* Whether a bifurcation lies within a step, though neither of its ends is one.
+ *
+ * The space that the rows of C span turns as the motion goes on. As long as nothing else happens, it keeps its orientation: with W the
+ * squares of the natural units, det(C1 W C0^T) stays positive while it turns by less than a right angle. Where the motion passes through
+ * a bifurcation, a row vanishes and comes back reversed: the sign changes, as in the continuation of curves (Allgower and Georg,
+ * Introduction to Numerical Continuation Methods, section 8). It changes as well if the mechanism only comes near one and the step
+ * leads straight on, where the motion would have turned away.
+ *
+ * Which of these it is, shorter steps tell: through a bifurcation the motion is continuous, so that one of them ends within the region
+ * where branch.c knows it; otherwise it leaps however short they are.
+ */
+#include "bracket.h"
+#include "core.h"
+#include "linalg/lu.h"
+#include "linalg/small.h"
+#include "rank.h"
+
+static const double LONG = 1;       /* in natural units: a path so long is looked at in between */
+static const double NEAR = 0.5;     /* and every so often */
+enum { MOST_LOOKS = 64 };
+static const double SHORT = 0.25 * ZD_BRANCH_REGION;     /* in natural units: the path on which a leap is one */
+
+zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
+{
+    size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv;
+    return (zd_crossing){
+        .C = zd_take_doubles(arena, m * n),
+        .before = zd_take_doubles(arena, m * n),
+        .p = zd_take_doubles(arena, (size_t)system->nq),
+        .p1 = zd_take_doubles(arena, (size_t)system->nq),
+        .v1 = zd_take_doubles(arena, n),
+        .turn = zd_take_doubles(arena, m * m),
+        .order = zd_take(arena, m * sizeof(int)),
+    };
+}
+
+static int is_at_one(const zd_point *point)
+{
+    return point->rank->lost || point->rows < point->rank->limit;
+}
+
+ZD_INLINE void keep_rows(const int n, int m, const zd_point *point, double *C)
+{
+    for (int k = 0; k < m; k++)
+        for (int i = 0; i < n; i++) C[k * n + i] = point->terms.C[k * n + i] * point->unit[i] * point->unit[i] * point->per_size[k];
+}
+
+int zd_crossing_keep(zd_run *run)
+{
+    zd_point *point = run->point;
+    run->crossing.kept = 0;
+    if (!point->rank->m) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C);
+    if (!status) status = zd_rank_find(point);
+    if (status || is_at_one(point)) return status;
+    ZD_SIZED(keep_rows, point->rank->n, point->rank->m, point, run->crossing.C);
+    run->crossing.kept = 1;
+    return ZD_DONE;
+}
+
+ZD_INLINE void multiply(const int n, int rows, const zd_point *point, const double *C0, double *turn)
+{
+    for (int a = 0; a < rows; a++)
+        for (int b = 0; b < rows; b++)
+            turn[a * rows + b] = point->per_size[zd_rank_row(point, a)] * zd_dot(n, point->C + a * n, C0 + zd_rank_row(point, b) * n);
+}
+
+/* det(C1 W C0^T), of the rows that count at the point */
+static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
+{
+    int rows = point->rows;
+    double *turn = self->turn;
+    ZD_SIZED(multiply, point->rank->n, rows, point, C0, turn);
+    if (rows == 1) return turn[0];
+    if (rows == 2) return turn[0] * turn[3] - turn[1] * turn[2];
+    return zd_lu_factor(rows, turn, self->order) == rows ? zd_lu_determinant(rows, turn, self->order) : 0;
+}
+
+/* Where the cubic that has the positions and rates of the step's ends is at this share of it. */
+static void interpolate(const zd_run *run, double h, double s)
+{
+    const zd_crossing *self = &run->crossing;
+    for (int i = 0; i < run->system.nq; i++) {
+        double p0 = run->last.p[i], moved = self->p1[i] - p0, m0 = h * run->guard.pdot[i] - moved, m1 = moved - h * run->guard.rate[i];
+        self->p[i] = p0 + s * (moved + (1 - s) * ((1 - s) * m0 + s * m1));
+    }
+}
+
+/* Whether the orientation is kept from one look to the next, on a path too long to tell from its ends. */
+static int follow(zd_run *run, double h, int looks, int *kept)
+{
+    zd_crossing *self = &run->crossing;
+    zd_point *point = run->point;
+    const int m = point->rank->m, n = point->rank->n;
+    const double t1 = point->t;
+    memcpy(self->p1, point->p, (size_t)run->system.nq * sizeof(double));
+    memcpy(self->v1, point->v, (size_t)n * sizeof(double));
+    memcpy(self->before, self->C, (size_t)(m * n) * sizeof(double));
+    int status = ZD_DONE;
+    *kept = 1;
+    for (int look = 1; look <= looks && *kept && !status; look++) {
+        interpolate(run, h, (double)look / looks);
+        zd_point_move(point, look == looks ? t1 : t1 - h * (looks - look) / looks, look == looks ? self->p1 : self->p, self->v1);
+        status = zd_point_need(point, ZD_C);
+        if (!status) status = zd_rank_find(point);
+        *kept = status == ZD_DONE && !is_at_one(point) && determinant(self, point, self->before) > 0;
+        ZD_SIZED(keep_rows, n, m, point, self->before);
+    }
+    zd_point_move(point, t1, self->p1, self->v1);
+    return status == ZD_BIFURCATION ? ZD_DONE : status;
+}
+
+int zd_crossing_check(zd_run *run, double h, double moved)
+{
+    zd_point *point = run->point;
+    if (!run->crossing.kept || run->crossing.passes) return ZD_DONE;
+    int kept = 1, status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, run->acceleration_needs);   /* the next step's, at once */
+    if (!status) status = zd_rank_find(point);
+    if (status || is_at_one(point)) return status;
+    if (!(moved <= LONG)) status = follow(run, h, moved < NEAR * MOST_LOOKS ? 1 + (int)(moved / NEAR) : MOST_LOOKS, &kept);
+    else kept = determinant(&run->crossing, point, run->crossing.C) > 0;
+    return status || kept ? status : ZD_PASSED;
+}
+
+/* ---- what it was ---- */
+
+/* A step to t from where the last one began, corrected and compared with nothing. */
+static int move(zd_run *run, double t)
+{
+    int status = zd_run_return(run);
+    run->output.between = 1;
+    if (!status) status = zd_run_integrate(run, t - run->t);
+    if (!status) status = zd_run_land(run, t);
+    run->output.between = 0;
+    run->statistics.output_steps++;
+    return status;
+}
+
+/* Whether the motion is continuous where the sign changes: it is seen to be at the bifurcation itself. */
+static int find(zd_run *run, double t1, int *found)
+{
+    zd_point *point = run->point;
+    double t0 = run->last.t, speed = fmax(sqrt(run->guard.speed), 1 / (t1 - t0) * SHORT);
+    *found = 0;
+    int status = zd_rank_find(point);
+    if (status || is_at_one(point)) return status;
+    zd_bracket it = zd_bracket_of(t0, t1, 1, determinant(&run->crossing, point, run->crossing.C), fmin(SHORT / speed, (t1 - t0) / 2));
+    if (it.gb > 0) return ZD_DONE;      /* it changes more than once: they are taken one by one */
+    status = zd_run_return(run);
+    if (!status) status = zd_rank_find(point);
+    it.ga = status ? 1 : determinant(&run->crossing, point, run->crossing.C);
+    while (!status && it.b - it.a > it.resolution) {
+        double t = zd_bracket_choose(&it);
+        status = move(run, t);
+        if (!status) status = zd_rank_find(point);
+        *found = !status && is_at_one(point);
+        if (*found) return ZD_DONE;
+        if (!status) zd_bracket_narrow(&it, t, determinant(&run->crossing, point, run->crossing.C));
+    }
+    return status;
+}
+
+int zd_crossing_pass(zd_run *run, double h, double t1)
+{
+    if (run->settings.on_singular == ZD_STOP) return ZD_PASSED;
+    int found, status = find(run, t1, &found);
+    if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
+    run->crossing.passes = 1;
+    status = zd_run_return(run);
+    if (!status) status = zd_run_integrate(run, h);
+    if (!status) status = zd_run_land(run, t1);
+    run->crossing.passes = 0;
+    return status;
+}
