@@ -275,9 +275,9 @@ int zd_guard_step(zd_run *run, double h);   /* compares with that where a step o
 
 /* crossing.c: whether a bifurcation lies within a step */
 zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system);
-int zd_crossing_keep(zd_run *run);          /* where the run is */
-/* From there to where it has come, in a step of size h by this much in natural units: ZD_PASSED if one does. */
-int zd_crossing_check(zd_run *run, double h, double moved);
+int zd_crossing_begin(zd_run *run);         /* keeps where the run is */
+/* Keeps where a step of size h has led, by so much in natural units, squared; ZD_PASSED if a bifurcation lies in between. */
+int zd_crossing_step(zd_run *run, double h, double moved);
 int zd_crossing_pass(zd_run *run, double h, double t1);     /* the step again, through it, if that is wanted and the motion leads there */
 
 /* output.c: values between steps */

@@ -18,6 +18,7 @@
 static const double LONG = 1;       /* in natural units: a path so long is looked at in between */
 static const double NEAR = 0.5;     /* and every so often */
 enum { MOST_LOOKS = 64 };
+static const double MOST_PATH = MOST_LOOKS * 0.5;
 static const double SHORT = 0.25 * ZD_BRANCH_REGION;     /* in natural units: the path on which a leap is one */
 
 zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
@@ -39,41 +40,30 @@ static int is_at_one(const zd_point *point)
     return point->rank->lost || point->rows < point->rank->limit;
 }
 
-ZD_INLINE void keep_rows(const int n, int m, const zd_point *point, double *C)
+ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)
 {
-    for (int k = 0; k < m; k++)
-        for (int i = 0; i < n; i++) C[k * n + i] = point->terms.C[k * n + i] * point->unit[i] * point->unit[i] * point->per_size[k];
+    for (int k = 0; k < point->rank->m; k++)
+        for (int i = 0; i < n; i++) C[k * n + i] = point->terms.C[k * n + i] * point->unit[i] * point->unit[i];
 }
 
-int zd_crossing_keep(zd_run *run)
+/* The sign of rows does not depend on their size. */
+ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *C0)
 {
-    zd_point *point = run->point;
-    run->crossing.kept = 0;
-    if (!point->rank->m) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C);
-    if (!status) status = zd_rank_find(point);
-    if (status || is_at_one(point)) return status;
-    ZD_SIZED(keep_rows, point->rank->n, point->rank->m, point, run->crossing.C);
-    run->crossing.kept = 1;
-    return ZD_DONE;
+    const double *a = point->C, *b = a + n, *a0 = C0 + zd_rank_row(point, 0) * n, *b0 = C0 + zd_rank_row(point, 1) * n;
+    return zd_dot(n, a, a0) * zd_dot(n, b, b0) - zd_dot(n, a, b0) * zd_dot(n, b, a0);
 }
 
-ZD_INLINE void multiply(const int n, int rows, const zd_point *point, const double *C0, double *turn)
-{
-    for (int a = 0; a < rows; a++)
-        for (int b = 0; b < rows; b++)
-            turn[a * rows + b] = point->per_size[zd_rank_row(point, a)] * zd_dot(n, point->C + a * n, C0 + zd_rank_row(point, b) * n);
-}
-
-/* det(C1 W C0^T), of the rows that count at the point */
+/* det(C1 W C0^T), of the rows that count at the point; of more than two in units of their sizes */
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
-    int rows = point->rows;
-    double *turn = self->turn;
-    ZD_SIZED(multiply, point->rank->n, rows, point, C0, turn);
-    if (rows == 1) return turn[0];
-    if (rows == 2) return turn[0] * turn[3] - turn[1] * turn[2];
-    return zd_lu_factor(rows, turn, self->order) == rows ? zd_lu_determinant(rows, turn, self->order) : 0;
+    const int n = point->rank->n, rows = point->rows;
+    if (rows == 2) return ZD_SIZED(turn_of_two, n, point, C0);
+    for (int a = 0; a < rows; a++)
+        for (int b = 0; b < rows; b++)
+            self->turn[a * rows + b] = point->per_size[zd_rank_row(point, a)] * point->per_size[zd_rank_row(point, b)]
+                                     * zd_dot(n, point->C + a * n, C0 + zd_rank_row(point, b) * n);
+    if (rows == 1) return self->turn[0];
+    return zd_lu_factor(rows, self->turn, self->order) == rows ? zd_lu_determinant(rows, self->turn, self->order) : 0;
 }
 
 /* Where the cubic that has the positions and rates of the step's ends is at this share of it. */
@@ -104,22 +94,38 @@ static int follow(zd_run *run, double h, int looks, int *kept)
         status = zd_point_need(point, ZD_C);
         if (!status) status = zd_rank_find(point);
         *kept = status == ZD_DONE && !is_at_one(point) && determinant(self, point, self->before) > 0;
-        ZD_SIZED(keep_rows, n, m, point, self->before);
+        ZD_SIZED(keep_rows, n, point, self->before);
     }
     zd_point_move(point, t1, self->p1, self->v1);
     return status == ZD_BIFURCATION ? ZD_DONE : status;
 }
 
-int zd_crossing_check(zd_run *run, double h, double moved)
+int zd_crossing_begin(zd_run *run)
 {
+    run->crossing.kept = 0;
+    return zd_crossing_step(run, 0, 0);
+}
+
+int zd_crossing_step(zd_run *run, double h, double moved)
+{
+    zd_crossing *self = &run->crossing;
     zd_point *point = run->point;
-    if (!run->crossing.kept || run->crossing.passes) return ZD_DONE;
+    if (!point->rank->m) return ZD_DONE;
     int kept = 1, status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, run->acceleration_needs);   /* the next step's, at once */
-    if (!status) status = zd_rank_find(point);
-    if (status || is_at_one(point)) return status;
-    if (!(moved <= LONG)) status = follow(run, h, moved < NEAR * MOST_LOOKS ? 1 + (int)(moved / NEAR) : MOST_LOOKS, &kept);
-    else kept = determinant(&run->crossing, point, run->crossing.C) > 0;
-    return status || kept ? status : ZD_PASSED;
+    if (!status && !(point->known & ZD_RANKED)) status = zd_rank_find(point);
+    if (status) return status;
+    if (is_at_one(point)) {
+        self->kept = 0;
+        return ZD_DONE;
+    }
+    if (self->kept && !self->passes) {
+        if (!(moved <= LONG * LONG)) status = follow(run, h, moved < MOST_PATH * MOST_PATH ? 1 + (int)(sqrt(moved) / NEAR) : MOST_LOOKS, &kept);
+        else kept = determinant(self, point, self->C) > 0;
+    }
+    if (status || !kept) return status ? status : ZD_PASSED;
+    ZD_SIZED(keep_rows, point->rank->n, point, self->C);
+    self->kept = 1;
+    return ZD_DONE;
 }
 
 /* ---- what it was ---- */

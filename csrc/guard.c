@@ -157,7 +157,7 @@ int zd_guard_begin(zd_run *run)
     int status = look(run);
     if (status) return status;
     keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->last.p, run->point->p, 0, run->point->per_unit_p).speed);
-    return zd_crossing_keep(run);
+    return zd_crossing_begin(run);
 }
 
 int zd_guard_step(zd_run *run, double h)
@@ -175,14 +175,14 @@ int zd_guard_step(zd_run *run, double h)
         status = look(run);
         if (status) return status;
     }
-    status = zd_crossing_check(run, h, sqrt(sum.moved));
+    status = zd_crossing_step(run, h, sum.moved);
     if (status) return status;
     if (guard->looking && !run->parts) {        /* parts may be given up yet */
         estimate_omega(run, sum.moved, h);
         if (zd_has_energy(&run->system)) see_energy(run);
     }
     keep(run, sum.speed);
-    return zd_crossing_keep(run);
+    return ZD_DONE;
 }
 
 double zd_run_omega_h(const zd_run *run)

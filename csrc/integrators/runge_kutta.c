@@ -14,6 +14,7 @@ typedef struct runge_kutta {
     int calls;      /* of the error estimate */
     double *k;      /* (stages + 1, size) */
     double *stage;  /* (size,) */
+    double *estimate;   /* (size,): of the error, for each unit of time */
 } runge_kutta;
 
 void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size)
@@ -25,6 +26,7 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *s
         .size = size,
         .k = zd_take_doubles(arena, ((size_t)tableau->stages + 1) * (size_t)size),
         .stage = zd_take_doubles(arena, (size_t)size),
+        .estimate = zd_take_doubles(arena, (size_t)size),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -52,14 +54,13 @@ int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, d
 }
 
 /* The sum of squares of sum_j weight_j k_j in units of scale */
-static double squares(const runge_kutta *self, const double *weight, const double *scale)
+ZD_INLINE double squares(const int size, const runge_kutta *self, const double *weight, const double *scale)
 {
-    double sum = 0;
-    for (int i = 0; i < self->size; i++) {
-        double estimate = 0;
-        for (int j = 0; j <= self->tableau->stages; j++) estimate += weight[j] * self->k[j * self->size + i];
-        sum += (estimate / scale[i]) * (estimate / scale[i]);
-    }
+    double sum = 0, *estimate = self->estimate;
+    for (int i = 0; i < size; i++) estimate[i] = 0;
+    for (int j = 0; j <= self->tableau->stages; j++)
+        if (weight[j] != 0) zd_add_scaled(size, estimate, weight[j], self->k + j * size);
+    for (int i = 0; i < size; i++) sum += (estimate[i] / scale[i]) * (estimate[i] / scale[i]);
     return sum;
 }
 
@@ -86,7 +87,8 @@ int zd_runge_kutta_error(void *memory, const zd_rate *rate, double t1, double h,
     int needed = T->e[T->stages] != 0, looking = needed || ++self->calls % LOOK_EVERY == 0;
     int status = looking ? rate->evaluate(rate->context, t1, y, last) : ZD_DONE;
     if (status) return status;
-    double sum = squares(self, T->e, scale), blend = T->e3 ? sum + 0.01 * squares(self, T->e3, scale) : sum;
+    double sum = ZD_SIZED(squares, self->size, self, T->e, scale);
+    double blend = T->e3 ? sum + 0.01 * ZD_SIZED(squares, self->size, self, T->e3, scale) : sum;
     *lambda_h = looking && T->c[T->stages - 1] == 1 ? fabs(h) * lipschitz(self, y, scale) : 0;
     *norm = sum > 0 ? fabs(h) * sum / sqrt(blend * self->size) : sum;       /* with e alone: the root mean square */
     return ZD_DONE;

@@ -319,12 +319,15 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 
 def _numerical_energy(solution: Solution) -> float:
-    """The largest error of the energy balance, of the largest kinetic energy."""
-    if solution.energy_violation is None or not len(solution.t):
+    """The largest error of the energy balance, of the largest kinetic energy; 0 if it is rounding."""
+    violation = solution.energy_violation
+    if violation is None or not len(violation):
         return 0.0
-    kinetic, error = solution.kinetic_energy.max(), np.abs(solution.energy_violation).max()
-    kinetic = max(kinetic, solution.stats["largest_kinetic"])      # the rows may all be at turning points
-    if not np.isfinite(kinetic + error):
+    error = max(violation.max(), -violation.min())
+    kinetic = max(solution.kinetic_energy.max(), solution.stats["largest_kinetic"])     # the rows may all be at turning points
+    if error <= ENERGY_ERROR * kinetic:
+        return 0.0
+    if not np.isfinite(kinetic + error) or not kinetic:
         return np.inf
     return float(error / kinetic) if error > ENERGY_ROUNDING * (kinetic + np.abs(solution.potential_energy).max()) else 0.0
 
