@@ -24,7 +24,7 @@
 #include "linalg/small.h"
 
 static const double PATH = 0x1p-17;     /* radians, or parts of the mechanism's length: squared, it is rounding over it */
-static const double LEAST = 0x1p-12;    /* of a row's size, for each unit of path, is a rate by which the branch is known */
+static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path, is a rate: less may be rounding */
 static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
 static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
 

@@ -46,7 +46,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .L = zd_take_doubles(arena, n * n),
         .rhs = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
-        .sample = zd_take_doubles(arena, 2 * n + m * m),
+        .sample = zd_take_doubles(arena, 2 * n + m * m + m),
         .away = zd_take_doubles(arena, m),
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, n),

@@ -28,7 +28,7 @@ struct zd_rank {
     double *K;          /* (rows, rows): factored; see zd_rank_share_out */
     double *L;          /* (n, n): of M */
     double *rhs, *lambda;   /* (rows,) */
-    double *sample;     /* (2 n + m m,): for the start */
+    double *sample;     /* (2 n + m m + m,): for the start */
     int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C; branch.c */
     double *away;       /* (lost,): of path, in natural units, from the bifurcation */
     double speed;       /* in natural units, by which rates are taken */

@@ -55,14 +55,15 @@ static double unit_of(const zd_rank *self, int k)
 }
 
 /* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
- * they are redundant. In units of the rows; (m - rows,) */
-static void curvature(const zd_point *point, double *w)
+ * they are redundant. In units of the rows; (m - rows,). Returns the first of which that is not so, or m. */
+static int curvature(const zd_point *point, double *w)
 {
     const zd_rank *self = point->rank;
     const double *xi = point->terms.xi;
     double speed = zd_max_abs(self->n, point->v), largest = 0;
+    int first = self->m;
     for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
-    for (int d = point->rows; d < self->m; d++) {
+    for (int d = self->m - 1; d >= point->rows; d--) {
         int row = self->row[d];
         double sum = xi[row] / unit_of(self, row), terms = 1;
         for (int a = 0; a < point->rows; a++) {
@@ -71,16 +72,18 @@ static void curvature(const zd_point *point, double *w)
             terms += fabs(share) * unit_of(self, self->row[a]);
         }
         double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
-        w[d - point->rows] = fabs(sum) <= CURVED * scale ? 0 : sum;
+        w[d - point->rows] = sum;
+        if (!(fabs(sum) <= CURVED * scale)) first = d;
     }
+    return first;
 }
 
 /* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
- * as soon as the system moves. Returns how many do. */
-static int count_curved(zd_point *point)
+ * as soon as the system moves. Returns how many of the first `others` do; -1 if that could not be evaluated. */
+static int count_curved(zd_point *point, int others)
 {
     zd_rank *self = point->rank;
-    int n = self->n, others = self->m - point->rows, curved = 0, status = ZD_DONE;
+    int n = self->n, curved = 0, status = ZD_DONE;
     double *v0 = self->sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
     zd_copy(n, point->v, v0);
@@ -91,7 +94,7 @@ static int count_curved(zd_point *point)
         zd_point_move_velocity(point, v);
         status = zd_point_need(point, ZD_XI);
         if (status) break;
-        curvature(point, w);
+        if (curvature(point, w) >= point->rows + others) continue;
         double whole = zd_dot(others, w, w);
         for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
         double left = zd_dot(others, w, w);
@@ -109,16 +112,15 @@ static int tell_redundant(zd_point *point)
     double *w = self->sample;
     int status = zd_point_need(point, ZD_XI);
     if (status) return status;
-    curvature(point, w);
-    for (int d = point->rows; d < self->m; d++) {
-        point->culprit = self->row[d];
-        if (w[d - point->rows] != 0) return ZD_CONTRADICTION;       /* there is no vdot */
-    }
-    int curved = count_curved(point);
-    if (curved < 0) return ZD_CALLBACK;
+    int first = curvature(point, w);
+    point->culprit = self->row[first < self->m ? first : 0];
+    if (first < self->m) return ZD_CONTRADICTION;       /* there is no vdot */
+    int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
+    int curved = count_curved(point, others), curved_holonomic = curved > 0 ? count_curved(point, holonomic) : 0;
+    if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
     self->limit = point->rows + curved;
+    self->holonomic_limit = point->holonomic + curved_holonomic;
     if (curved) return ZD_DONE;
-    self->holonomic_limit = point->holonomic;
     for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
     return ZD_DONE;
 }

@@ -128,7 +128,7 @@ int zd_explain(zd_run *run, int status)
     char of_steps[32] = "";
     if (run->steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->steps);
     snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", t, run->step, of_steps, what);
-    if (run->parts && strlen(run->message) < sizeof run->message - 48)
+    if (run->parts && status != ZD_BIFURCATION && strlen(run->message) < sizeof run->message - 48)
         strcat(run->message, ", also when it is made in parts");
     return status;
 }

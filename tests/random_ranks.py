@@ -8,7 +8,7 @@ import tolerances as tol
 import zerodrift as zd
 from support import FORMULATIONS, assert_close, condition
 
-INTEGRATED_VELOCITIES = ("augmented", "nullspace", "schur")     # v is their state: they can go on where the rank drops
+INTEGRATED_VELOCITIES = ("augmented", "nullspace", "schur")     # v is their state: they can start at rest at a bifurcation
 LARGEST_CONDITION = 1e7     # beyond, too few digits are left to compare
 
 
@@ -147,4 +147,56 @@ def check_bifurcation(seed):
     return True
 
 
-CHECKS = {"redundant": check_redundant, "massless": check_massless, "bifurcation": check_bifurcation}
+class Branched(Ranked):
+    """The same, with two surfaces crossing at the start, alpha(p) beta(p) = 0, and a motion along the one where alpha is zero.
+
+    What is true of the motion is true of the system that has alpha(p) = 0 for the product.
+    """
+
+    def __init__(self, seed):
+        super().__init__(seed)
+        self.alpha, self.beta = self.rng.normal(size=(2, self.n))
+        self.bend = 0.1 * self.rng.normal(size=(self.n, self.n))
+        self.bend += self.bend.T
+        self.mixing = self._mixing(self.rng, len(self.linear) + 1)
+        rows = np.vstack([self.linear + self.quadratic @ self.p, self.rows + self.slopes @ self.p, self.alpha])
+        self.v -= np.linalg.pinv(rows) @ (rows @ self.v)
+        self.along = rows
+        self.base_xi = -np.concatenate([(self.quadratic @ self.v) @ self.v, (self.slopes @ self.v) @ self.v,
+                                        [self.v @ self.bend @ self.v]])
+
+    def system(self):
+        def constraints(p):
+            from_start = p - self.p
+            base = self.linear @ from_start + (p @ self.quadratic @ p - self.p @ self.quadratic @ self.p) / 2
+            alpha, beta = self.alpha @ from_start + from_start @ self.bend @ from_start / 2, self.beta @ from_start
+            return self.mixing @ np.append(base, alpha * beta)
+
+        terms = {"constraints": constraints}
+        if self.mn:
+            terms["nonholonomic"] = lambda p: self.mixing_n @ (self.rows + self.slopes @ p)
+        return zd.System(self.n, mass=self.M, force=self.f, potential=0.0, p0=self.p, v0=self.v, **terms)
+
+
+def check_branch(seed):
+    """At a bifurcation every formulation finds the acceleration of the motion that goes through it."""
+    random = Branched(seed)
+    if random.rank == random.n or np.linalg.norm(random.v) < 0.1 or abs(random.beta @ random.v) < 0.1 * np.linalg.norm(random.v):
+        return False
+    rows = random.along / np.linalg.norm(random.along, axis=1)[:, None]
+    bound = max(condition(random.M, rows), (np.linalg.cond(random.mixing) * np.linalg.cond(rows)) ** 2)
+    if bound > LARGEST_CONDITION:
+        return False
+    C, n = random.along, random.n
+    matrix = np.block([[random.M, C.T], [C, np.zeros((len(C), len(C)))]])
+    expected = np.linalg.solve(matrix, np.concatenate([random.f, random.base_xi]))[:n]
+    system = random.system()
+    for name in FORMULATIONS:
+        got, _ = zd.acceleration(system, random.p, random.v, formulation=name, on_singular="continue")
+        assert_close(got, expected, 1e-8 + 1e-9 * bound, scale=1.0, what=f"vdot of {name}")       # rates are differences
+        assert raises(zd.Bifurcation, lambda name=name: zd.acceleration(system, random.p, random.v, formulation=name))
+    return True
+
+
+CHECKS = {"redundant": check_redundant, "massless": check_massless, "bifurcation": check_bifurcation,
+          "branch": check_branch}

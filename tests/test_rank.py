@@ -1,4 +1,4 @@
-"""Constraints that follow from others, everywhere or at some configurations only, and masses that are singular."""
+"""Constraints that follow from others wherever the system goes, and masses that are singular."""
 
 import numpy as np
 import pytest
@@ -6,11 +6,10 @@ from scipy.integrate import solve_ivp
 
 import tolerances as tol
 import zerodrift as zd
-from random_ranks import CHECKS, INTEGRATED_VELOCITIES
+from random_ranks import CHECKS
 from support import FORMULATIONS, assert_close
 
 SEEDS = 100     # tests/stress/random_systems.py takes as many as wanted
-TURN = 2 * np.pi
 
 
 @pytest.mark.parametrize("name", CHECKS)
@@ -159,129 +158,6 @@ def test_contradicting_constraints_are_named(formulation):
         zd.simulate(rows(2), 1.0, step=0.01, formulation=formulation)
     with pytest.raises(zd.ZerodriftError, match=r"may contradict them|do not determine the others|contradict each other"):
         zd.simulate(rows(3), 1.0, step=0.01, formulation=formulation)
-
-
-# ---- bifurcations ----
-
-
-def parallelogram(steps, **options):
-    """A turn of a crank, without gravity: it and the rocker turn steadily, the coupler is always parallel to the ground."""
-    system = zd.systems.four_bar(lengths=(1, 0.3, 1, 0.3), gravity=0, crank_rate=TURN)
-    return zd.simulate(system, 1.0, step=1 / steps, **options)
-
-
-def assert_parallel(sol):
-    """Another branch would turn the coupler by tenths of radians."""
-    assert np.abs(sol.p[:, 1]).max() < 1e-8
-    assert_close(sol.p[:, 0], np.pi / 2 + TURN * sol.t, 1e-8)
-
-
-@pytest.mark.parametrize("steps", [53, 101, 137])
-@pytest.mark.parametrize("on_singular", ["stop", "continue"])
-def test_a_parallelogram_between_steps(steps, on_singular, formulation):
-    """Its flat positions, at a quarter and three quarters of the turn, are passed between steps: there is one motion."""
-    sol = parallelogram(steps, on_singular=on_singular, formulation=formulation)
-    assert_parallel(sol)
-    assert sol.stats["rank_drops"] == 0
-
-
-@pytest.mark.parametrize("rtol", [1e-5, 1e-7, 1e-9])
-@pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
-def test_a_parallelogram_by_steps_that_are_chosen(method, rtol, formulation):
-    """Steps may become ever smaller towards the flat position. Then too few digits are left to tell the branches apart, and that
-    is said. What has been computed is right; what is continued stays on the branch, with the speed that is known there.
-    """
-    system = zd.systems.four_bar(lengths=(1, 0.3, 1, 0.3), gravity=0, crank_rate=TURN)
-    options = {"integrator": method, "formulation": formulation, "rtol": rtol}
-    sol = zd.simulate(system, 1.0, **options, on_failure="return")
-    assert_parallel(sol)
-    if not sol.success:
-        assert "a bifurcation" in sol.message
-        assert abs(sol.t[-1] % 0.5 - 0.25) < 1e-4
-    if formulation not in INTEGRATED_VELOCITIES:
-        return
-    again = zd.simulate(system, 1.0, **options, on_singular="continue")
-    assert (again.stats["rank_drops"] == 0) == sol.success
-    assert np.abs(again.p[:, 1]).max() < 1e-6
-    assert_close(again.p[:, 0], np.pi / 2 + TURN * again.t, 1e-3)
-
-
-@pytest.mark.parametrize("steps", [100, 200])
-@pytest.mark.parametrize("name", INTEGRATED_VELOCITIES)
-def test_a_parallelogram_at_a_step(steps, name):
-    with pytest.raises(zd.Bifurcation, match=r"^at t = 0\.25 \(step (25|50) of .*a bifurcation: row 0 follows from the others\); "
-                                             r"on_singular=\"continue\" takes the branch of least acceleration$") as caught:
-        parallelogram(steps, formulation=name)
-    assert_parallel(caught.value.solution)
-    assert len(caught.value.solution.t) == steps // 4
-    sol = parallelogram(steps, formulation=name, on_singular="continue")
-    assert_parallel(sol)
-    assert sol.stats["rank_drops"] == 2
-    assert "the rank dropped in 2 steps" in repr(sol)
-
-
-@pytest.mark.parametrize("on_singular", ["stop", "continue"])
-@pytest.mark.parametrize("name", [name for name in FORMULATIONS if name not in INTEGRATED_VELOCITIES])
-def test_independent_velocities_do_not_tell_the_branch(on_singular, name):
-    """At the flat position one velocity is left to know two by."""
-    with pytest.raises(zd.Bifurcation, match=r"nor do independent velocities; 'schur' with on_singular=\"continue\" can go on$"):
-        parallelogram(100, formulation=name, on_singular=on_singular)
-
-
-def crank(angle, rod, rates):
-    """A slider-crank of equal links, at these angles of crank and rod."""
-    return zd.System(
-        ["q", "x", "phi"], mass=np.diag([0.4, 0.7, 0.2]), potential=0.0,
-        constraints=lambda p: np.array([p[1] - np.cos(p[0]) - np.cos(p[2]), np.sin(p[0]) + np.sin(p[2])]),
-        p0=[angle, np.cos(angle) + np.cos(rod), rod], v0=rates)
-
-
-@pytest.mark.parametrize("steps", [800, 777])
-def test_a_slider_crank_of_equal_links(steps, formulation):
-    """With phi = -q, x = 2 cos q: T = (0.6 + 2.8 sin^2 q) qdot^2 / 2 is constant. The other branch has x = 0."""
-    def rate(q):
-        return np.sqrt((0.6 + 2.8 * np.sin(0.3) ** 2) / (0.6 + 2.8 * np.sin(q) ** 2)) * TURN
-
-    sol = zd.simulate(crank(0.3, -0.3, [TURN, -2 * np.sin(0.3) * TURN, -TURN]), 2.0, step=2 / steps, formulation=formulation)
-    exact = solve_ivp(lambda t, q: rate(q), (0, 2), [0.3], t_eval=sol.t, rtol=1e-12, atol=1e-12).y[0]
-    assert_close(sol.p[:, 0], exact, 1e-7)
-    assert np.abs(sol.p[:, 0] + sol.p[:, 2]).max() < 1e-9
-
-
-FLAT = np.pi / 2, -np.pi / 2
-
-
-@pytest.mark.parametrize("rates", [[1.0, -2.0, -1.0], [1.0, 0.0, 1.0]], ids=["x moves", "x rests"])
-@pytest.mark.parametrize("name", INTEGRATED_VELOCITIES)
-def test_a_start_at_a_bifurcation(rates, name):
-    """Either branch, as the velocities say."""
-    system = crank(*FLAT, rates)
-    with pytest.raises(zd.Bifurcation, match="row 1 follows"):
-        zd.simulate(system, 1.0, step=0.01, formulation=name)
-    sol = zd.simulate(system, 1.0, step=0.01, formulation=name, on_singular="continue")
-    assert sol.stats["redundant"] == []
-    assert sol.stats["rank"] == 2
-    assert_close(sol.kinetic_energy, sol.kinetic_energy[0] * np.ones_like(sol.t), 1e-6)
-    sign = np.sign(rates[2])
-    assert_close(sol.p[:, 2] - FLAT[1], sign * (sol.p[:, 0] - FLAT[0]), 1e-9)
-
-
-def test_a_velocity_along_no_branch(formulation):
-    """To first order it satisfies the constraints; to second order nothing does."""
-    for on_singular in ("stop", "continue"):
-        with pytest.raises(zd.SingularSystem, match="row 1 asks for another acceleration at this velocity"):
-            zd.simulate(crank(*FLAT, [1.0, -1.0, 0.0]), 1.0, step=0.01, formulation=formulation, on_singular=on_singular)
-
-
-def test_what_to_do_is_a_setting(tmp_path):
-    with pytest.raises(ValueError, match=r"on_singular must be 'stop' or 'continue'|on_singular"):
-        zd.simulate(BAR, 1.0, step=0.1, on_singular="guess")
-    sol = parallelogram(100, on_singular="continue")
-    again = zd.load(sol.save(tmp_path / "motion"))
-    assert again.settings["on_singular"] == "continue"
-    assert again.stats["rank_drops"] == 2
-    assert repr(again) == repr(sol)
-    assert np.array_equal(zd.simulate(sol.system, sol.t_span, **sol.settings).p, sol.p)
 
 
 def test_the_smallest_correction_from_a_singular_guess():

@@ -13,6 +13,7 @@
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
 static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
+static const double MOST_RESPONSE = 16;   /* of p to a q that the system has chosen itself */
 static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
@@ -137,6 +138,14 @@ static void predict(zd_embedding *self, zd_point *point, double t)
     for (int i = 0; i < self->nq; i++) self->p[i] = far ? point->p[i] : point->p[i] + h * self->p[i];
 }
 
+/* The system's own g has its own q, which does not determine p everywhere: where a crank turns back it does not, and near a bifurcation
+ * not with all digits. */
+static void give_up_own(zd_embedding *self)
+{
+    self->embed = NULL;
+    self->chosen = 0;
+}
+
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q)
 {
     const zd_system *system = point->system;
@@ -148,7 +157,8 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
     predict(self, point, t);
     if (!self->embed) return place_numerically(self, point, t, q);
     int status = self->embed(system->data, t, q, self->p);            /* (18) */
-    if (!status) zd_point_move(point, t, self->p, point->v);
+    if (status) give_up_own(self);
+    else zd_point_move(point, t, self->p, point->v);
     return status;
 }
 
@@ -186,8 +196,12 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
 {
     const zd_system *system = point->system;
     *changed = 0;
+    int status = self->chosen && self->embed && self->mh ? factor(self, point) : ZD_DONE;
+    if (status && status != ZD_SINGULAR) return status;
+    if (self->chosen && self->embed && self->mh && (status || point->rank->near || !(response(self, point) <= MOST_RESPONSE)))
+        give_up_own(self);
     if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
-    int status = need_rows(self, point);
+    status = need_rows(self, point);
     if (status) return status;
     if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
     else status = choose(self, point);
