@@ -19,6 +19,7 @@ static const double LONG = 1;       /* in natural units: a path so long is looke
 static const double NEAR = 0.5;     /* and every so often */
 enum { MOST_LOOKS = 64 };
 static const double MOST_PATH = MOST_LOOKS * 0.5;
+static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
 static const double SHORT = 0.25 * ZD_BRANCH_REGION;     /* in natural units: the path on which a leap is one */
 
 zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
@@ -146,12 +147,13 @@ static int move(zd_run *run, double t)
 static int find(zd_run *run, double t1, int *found)
 {
     zd_point *point = run->point;
-    double t0 = run->last.t, speed = fmax(sqrt(run->guard.speed), 1 / (t1 - t0) * SHORT);
+    double t0 = run->last.t, resolution = fmin(SHORT / sqrt(run->guard.speed), (t1 - t0) / 2);
+    resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
     *found = 0;
     int status = zd_rank_find(point);
     if (status || is_at_one(point)) return status;
-    zd_bracket it = zd_bracket_of(t0, t1, 1, determinant(&run->crossing, point, run->crossing.C), fmin(SHORT / speed, (t1 - t0) / 2));
-    if (it.gb > 0) return ZD_DONE;      /* it changes more than once: they are taken one by one */
+    zd_bracket it = zd_bracket_of(t0, t1, 1, determinant(&run->crossing, point, run->crossing.C), resolution);
+    if (!(it.gb <= 0)) return ZD_DONE;  /* it changes more than once: they are taken one by one */
     status = zd_run_return(run);
     if (!status) status = zd_rank_find(point);
     it.ga = status ? 1 : determinant(&run->crossing, point, run->crossing.C);

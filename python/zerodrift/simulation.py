@@ -20,10 +20,12 @@ from .solution import Solution
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
 FIRST_BLOCK = 1024  # rows, where it is not known how many there will be
 DEFAULT_CONTROL = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}
-# Parts of the kinetic energy. With less of an error of (28), no run of those measured had an angle off by a tenth of a turn within twenty;
-# a correction puts right more than that, as long as no single step needs much of it.
+# Parts of the kinetic energy. With less of an error of (28), no run of those measured lost a turn of twenty; a correction puts right
+# more than that, as long as no single step needs much of it.
 ENERGY_ERROR, ENERGY_CORRECTION = 0.005, 0.05
 ENERGY_ROUNDING = 1e-10     # of all the energy there is: such errors say nothing
+TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
+              "of step")
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, estimates are round-off
 
 
@@ -311,11 +313,9 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
         yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
                                  f"of its {steps} steps; an implicit method takes longer ones")
     if (part := _numerical_energy(solution)) > ENERGY_ERROR:
-        yield AccuracyWarning, (f"the energy balance is off by {part:.2g} of the largest kinetic energy: steps are too long for what "
-                                "happens in some of them; take shorter ones, a method of higher order, or rtol instead of step")
+        yield AccuracyWarning, f"the energy balance is off by {part:.2g} of the largest kinetic energy: {TOO_COARSE}"
     if (part := stats["energy_share"]) > ENERGY_CORRECTION:
-        yield AccuracyWarning, (f"energy corrections changed the kinetic energy by up to {part:.2g} of it in a step: steps are too long "
-                                "for what happens in some of them; take shorter ones, a method of higher order, or rtol instead of step")
+        yield AccuracyWarning, f"energy corrections changed the kinetic energy by up to {part:.2g} of it in a step: {TOO_COARSE}"
 
 
 def _numerical_energy(solution: Solution) -> float:

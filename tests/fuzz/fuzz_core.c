@@ -71,6 +71,7 @@ typedef struct linear {
     zd_system system;
     double A[SIZES * SIZES], M[SIZES * SIZES], C[SIZES * SIZES], D[SIZES * SIZES];
     double d[SIZES], f[SIZES], Phi[SIZES], Phi_t[SIZES], xi[SIZES], gamma[SIZES], V[1], power[1];
+    int crosses;        /* whether the one constraint is p_0 p_1 = 0 instead */
     int *calls;         /* until one fails; below 0: none does */
 } linear;
 
@@ -79,7 +80,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     const linear *self = data;
     const zd_system *system = &self->system;
     int nq = system->nq, nv = system->nv, m = system->mh + system->mn;
-    (void)t, (void)v;
+    (void)t;
     if ((*self->calls)-- == 0) return ZD_CALLBACK;
 #define WRITE(term, field, count) \
     if (want & (term)) memcpy(out->field, self->field, (size_t)(count) * sizeof(double))
@@ -98,7 +99,23 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 #undef WRITE
     for (int k = 0; (want & ZD_PHI) && k < system->mh; k++)
         for (int i = 0; i < nq && i < nv; i++) out->Phi[k] += self->C[k * nv + i] * p[i];
+    if (!self->crosses) return ZD_DONE;
+    if (want & ZD_PHI) *out->Phi = p[0] * p[1];
+    if (want & ZD_C) out->C[0] = p[1], out->C[1] = p[0];
+    if (want & ZD_XI) *out->xi = -2 * v[0] * v[1];
     return ZD_DONE;
+}
+
+/* Two branches, and a motion along one of them through where they meet, or a start there. */
+static void make_crossing(input *in, linear *self, double *p, double *v)
+{
+    self->system.nv = self->system.nq = 2 + below(in, SIZES - 1);
+    self->system.mh = self->crosses = 1;
+    self->system.mn = 0;
+    self->system.provides = (self->system.provides & ~(ZD_A | ZD_PHI_T | ZD_COMPLEMENT | ZD_GAMMA)) | ZD_PHI | ZD_C | ZD_XI;
+    memset(self->C, 0, sizeof self->C);
+    p[1] = (byte(in) - 128.0) / 512;
+    for (int i = below(in, 16) > 0; i < self->system.nv; i++) v[i] = below(in, 5) - 2;
 }
 
 static void make_linear(input *in, linear *self, int *calls, double *p, double *v)
@@ -114,9 +131,12 @@ static void make_linear(input *in, linear *self, int *calls, double *p, double *
     system->provides |= (int)((byte(in) << 8 | byte(in)) & (ZD_A | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER));
     if (m && below(in, 4) == 0) system->provides |= ZD_PHI_T;
     if (below(in, 4) == 0) system->provides |= ZD_COMPLEMENT | ZD_GAMMA;
+    memset(p, 0, LARGEST * sizeof *p);
+    memset(v, 0, LARGEST * sizeof *v);
+    if (below(in, 4) == 0) make_crossing(in, self, p, v);
     for (int i = 0; i < SIZES; i++) self->M[i * system->nv % (SIZES * SIZES) + i % system->nv] = 1 + below(in, 4);
     for (int i = 0; i < system->nq; i++) self->A[i * system->nv + i % system->nv] = 1;
-    for (int i = 0; i < SIZES * SIZES; i++) self->C[i] = below(in, 9) - 4, self->D[i] = below(in, 3) - 1;
+    for (int i = 0; i < SIZES * SIZES; i++) self->C[i] = self->crosses ? 0 : below(in, 9) - 4, self->D[i] = below(in, 3) - 1;
     spoil(in, self->M, system->nv * system->nv);
     spoil(in, self->C, SIZES * SIZES);
     spoil(in, self->A, SIZES * SIZES);
@@ -125,8 +145,6 @@ static void make_linear(input *in, linear *self, int *calls, double *p, double *
     *self->V = number(in), *self->power = number(in);
     *calls = below(in, 4) ? -1 : (int)byte(in);
     self->calls = calls;
-    memset(p, 0, LARGEST * sizeof *p);
-    memset(v, 0, LARGEST * sizeof *v);
     static const int impossible[] = {-1, 0, 9000, INT_MAX, INT_MIN};
     if (below(in, 32) == 0) (&system->nq)[below(in, 4)] = impossible[below(in, 5)];
     if (below(in, 32) == 0) system->provides &= (int)(byte(in) << 8 | byte(in));
@@ -145,6 +163,8 @@ static int make_kind(input *in, int row, zd_system *system, double *constants, d
             EXPECT(n < LARGEST);
             parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : (double)NAN;
         }
+    static const double flat[] = {1, 0.3, 1, 0.3};
+    if (row == 0 && below(in, 4) == 0) memcpy(parameters, flat, sizeof flat);     /* a parallelogram */
     spoil(in, parameters, n);
     EXPECT(kind->constants <= LARGEST);
     if (kind->prepare(parameters, constants)) return 0;
@@ -221,6 +241,7 @@ static zd_settings make_settings(input *in, double *times)
     if (how & 16) settings.energy.every = 1 + below(in, 3);
     if (how & 32) settings.projection.every = 0;
     if (how & 64) settings.projection.metric = ZD_IDENTITY_METRIC;
+    settings.on_singular = below(in, 2) ? ZD_CONTINUE : ZD_STOP;
     for (int i = 0; i < TIMES; i++) times[i] = 0.5 * (i + 1) / TIMES;
     double *doubles[] = {&settings.t0, &settings.t1, &settings.step, &settings.rtol, &settings.atol, &settings.first_step,
                          &settings.max_step, &settings.projection.tolerance, &settings.baumgarte.alpha, &settings.baumgarte.beta,
