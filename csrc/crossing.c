@@ -19,6 +19,7 @@ static const double LONG = 1;       /* in natural units: a path so long is looke
 static const double NEAR = 0.5;     /* and every so often */
 enum { MOST_LOOKS = 64 };
 static const double MOST_PATH = MOST_LOOKS * 0.5;
+static const double NEARBY = 1e-3;   /* the constraints, in natural units */
 static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
 static const double SHORT = 0.25 * ZD_BRANCH_REGION;     /* in natural units: the path on which a leap is one */
 
@@ -101,6 +102,14 @@ static int follow(zd_run *run, double h, int looks, int *kept)
     return status == ZD_BIFURCATION ? ZD_DONE : status;
 }
 
+/* A turned orientation; far off the constraints, where nothing holds a run, it means nothing. */
+static int judge(zd_run *run)
+{
+    int status = zd_point_need(run->point, ZD_PHI);
+    if (status) return status;
+    return run->guard.branch || !run->system.mh || zd_point_violation(run->point) <= NEARBY ? ZD_PASSED : ZD_DONE;
+}
+
 int zd_crossing_begin(zd_run *run)
 {
     run->crossing.kept = 0;
@@ -123,7 +132,8 @@ int zd_crossing_step(zd_run *run, double h, double moved)
         if (!(moved <= LONG * LONG)) status = follow(run, h, moved < MOST_PATH * MOST_PATH ? 1 + (int)(sqrt(moved) / NEAR) : MOST_LOOKS, &kept);
         else kept = determinant(self, point, self->C) > 0;
     }
-    if (status || !kept) return status ? status : ZD_PASSED;
+    if (!status && !kept) status = judge(run);
+    if (status) return status;
     ZD_SIZED(keep_rows, point->rank->n, point, self->C);
     self->kept = 1;
     return ZD_DONE;

@@ -20,8 +20,8 @@ from .solution import Solution
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar
 FIRST_BLOCK = 1024  # rows, where it is not known how many there will be
 DEFAULT_CONTROL = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}
-# Parts of the kinetic energy. With less of an error of (28), no run of those measured lost a turn of twenty; a correction puts right
-# more than that, as long as no single step needs much of it.
+# Parts of the kinetic energy. With less of an error of (28), no run of those measured lost a turn of twenty. Corrections put more
+# than that right, as long as no single step needs much of them.
 ENERGY_ERROR, ENERGY_CORRECTION = 0.005, 0.05
 ENERGY_ROUNDING = 1e-10     # of all the energy there is: such errors say nothing
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
@@ -92,9 +92,11 @@ def simulate(
     progress : bool or callable
         True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
     on_singular : {"stop", "continue"}
-        What to do at a bifurcation, where constraints that are independent elsewhere are not, and do not determine the motion:
-        stop, or continue on the branch of least acceleration (in "augmented", "nullspace" and "schur"). Constraints that are
-        redundant wherever the system goes need no choice.
+        What to do at a bifurcation, at a step's end or within one, where constraints that are independent elsewhere are not, and
+        do not determine the motion: stop, or continue on the branch of least acceleration, which is the one the velocity is
+        on. Then mechanisms that come within 1e-7 of their size of a bifurcation, or nearly straight within 1e-4, are taken
+        through it. A start at rest at a bifurcation has no such branch: "augmented", "nullspace" and "schur" take the least
+        acceleration, the others stop. Constraints that are redundant wherever the system goes need no choice.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
@@ -111,6 +113,16 @@ def simulate(
         On Ctrl-C.
     ValueError, TypeError
         For a wrong argument.
+
+    Warns
+    -----
+    AccuracyWarning
+        Where the energy balance is off by more than 0.5 % of the kinetic energy, or an energy correction took more than 5 % of
+        it in a step: what was computed satisfies the constraints, but is not the motion. It takes a system with a potential.
+    StabilityWarning
+        Where steps were longer than the integrator is stable for, or stability held chosen steps down.
+    CorrectionWarning
+        Where energy corrections were left out.
 
     Examples
     --------

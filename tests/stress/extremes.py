@@ -1,4 +1,4 @@
-"""What happens at the extremes: scales, energies that cannot be corrected, large steps, stiffness. Tables of what was tried.
+"""What happens at the extremes: scales, energies that cannot be corrected, large steps, bifurcations, stiffness. In tables.
 
 Run it with ``python tests/stress/extremes.py``; it prints the tables and writes them to ``tests/bench/results/extremes.md``.
 """
@@ -21,6 +21,7 @@ from units import MECHANISMS, Units, run  # noqa: E402
 
 RESULTS = HERE.parent / "bench" / "results" / "extremes.md"
 TRIALS = 4000
+NEARLY = 1000
 DECADES = np.logspace(-3, 3, 13)
 
 
@@ -106,6 +107,32 @@ def large_steps():
         yield f"{low:g} ... {high:g}", c["tried"], c["plain"], c["helped"], c["stopped"], int(c["jumped"])
 
 
+# ---- bifurcations ----
+
+
+def bifurcations():
+    """Parallelograms, and what is nearly one, from anywhere over half a turn and more, against chosen steps."""
+    rng = np.random.default_rng(11)
+    for low, high in ((-np.inf, -np.inf), (-12, -8), (-8, -6), (-6, -4), (-4, -2), (-2, -1)):
+        counts = Counter()
+        for _ in range(NEARLY):
+            off = 10 ** rng.uniform(low, high) * rng.choice([-1, 1]) if np.isfinite(low) else 0.0
+            bar = zd.systems.four_bar(lengths=(1 + off, 0.3, 1, 0.3), gravity=rng.choice([0.0, 9.81]),
+                                      crank_angle=rng.uniform(1.2, 1.9), crank_rate=rng.uniform(5, 15))
+            chosen = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-11}
+            options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(list(zd.integrators())),
+                       "on_singular": rng.choice(["stop", "continue"])}
+            options = {name: str(value) for name, value in options.items()} | {"energy": bool(rng.integers(2)) or None}
+            true, _ = listened(bar, 0.5, on_singular="stop" if off else "continue", **chosen)
+            sol, said = listened(bar, 0.5, step=0.5 / 10 ** rng.uniform(1.4, 3.4), **options)
+            right = sol.success and np.abs(sol.p[-1] - true.p[-1]).max() < 0.05
+            named = "taken" if off and sol.stats["rank_drops"] and sol.success else "said" if said else ""
+            outcome = f"right{named}" if right else "stopped" if not sol.success else named or "wrong"
+            counts.update([outcome], unknown=not true.success)
+        what = "a parallelogram" if not np.isfinite(low) else f"off by 1e{low} ... 1e{high}"
+        yield (what, NEARLY, *(counts[key] for key in ("right", "rightsaid", "said", "stopped", "taken", "wrong", "unknown")))
+
+
 # ---- stiffness ----
 
 
@@ -118,7 +145,7 @@ def stiffness():
             sol, said = listened(oscillator, 100 * omega_h, step=omega_h / 10, integrator=integrator)
             with np.errstate(over="ignore"):
                 swing = np.hypot(sol.p[-1, 0], sol.v[-1, 0] / 10) / 0.1
-            mark = "x" if not sol.success else "!" if "StabilityWarning" in said else ""
+            mark = "x" if not sol.success else "!" if said else ""
             cells.append(f"{swing:.3g}{mark}")
         yield integrator, *cells
 
@@ -131,6 +158,10 @@ def main():
                                      "largest error where corrected", "finite"), energy()),
         table("Large steps: largest rad per step", ("rad", "runs", "done", "done with help", "stopped", "left their branch"),
               large_steps()),
+        table("Bifurcations: half a turn of parallelograms, and of what is nearly one",
+              ("ground", "runs", "right", "right, with a warning", "wrong, with a warning", "stopped", "taken for a bifurcation",
+               "wrong", "truth not known"),
+              bifurcations()),
         table("Oscillator: amplitude after 1000 steps, by omega h; ! said, x stopped",
               ("integrator", *(f"{x:.3g}" for x in DECADES)), stiffness()),
     ])
