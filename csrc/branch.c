@@ -28,29 +28,30 @@ static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of pat
 static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
 static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
 
-/* C and xi less `weight` times their values `s` further along the motion, while the point stays where it is */
+/* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
 static int add_ahead(zd_point *point, double s, double weight)
 {
-    zd_rank *self = point->rank;
-    const zd_system *system = point->system;
-    for (int i = 0; i < system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
+    zd_branch *self = &point->rank->branch;
+    int n = point->rank->n, m = point->rank->m;
+    for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
     zd_point_move(point, self->t + s, self->moved, self->v);
     int status = zd_point_need(point, ZD_C | ZD_XI);
     if (status) return status;
-    zd_add_scaled(self->m * self->n, self->Cdot, weight, point->terms.C);
-    zd_add_scaled(self->m, self->xidot, weight, point->terms.xi);
+    zd_add_scaled(m * n, self->Cdot, weight, point->terms.C);
+    zd_add_scaled(m, self->xidot, weight, point->terms.xi);
     return ZD_DONE;
 }
 
-/* Cdot, and the part of xidot that no acceleration makes; both for each unit of path */
+/* Cdot, and the part of xidot that no acceleration makes; both for each unit of path. The point comes back to where it is. */
 static int differentiate(zd_point *point)
 {
-    zd_rank *self = point->rank;
-    const int nq = point->system->nq, known = point->known;
-    memcpy(self->p, point->p, (size_t)nq * sizeof(double));
-    memcpy(self->v, point->v, (size_t)self->n * sizeof(double));
-    memset(self->Cdot, 0, (size_t)(self->m * self->n) * sizeof(double));
-    memset(self->xidot, 0, (size_t)self->m * sizeof(double));
+    zd_branch *self = &point->rank->branch;
+    const size_t nq = (size_t)point->system->nq, n = (size_t)point->rank->n, m = (size_t)point->rank->m;
+    const int known = point->known;
+    memcpy(self->p, point->p, nq * sizeof(double));
+    memcpy(self->v, point->v, n * sizeof(double));
+    memset(self->Cdot, 0, m * n * sizeof(double));
+    memset(self->xidot, 0, m * sizeof(double));
     self->t = point->t;
     double s = PATH / self->speed;
     int status = add_ahead(point, s, 0.5 / PATH);
@@ -70,33 +71,7 @@ static double along_others(const zd_rank *self, const double *share, const doubl
 /* y_d - T y_r, of something that there is for every row */
 static double own_part(const zd_rank *self, int row, const double *y, int stride)
 {
-    return y[row * stride] - along_others(self, self->T + row * self->m, y, stride);
-}
-
-static void in_natural_units(const zd_point *point, int row, double *x)
-{
-    for (int i = 0; i < point->rank->n; i++) x[i] *= point->unit[i] * point->per_size[row];
-}
-
-/* Q <- in natural units, an orthonormal basis of the rows that count, C_r = R Q */
-static void set_basis(const zd_point *point)
-{
-    zd_rank *self = point->rank;
-    int n = self->n, m = self->m;
-    memset(self->R, 0, (size_t)(m * m) * sizeof(double));
-    for (int a = 0; a < self->independent; a++) {
-        double *q = self->Q + a * n, *r = self->R + a * m;
-        zd_copy(n, point->terms.C + self->row[a] * n, q);
-        in_natural_units(point, self->row[a], q);
-        for (int again = 0; again < 2; again++)
-            for (int b = 0; b < a; b++) {
-                double along = zd_dot(n, self->Q + b * n, q);
-                r[b] += along;
-                zd_add_scaled(n, q, -along, self->Q + b * n);
-            }
-        r[a] = sqrt(zd_dot(n, q, q));
-        for (int i = 0; i < n; i++) q[i] /= r[a];
-    }
+    return y[row * stride] - along_others(self, self->branch.T + row * self->m, y, stride);
 }
 
 /* x <- what x, of this row and in natural units, has besides those that count; share (independent,) <- theirs in the rest of it */
@@ -119,19 +94,20 @@ static void split(const zd_point *point, int row, double *x, double *share)
 static void set_rates(const zd_point *point)
 {
     zd_rank *self = point->rank;
+    const zd_branch *branch = &self->branch;
     int n = self->n, m = self->m;
-    set_basis(point);
+    zd_rank_set_basis(point);
     for (int d = self->independent; d < m; d++) {
         int row = self->row[d];
-        double *w = self->w + row * n, *wdot = self->wdot + row * n;
+        double *w = branch->w + row * n, *wdot = branch->wdot + row * n;
         memset(wdot, 0, (size_t)n * sizeof(double));
         if (row < self->mh) {
             zd_copy(n, point->terms.C + row * n, w);
-            in_natural_units(point, row, w);
-            split(point, row, w, self->T + row * m);
-            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, self->Cdot + i, n);
-            in_natural_units(point, row, wdot);
-            split(point, row, wdot, self->K_rate + row * m);
+            zd_rank_scale(point, row, w);
+            split(point, row, w, branch->T + row * m);
+            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, branch->Cdot + i, n);
+            zd_rank_scale(point, row, wdot);
+            split(point, row, wdot, branch->K_rate + row * m);
         }
         zd_copy(n, wdot, self->Q + d * n);
     }
@@ -164,7 +140,7 @@ static int choose_next(zd_rank *self, int chosen)
  * it is long enough to tell. */
 static double distance(const zd_rank *self, int row)
 {
-    const double *w = self->w + row * self->n, *wdot = self->wdot + row * self->n;
+    const double *w = self->branch.w + row * self->n, *wdot = self->branch.wdot + row * self->n;
     double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), whole = zd_dot(self->n, wdot, wdot);
     double aside = own - along / whole * along;
     int resolved = own > ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
@@ -181,9 +157,9 @@ static void insert(zd_point *point, int wanted)
     for (int j = 0; j < wanted; j++) {
         int row = self->place[before + j] = self->row[self->independent + j];
         for (int i = 0; i < n; i++)
-            self->C[(before + j) * n + i] = self->wdot[row * n + i] * point->per_unit[i] * point->size[row];
+            self->C[(before + j) * n + i] = self->branch.wdot[row * n + i] * point->per_unit[i] * point->size[row];
     }
-    self->lost = wanted;
+    self->branch.lost = wanted;
     point->rows += wanted;
     point->holonomic += wanted;
 }
@@ -196,16 +172,16 @@ int zd_branch_find(zd_point *point)
     if (!(system->provides & ZD_XI)) return ZD_DONE;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
-    zd_point_rate(point, point->v, self->pdot);
-    self->speed = zd_max_scaled(system->nq, self->pdot, point->per_unit_p);
-    if (!(self->speed > 0 && self->speed < INFINITY)) return ZD_DONE;   /* at rest it is on all branches */
+    zd_point_rate(point, point->v, self->branch.pdot);
+    self->branch.speed = zd_max_scaled(system->nq, self->branch.pdot, point->per_unit_p);
+    if (!(self->branch.speed > 0 && self->branch.speed < INFINITY)) return ZD_DONE;   /* at rest it is on all branches */
     status = differentiate(point);
     if (status) return status;
     set_rates(point);
     for (int j = 0; j < wanted; j++) {
         if (!choose_next(self, self->independent + j)) return ZD_DONE;
-        self->away[j] = distance(self, self->row[self->independent + j]);
-        if (!(fabs(self->away[j]) < INFINITY)) return ZD_DONE;
+        self->branch.away[j] = distance(self, self->row[self->independent + j]);
+        if (!(fabs(self->branch.away[j]) < INFINITY)) return ZD_DONE;
     }
     insert(point, wanted);
     return ZD_DONE;
@@ -214,16 +190,16 @@ int zd_branch_find(zd_point *point)
 /* Where wdot x is so much and C_r x = rhs: (wdot - K C_r) x */
 static double besides_others(const zd_rank *self, int row, double so_much, const double *rhs)
 {
-    return so_much - along_others(self, self->K_rate + row * self->m, rhs, 1);
+    return so_much - along_others(self, self->branch.K_rate + row * self->m, rhs, 1);
 }
 
 /* Of Phi or Psi: the row's, for each unit of the path that is left; or from c(v). */
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
     const zd_rank *self = point->rank;
-    if (fabs(self->away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->away[j];
+    if (fabs(self->branch.away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->branch.away[j];
     if (what == ZD_LIMIT_PHI) return 0;
-    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->speed / 2, rhs);
+    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->branch.speed / 2, rhs);
 }
 
 /* What the point's velocity makes of the limit, less its violation. rhs has -Phi_t. */
@@ -238,10 +214,10 @@ static double enforced(const zd_point *point, int j, int row, const double *limi
 int zd_branch_replace(zd_point *point, enum zd_limit what, double *rhs)
 {
     const zd_rank *self = point->rank;
-    int first = point->holonomic - self->lost, status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < self->lost && !status; j++) {
+    int first = point->holonomic - self->branch.lost, status = zd_point_need(point, ZD_XI);
+    for (int j = 0; j < self->branch.lost && !status; j++) {
         int row = self->place[first + j];
-        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->xidot, 1) / 3, rhs)
+        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->branch.xidot, 1) / 3, rhs)
                  : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)
                  : violation(point, j, row, what, rhs);
     }

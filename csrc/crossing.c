@@ -39,7 +39,7 @@ zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
 
 static int is_at_one(const zd_point *point)
 {
-    return point->rank->lost || point->rows < point->rank->limit;
+    return point->rank->branch.lost || point->rows < point->rank->limit;
 }
 
 ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)

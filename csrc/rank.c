@@ -47,18 +47,20 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .rhs = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
         .sample = zd_take_doubles(arena, 2 * n + m * m + m),
-        .away = zd_take_doubles(arena, m),
-        .p = zd_take_doubles(arena, nq),
-        .v = zd_take_doubles(arena, n),
-        .pdot = zd_take_doubles(arena, nq),
-        .moved = zd_take_doubles(arena, nq),
-        .Cdot = zd_take_doubles(arena, m * n),
-        .xidot = zd_take_doubles(arena, m),
         .R = zd_take_doubles(arena, m * m),
-        .T = zd_take_doubles(arena, m * m),
-        .K_rate = zd_take_doubles(arena, m * m),
-        .w = zd_take_doubles(arena, m * n),
-        .wdot = zd_take_doubles(arena, m * n),
+        .branch = {
+            .away = zd_take_doubles(arena, m),
+            .p = zd_take_doubles(arena, nq),
+            .v = zd_take_doubles(arena, n),
+            .pdot = zd_take_doubles(arena, nq),
+            .moved = zd_take_doubles(arena, nq),
+            .Cdot = zd_take_doubles(arena, m * n),
+            .xidot = zd_take_doubles(arena, m),
+            .T = zd_take_doubles(arena, m * m),
+            .K_rate = zd_take_doubles(arena, m * m),
+            .w = zd_take_doubles(arena, m * n),
+            .wdot = zd_take_doubles(arena, m * n),
+        },
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -188,7 +190,7 @@ static void use_all(zd_point *point)
     point->rows = point->rank->m;
     point->holonomic = point->rank->mh;
     point->C = point->terms.C;
-    point->rank->lost = 0;
+    point->rank->branch.lost = 0;
 }
 
 static void use_chosen(zd_point *point, int rank)
@@ -202,7 +204,7 @@ static void use_chosen(zd_point *point, int rank)
         zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
     }
     self->independent = point->rows = rank;
-    self->lost = 0;
+    self->branch.lost = 0;
     point->C = self->C;
     point->holonomic = 0;
     while (point->holonomic < rank && self->row[point->holonomic] < self->mh) point->holonomic++;
@@ -229,9 +231,9 @@ static int reduce(zd_point *point)
     use(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->limit) {
         status = zd_branch_find(point);
-        if (!status && !self->lost) use(point, SQUARED);
+        if (!status && !self->branch.lost) use(point, SQUARED);
     }
-    int dropped = self->lost || point->rows < self->limit;
+    int dropped = self->branch.lost || point->rows < self->limit;
     self->dropped |= dropped;
     if (dropped && !self->may_drop) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
@@ -272,6 +274,33 @@ int zd_rank_find(zd_point *point)
     return ZD_DONE;
 }
 
+/* ---- in natural units ---- */
+
+void zd_rank_scale(const zd_point *point, int row, double *x)
+{
+    for (int i = 0; i < point->rank->n; i++) x[i] *= point->unit[i] * point->per_size[row];
+}
+
+void zd_rank_set_basis(const zd_point *point)
+{
+    zd_rank *self = point->rank;
+    int n = self->n, m = self->m;
+    memset(self->R, 0, (size_t)(m * m) * sizeof(double));
+    for (int a = 0; a < self->independent; a++) {
+        double *q = self->Q + a * n, *r = self->R + a * m;
+        zd_copy(n, point->terms.C + self->row[a] * n, q);
+        zd_rank_scale(point, self->row[a], q);
+        for (int again = 0; again < 2; again++)
+            for (int b = 0; b < a; b++) {
+                double along = zd_dot(n, self->Q + b * n, q);
+                r[b] += along;
+                zd_add_scaled(n, q, -along, self->Q + b * n);
+            }
+        r[a] = sqrt(zd_dot(n, q, q));
+        for (int i = 0; i < n; i++) q[i] /= r[a];
+    }
+}
+
 /* ---- solving with fewer rows ---- */
 
 /* lambda of all rows, the smallest, from that of those that count */
@@ -289,7 +318,7 @@ void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulat
                            const double *rhs, double *x, double *lambda)
 {
     zd_rank *self = point->rank;
-    int holonomic = point->holonomic - self->lost, others = self->independent - holonomic;
+    int holonomic = point->holonomic - self->branch.lost, others = self->independent - holonomic;
     for (int a = 0; a < point->rows; a++) self->rhs[a] = rhs[self->place[a]];
     formulation->solve(solver, force, self->rhs, x, lambda ? self->lambda : NULL);
     if (!lambda) return;

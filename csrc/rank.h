@@ -7,6 +7,18 @@
 
 #include "core.h"
 
+/* Of lost rows: see branch.c. */
+typedef struct zd_branch {
+    int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C */
+    double *away;       /* (lost,): of path, in natural units, from the bifurcation */
+    double speed;       /* in natural units, by which rates are taken */
+    double t, *p, *v;   /* (nq,), (n,): where that is */
+    double *pdot, *moved;       /* (nq,), (nq,) */
+    double *Cdot, *xidot;       /* (m, n), (m,) */
+    double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along the rows that count */
+    double *w, *wdot;           /* (m, n): and what besides, in natural units */
+} zd_branch;
+
 struct zd_rank {
     int n, m, mh;
     int limit, holonomic_limit;     /* most rows that count, of all and of the holonomic: less than m, mh where some are redundant */
@@ -29,15 +41,8 @@ struct zd_rank {
     double *L;          /* (n, n): of M */
     double *rhs, *lambda;   /* (rows,) */
     double *sample;     /* (2 n + m m + m,): for the start */
-    int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C; branch.c */
-    double *away;       /* (lost,): of path, in natural units, from the bifurcation */
-    double speed;       /* in natural units, by which rates are taken */
-    double t, *p, *v;   /* (nq,), (n,): where that is */
-    double *pdot, *moved;       /* (nq,), (nq,) */
-    double *Cdot, *xidot;       /* (m, n), (m,) */
-    double *R;                  /* (independent, independent): C_r = R Q */
-    double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along those that count */
-    double *w, *wdot;           /* (m, n): and what besides, in natural units */
+    double *R;          /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
+    zd_branch branch;
 };
 
 /* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
@@ -65,6 +70,10 @@ static inline int zd_rank_row(const zd_point *point, int k)
 {
     return zd_rank_is_full(point) ? k : point->rank->place[k];
 }
+/* x, of this row, in natural units. */
+void zd_rank_scale(const zd_point *point, int row, double *x);
+/* Q <- an orthonormal basis of the independent rows in natural units. */
+void zd_rank_set_basis(const zd_point *point);
 /* The formulation's solve, with right sides and multipliers of all rows. */
 void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
                            const double *rhs, double *x, double *lambda);
@@ -88,7 +97,7 @@ enum zd_limit { ZD_LIMIT_XI, ZD_LIMIT_PHI, ZD_LIMIT_PSI, ZD_LIMIT_ENFORCED };
 int zd_branch_replace(zd_point *point, enum zd_limit what, double *rhs);
 static inline int zd_rank_replace(zd_point *point, enum zd_limit what, double *rhs)
 {
-    return point->rank->lost ? zd_branch_replace(point, what, rhs) : ZD_DONE;
+    return point->rank->branch.lost ? zd_branch_replace(point, what, rhs) : ZD_DONE;
 }
 
 #endif

@@ -20,33 +20,18 @@ static void measure(const zd_point *point)
         if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
 }
 
-/* Q <- an orthonormal basis of the rows that count */
-static void set_basis(const zd_point *point)
-{
-    const zd_rank *self = point->rank;
-    int n = self->n;
-    for (int a = 0; a < point->rows; a++) {
-        double *q = self->Q + a * n;
-        zd_copy(n, point->C + a * n, q);
-        for (int again = 0; again < 2; again++)
-            for (int b = 0; b < a; b++) zd_add_scaled(n, q, -zd_dot(n, self->Q + b * n, q), self->Q + b * n);
-        double length = sqrt(zd_dot(n, q, q));
-        for (int i = 0; i < n; i++) q[i] /= length;
-    }
-}
-
 /* v <- another velocity that the constraints allow where they allow v0 */
 static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
 {
     const zd_rank *self = point->rank;
     int n = self->n;
-    double size = 1 + zd_max_abs(n, v0);
+    double size = 1 + zd_max_scaled(n, v0, point->per_unit);
     for (int i = 0; i < n; i++) {
         *seed = *seed * 1664525u + 1013904223u;
         v[i] = size * ((double)(*seed >> 8) * 0x1p-23 - 1);
     }
-    for (int a = 0; a < point->rows; a++) zd_add_scaled(n, v, -zd_dot(n, self->Q + a * n, v), self->Q + a * n);
-    for (int i = 0; i < n; i++) v[i] += v0[i];
+    for (int a = 0; a < self->independent; a++) zd_add_scaled(n, v, -zd_dot(n, self->Q + a * n, v), self->Q + a * n);
+    for (int i = 0; i < n; i++) v[i] = v0[i] + v[i] * point->unit[i];
 }
 
 static double unit_of(const zd_rank *self, int k)
@@ -87,7 +72,7 @@ static int count_curved(zd_point *point, int others)
     double *v0 = self->sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
     zd_copy(n, point->v, v0);
-    set_basis(point);
+    zd_rank_set_basis(point);
     for (int sample = 0; sample < n && curved < others && !status; sample++) {
         double *w = basis + curved * others;
         vary(point, &seed, v0, v);

@@ -98,7 +98,7 @@ typedef struct zd_statistics {
     long repartitions;          /* changes of the independent variables between steps */
     long rank;                  /* of C; less than m where constraints are redundant */
     long rank_drops;            /* steps in which it was less for a while */
-    double energy_share;        /* of T, the largest that one energy correction has taken out or put in */
+    double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */

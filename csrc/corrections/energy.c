@@ -73,7 +73,7 @@ static int after_step(void *memory, zd_run *run)
         scaled[i] = self->enforced[i] + factor * (run->point->v[i] - self->enforced[i]);    /* (29) */
     zd_point_move_velocity(run->point, scaled);
     run->statistics.energy_corrections++;
-    run->statistics.energy_share = fmax(run->statistics.energy_share, fabs(violation) / kinetic);
+    run->statistics.energy_corrected = fmax(run->statistics.energy_corrected, fabs(violation));
     return ZD_DONE;
 }
 

@@ -169,7 +169,7 @@ static int enforce(const zd_complement *self, zd_point *point, double *x)
 {
     const double *Phi_t = point->terms.Phi_t;
     memset(x, 0, (size_t)self->n * sizeof *x);
-    if (!Phi_t && !point->rank->lost) return ZD_DONE;
+    if (!Phi_t && !point->rank->branch.lost) return ZD_DONE;
     double *all = point->rank->rhs, *rhs = point->rhs;
     for (int k = 0; k < zd_constraints(point->system); k++) all[k] = Phi_t ? -Phi_t[k] : 0;
     int status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, all);

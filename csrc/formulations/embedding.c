@@ -79,7 +79,7 @@ typedef struct problem {
 /* What cannot be told from zero: where a row is lost, Phi is of second order in what the others leave open. */
 static double resolution(const zd_embedding *self, zd_point *point)
 {
-    int lost = point->rank->near && zd_rank_find(point) == ZD_DONE && point->rank->lost;
+    int lost = point->rank->near && zd_rank_find(point) == ZD_DONE && point->rank->branch.lost;
     return lost ? fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE) : self->rounding;
 }
 
@@ -104,7 +104,7 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
+    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->branch.lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);

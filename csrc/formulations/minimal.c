@@ -91,7 +91,7 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
         int status = i ? zd_branch_turn(point) : ZD_DONE;
         if (!status) status = turn(self, point, &change);
         if (status) return status;
-        if (change <= SETTLED * point->rank->speed || (change <= NEARLY * point->rank->speed && change >= before / 2)) return ZD_DONE;
+        if (change <= SETTLED * point->rank->branch.speed || (change <= NEARLY * point->rank->branch.speed && change >= before / 2)) return ZD_DONE;
     }
     return ZD_BIFURCATION;
 }
@@ -100,7 +100,7 @@ int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
     int status = zd_complement_at(&self->complement, point);
-    if (!status && point->rank->lost) return settle_on_branch(self, point);
+    if (!status && point->rank->branch.lost) return settle_on_branch(self, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) zd_point_move_velocity(point, self->b);

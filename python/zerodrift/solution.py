@@ -47,7 +47,8 @@ class Solution:
     stats : dict
         Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
         product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
-        `largest_kinetic`, in J, are looked at every few steps. Of the constraints, `rank` are independent, `redundant` lists rows
+        `largest_kinetic`, in J, are looked at every few steps; `energy_corrected`, in J, is the largest error of the energy
+        balance that a single correction has taken out. Of the constraints, `rank` are independent, `redundant` lists rows
         that follow from the others, and in `rank_drops` steps the rank was less for a while.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
