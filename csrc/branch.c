@@ -57,8 +57,7 @@ static int differentiate(zd_point *point)
     int status = add_ahead(point, s, 0.5 / PATH);
     if (!status) status = add_ahead(point, -s, -0.5 / PATH);
     zd_point_move(point, self->t, self->p, self->v);
-    int back = zd_point_need(point, known);
-    return status ? status : back;
+    return status ? status : zd_point_need(point, known);
 }
 
 static double along_others(const zd_rank *self, const double *share, const double *y, int stride)

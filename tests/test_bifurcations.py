@@ -246,3 +246,37 @@ def test_what_to_do_is_a_setting(tmp_path):
     assert again.stats["rank_drops"] == 2
     assert repr(again) == repr(sol)
     assert np.array_equal(zd.simulate(sol.system, sol.t_span, **sol.settings).p, sol.p)
+
+
+# ---- what may fail on the way ----
+
+
+class Refused(Exception):
+    """Raised by a system."""
+
+
+@pytest.mark.parametrize("on_singular", ["stop", "continue"])
+@pytest.mark.parametrize("options", [{"step": 0.05}, {"step": 0.047}, {"rtol": 1e-5, "integrator": "dormand_prince"}], ids=str)
+def test_an_exception_at_any_evaluation_near_a_bifurcation(options, on_singular, formulation):
+    """Whatever was being looked for there, it is that exception that comes out."""
+    calls, last = 0, np.inf
+
+    def constraints(p):
+        nonlocal calls
+        calls += 1
+        if calls >= last:
+            raise Refused(f"call {calls}")
+        return np.array([p[1] - np.cos(p[0]) - np.cos(p[2]), np.sin(p[0]) + np.sin(p[2])])
+
+    system = zd.System(3, mass=np.diag([0.4, 0.7, 0.2]), potential=0.0, constraints=constraints,
+                       p0=[FLAT[0] - 0.2, 2 * np.sin(0.2), 0.2 - FLAT[0]], v0=[2.0, -4 * np.cos(0.2), -2.0])
+    run = {"formulation": formulation, "on_singular": on_singular, **options}
+    zd.simulate(system, 0.2, on_failure="return", **run)
+    calls = 0
+    sol = zd.simulate(system, 0.2, on_failure="return", **run)
+    assert sol.success == (on_singular == "continue")
+    whole = calls
+    for last in range(2, whole, max(1, whole // 60)):
+        calls = 0
+        with pytest.raises(Refused, match=f"call {last}"):
+            zd.simulate(system, 0.2, **run)

@@ -77,10 +77,13 @@ typedef struct problem {
 } problem;
 
 /* What cannot be told from zero: where a row is lost, Phi is of second order in what the others leave open. */
-static double resolution(const zd_embedding *self, zd_point *point)
+static int find_resolution(const zd_embedding *self, zd_point *point, double *resolution)
 {
-    int lost = point->rank->near && zd_rank_find(point) == ZD_DONE && point->rank->branch.lost;
-    return lost ? fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE) : self->rounding;
+    *resolution = self->rounding;
+    if (!point->rank->near) return ZD_DONE;
+    int status = zd_rank_find(point);
+    if (!status && point->rank->branch.lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
+    return status;
 }
 
 /* In units of rounding; at least 2 as long as q is not what it should be. */
@@ -88,10 +91,12 @@ static int residual(void *context, double *size)
 {
     problem *it = context;
     zd_point *point = it->point;
+    double resolution = 0;
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
+    if (!status) status = find_resolution(it->self, point, &resolution);
     if (status) return status;
     double Phi = it->self->mh ? zd_point_violation(point) : 0;
-    *size = Phi > 0 ? Phi / resolution(it->self, point) : 0;
+    *size = Phi > 0 ? Phi / resolution : 0;
     for (int k = 0; k < it->self->k; k++)
         if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
     return ZD_DONE;
