@@ -15,13 +15,12 @@
 #include "linalg/small.h"
 #include "rank.h"
 
-static const double LONG = 1;       /* in natural units: a path so long is looked at in between */
-static const double NEAR = 0.5;     /* and every so often */
 enum { MOST_LOOKS = 64 };
-static const double MOST_PATH = MOST_LOOKS * 0.5;
-static const double NEARBY = 1e-3;   /* the constraints, in natural units */
+static const double LONG = 1;       /* in natural units: a path so long is looked at in between, */
+static const double NEAR = 0.5;     /* and every so often */
+static const double NEARBY = 1e-3;  /* in natural units: from the constraints */
+static const double SHORT = 0.25 * ZD_BRANCH_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
 static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
-static const double SHORT = 0.25 * ZD_BRANCH_REGION;     /* in natural units: the path on which a leap is one */
 
 zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
 {
@@ -105,7 +104,7 @@ static int follow(zd_run *run, double h, int looks, int *kept)
 /* A turned orientation; far off the constraints, where nothing holds a run, it means nothing. */
 static int judge(zd_run *run)
 {
-    int status = zd_point_need(run->point, ZD_PHI);
+    int status = zd_point_need(run->point, ZD_PHI | ZD_C);
     if (status) return status;
     return run->guard.branch || !run->system.mh || zd_point_violation(run->point) <= NEARBY ? ZD_PASSED : ZD_DONE;
 }
@@ -129,8 +128,8 @@ int zd_crossing_step(zd_run *run, double h, double moved)
         return ZD_DONE;
     }
     if (self->kept && !self->passes) {
-        if (!(moved <= LONG * LONG)) status = follow(run, h, moved < MOST_PATH * MOST_PATH ? 1 + (int)(sqrt(moved) / NEAR) : MOST_LOOKS, &kept);
-        else kept = determinant(self, point, self->C) > 0;
+        if (moved <= LONG * LONG) kept = determinant(self, point, self->C) > 0;
+        else status = follow(run, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_LOOKS), &kept);
     }
     if (!status && !kept) status = judge(run);
     if (status) return status;

@@ -42,7 +42,7 @@ class SingularSystem(ZerodriftError, ArithmeticError):
 
 
 class Bifurcation(SingularSystem):
-    """Constraints that are independent elsewhere are not here, and do not determine the motion."""
+    """Constraints that are independent elsewhere are not here, or within this step, and do not determine the motion."""
 
 
 class Diverged(ZerodriftError, ArithmeticError):

@@ -128,14 +128,15 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     formulation : str
         One of `formulations()`.
     on_singular : {"stop", "continue"}
-        At a bifurcation, where constraints that are independent elsewhere are not: raise `Bifurcation`, or give the least
-        acceleration that they allow.
+        At a bifurcation, where constraints that are independent elsewhere are not: raise `Bifurcation`, or give the
+        acceleration of the motion that goes through it with this velocity; at rest, the least that the constraints allow.
 
     Returns
     -------
     vdot, multipliers : ndarray (nv,), (m,)
         With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``. Where constraints are redundant,
-        the smallest multipliers: ``sum(multipliers**2 * s**2)`` is least, with ``s**2 = diag(C inv(M) C.T)``.
+        the smallest multipliers: ``sum(multipliers**2 * s**2)`` is least, with ``s**2 = diag(C inv(M) C.T)``. At a bifurcation
+        some have no bounds: their part of the reactions is left out.
 
     Examples
     --------
