@@ -21,11 +21,15 @@
  */
 #include "rank.h"
 
+#include "linalg/lu.h"
 #include "linalg/small.h"
+
+enum { MAX_TURNS = 100 };
 
 static const double PATH = 0x1p-17;     /* radians, or parts of the mechanism's length: squared, it is rounding over it */
 static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path, is a rate: less may be rounding */
 static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
+static const double SETTLED = 0x1p-36;  /* parts of an acceleration: it is that of a branch if it changes no more */
 static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
 
 /* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
@@ -34,7 +38,7 @@ static int add_ahead(zd_point *point, double s, double weight)
     zd_branch *self = &point->rank->branch;
     int n = point->rank->n, m = point->rank->m;
     for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
-    zd_point_move(point, self->t + s, self->moved, self->v);
+    zd_point_move(point, self->t + (self->rests ? 0 : s), self->moved, self->v);
     int status = zd_point_need(point, ZD_C | ZD_XI);
     if (status) return status;
     zd_add_scaled(m * n, self->Cdot, weight, point->terms.C);
@@ -146,6 +150,19 @@ static double distance(const zd_rank *self, int row)
     return resolved && !(aside <= PARALLEL * PARALLEL * own) ? INFINITY : along / whole;
 }
 
+static double limit(const zd_point *point, int row, int i)
+{
+    const zd_rank *self = point->rank;
+    return self->branch.wdot[row * self->n + i] * point->per_unit[i] * point->size[row];
+}
+
+static double of_limit(const zd_point *point, int row, const double *x)
+{
+    double sum = 0;
+    for (int i = 0; i < point->rank->n; i++) sum += limit(point, row, i) * x[i];
+    return sum;
+}
+
 /* Puts the limits among the rows that count, behind the holonomic ones. */
 static void insert(zd_point *point, int wanted)
 {
@@ -155,30 +172,115 @@ static void insert(zd_point *point, int wanted)
     memmove(self->place + before + wanted, self->place + before, (size_t)behind * sizeof(int));
     for (int j = 0; j < wanted; j++) {
         int row = self->place[before + j] = self->row[self->independent + j];
-        for (int i = 0; i < n; i++)
-            self->C[(before + j) * n + i] = self->branch.wdot[row * n + i] * point->per_unit[i] * point->size[row];
+        for (int i = 0; i < n; i++) self->C[(before + j) * n + i] = limit(point, row, i);
     }
     self->branch.lost = wanted;
     point->rows += wanted;
     point->holonomic += wanted;
 }
 
+/* w and wdot along pdot, and so many rows chosen whose rates are independent; whether there are. */
+static int find_rates(zd_point *point, int wanted, int *found)
+{
+    zd_rank *self = point->rank;
+    *found = 0;
+    self->branch.speed = zd_max_scaled(point->system->nq, self->branch.pdot, point->per_unit_p);
+    if (!(self->branch.speed > 0 && self->branch.speed < INFINITY)) return ZD_DONE;
+    int status = differentiate(point);
+    if (status) return status;
+    set_rates(point);
+    for (int j = 0; j < wanted; j++)
+        if (!choose_next(self, self->independent + j)) return ZD_DONE;
+    *found = 1;
+    return ZD_DONE;
+}
+
+/* ---- at rest ---- */
+
+/* x with M x + C^T lambda = force, C x = rhs, of the rows that count and `wanted` limits; returns whether there is one. In natural
+ * units, and M in units of its largest entry. */
+static int solve(zd_point *point, int wanted, const double *force, const double *rhs, double *x)
+{
+    zd_rank *self = point->rank;
+    const int n = self->n, rows = self->independent + wanted, size = n + rows;
+    double *K = self->branch.K, *y = self->branch.y, largest = 0;
+    memset(K, 0, (size_t)(size * size) * sizeof(double));
+    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(point->terms.M[i * n + i]) * point->unit[i] * point->unit[i]);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++) K[i * size + j] = point->terms.M[i * n + j] * point->unit[i] * point->unit[j] / largest;
+        y[i] = force ? force[i] * point->unit[i] / largest : 0;
+    }
+    for (int a = 0; a < rows; a++) {
+        int row = self->row[a];
+        for (int i = 0; i < n; i++)
+            K[(n + a) * size + i] = K[i * size + n + a] = a < self->independent
+                ? point->terms.C[row * n + i] * point->unit[i] * point->per_size[row] : self->branch.wdot[row * n + i];
+        y[n + a] = rhs[a] * point->per_size[row];
+    }
+    if (zd_lu_factor(size, K, self->branch.order) < size) return 0;
+    zd_lu_solve(size, K, self->branch.order, y);
+    for (int i = 0; i < n; i++) x[i] = y[i] * point->unit[i];
+    return 1;
+}
+
+/* c of the limits with the acceleration e in place of a velocity, for each unit of path */
+static int find_curvature(zd_point *point, int wanted, const double *e, double *c)
+{
+    zd_rank *self = point->rank;
+    int status = zd_point_need(point, ZD_XI), rank = self->independent;
+    for (int j = 0; j < wanted; j++) c[j] = own_part(self, self->row[rank + j], point->terms.xi, 1);
+    memcpy(self->branch.v, point->v, (size_t)self->n * sizeof(double));
+    zd_point_move_velocity(point, e);
+    if (!status) status = zd_point_need(point, ZD_XI);
+    for (int j = 0; j < wanted; j++) c[j] = (c[j] - own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->branch.speed;
+    zd_point_move_velocity(point, self->branch.v);
+    return status;
+}
+
+/* Accelerations are to a motion from rest what velocities are to others: c(vdot) = 0. Of those that are on a branch so, the one is taken
+ * that differs least, in the metric of M, from that without constraints (Gauss). By iteration: the least of all that satisfy c to first
+ * order, and again from there. */
+static int find_from_rest(zd_point *point, int wanted, int *found)
+{
+    zd_rank *self = point->rank;
+    double *e = self->branch.e, *x = self->branch.x, *rhs = self->rhs, *limits = rhs + self->independent;
+    int n = self->n, status = zd_point_need(point, ZD_M | ZD_BIAS | ZD_FORCE | ZD_XI | ZD_PHI_T);
+    *found = 0;
+    if (status || (point->terms.Phi_t && zd_max_abs(self->m, point->terms.Phi_t) > 0)) return status;
+    zd_point_force(point, self->branch.force);
+    for (int a = 0; a < self->independent; a++) rhs[a] = point->terms.xi[self->row[a]];
+    if (!solve(point, 0, self->branch.force, rhs, e)) return ZD_DONE;
+    for (int i = 0; i < MAX_TURNS; i++) {
+        zd_point_rate(point, e, self->branch.pdot);
+        status = find_rates(point, wanted, found);
+        if (status || !*found) return status;
+        *found = 0;
+        status = find_curvature(point, wanted, e, limits);
+        if (status) return status;
+        for (int j = 0; j < wanted; j++) limits[j] = of_limit(point, self->row[self->independent + j], e) - limits[j] / 2;
+        if (!solve(point, wanted, self->branch.force, rhs, x)) return ZD_DONE;
+        zd_subtract(n, x, e, e);
+        *found = zd_max_scaled(n, e, point->per_unit) <= SETTLED * self->branch.speed;
+        if (*found) return ZD_DONE;
+        zd_copy(n, x, e);
+    }
+    return ZD_DONE;
+}
+
+/* ---- what takes the place of the rows ---- */
+
 int zd_branch_find(zd_point *point)
 {
     zd_rank *self = point->rank;
-    const zd_system *system = point->system;
-    int wanted = self->limit - self->independent;
-    if (!(system->provides & ZD_XI)) return ZD_DONE;
+    int wanted = self->limit - self->independent, found;
+    if (!(point->system->provides & ZD_XI)) return ZD_DONE;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->branch.pdot);
-    self->branch.speed = zd_max_scaled(system->nq, self->branch.pdot, point->per_unit_p);
-    if (!(self->branch.speed > 0 && self->branch.speed < INFINITY)) return ZD_DONE;   /* at rest it is on all branches */
-    status = differentiate(point);
-    if (status) return status;
-    set_rates(point);
+    self->branch.rests = zd_max_abs(point->system->nq, self->branch.pdot) == 0;
+    status = self->branch.rests ? find_from_rest(point, wanted, &found) : find_rates(point, wanted, &found);
+    if (status || !found) return status;
     for (int j = 0; j < wanted; j++) {
-        if (!choose_next(self, self->independent + j)) return ZD_DONE;
         self->branch.away[j] = distance(self, self->row[self->independent + j]);
         if (!(fabs(self->branch.away[j]) < INFINITY)) return ZD_DONE;
     }

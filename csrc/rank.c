@@ -60,6 +60,12 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
             .K_rate = zd_take_doubles(arena, m * m),
             .w = zd_take_doubles(arena, m * n),
             .wdot = zd_take_doubles(arena, m * n),
+            .e = zd_take_doubles(arena, n),
+            .x = zd_take_doubles(arena, n),
+            .force = zd_take_doubles(arena, n),
+            .K = zd_take_doubles(arena, (n + m) * (n + m)),
+            .y = zd_take_doubles(arena, n + m),
+            .order = zd_take(arena, (n + m) * sizeof(int)),
         },
     };
     return zd_take_filled(arena, &self, sizeof self);

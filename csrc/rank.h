@@ -17,6 +17,10 @@ typedef struct zd_branch {
     double *Cdot, *xidot;       /* (m, n), (m,) */
     double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along the rows that count */
     double *w, *wdot;           /* (m, n): and what besides, in natural units */
+    int rests;                  /* whether the point does */
+    double *e, *x, *force;      /* (n,) each: from rest, its acceleration, the next one, f - d */
+    double *K, *y;              /* (n + m, n + m), (n + m,) */
+    int *order;                 /* (n + m,) */
 } zd_branch;
 
 struct zd_rank {

@@ -31,8 +31,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR : "nor does its velocity, which independent velocities need; 'schur' "
-                                                                      "can go on by the least acceleration");
+                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR : "no branch was found that the motion is on, and independent velocities need one; 'schur' "
+                                                                      "does not");
         break;
     case ZD_PASSED:
         snprintf(to, size, "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow "

@@ -129,7 +129,7 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
         One of `formulations()`.
     on_singular : {"stop", "continue"}
         At a bifurcation, where constraints that are independent elsewhere are not: raise `Bifurcation`, or give the
-        acceleration of the motion that goes through it with this velocity; at rest, the least that the constraints allow.
+        acceleration of the motion that goes through it with this velocity; at rest, the least along any branch.
 
     Returns
     -------

@@ -93,10 +93,10 @@ def simulate(
         True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
     on_singular : {"stop", "continue"}
         What to do at a bifurcation, at a step's end or within one, where constraints that are independent elsewhere are not, and
-        do not determine the motion: stop, or continue on the branch of least acceleration, which is the one the velocity is
-        on. Then mechanisms that come within 1e-7 of their size of a bifurcation, or nearly straight within 1e-4, are taken
-        through it. A start at rest at a bifurcation has no such branch: "augmented", "nullspace" and "schur" take the least
-        acceleration, the others stop. Constraints that are redundant wherever the system goes need no choice.
+        do not determine the motion: stop, or continue on the branch of least acceleration. In motion that is the one which
+        the velocity is on, and mechanisms that come within 1e-7 of their size of a bifurcation, or nearly straight within
+        1e-4, are taken through it. If there is no such branch, "mixed" and "independent" stop, the others take the least
+        acceleration. Constraints that are redundant wherever the system goes need no choice.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
