@@ -328,7 +328,7 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     if off > ENERGY_ERROR:
         yield AccuracyWarning, f"the energy balance is off by {off:.2g} of the largest kinetic energy: {TOO_COARSE}"
     if corrected > ENERGY_CORRECTION:
-        yield AccuracyWarning, f"energy corrections were up to {corrected:.2g} of the largest kinetic energy in a step: {TOO_COARSE}"
+        yield AccuracyWarning, f"energy corrections were up to {corrected:.2g} of the largest kinetic energy a step: {TOO_COARSE}"
 
 
 def _numerical_energy(solution: Solution) -> tuple[float, float]:
