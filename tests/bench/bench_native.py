@@ -14,7 +14,7 @@ import zerodrift as zd
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from test_native import GIVEN, NUMBA, bar_source, built_in, compile_library, compile_text, pendulum  # noqa: E402
+from native_systems import GIVEN, PENDULUM, built_in, compile_four_bar, compile_library, pendulum  # noqa: E402
 
 ROUNDS = 60
 
@@ -33,14 +33,14 @@ def ratio(mine, other, steps=20000):
 def measured():
     """Rows (what, value, limit)."""
     with tempfile.TemporaryDirectory() as folder:
-        bar = zd.native(compile_text(bar_source(), Path(folder) / "four_bar.so", "-O3", "-Wno-pedantic"), symbol="four_bar")
+        bar = zd.native(compile_four_bar(Path(folder) / "four_bar.so"), symbol="four_bar")
         yield "four-bar in C, to built in", ratio(bar, zd.systems.four_bar(), 8000), 1.05
-        yield "pendulum in C, to built in", ratio(pendulum(compile_library(HERE.parent / "native" / "pendulum.c",
-                                                                           Path(folder) / "pendulum.so")), built_in()), 1.05
+        mine = pendulum(compile_library(PENDULUM, Path(folder) / "pendulum.so"))
+        yield "pendulum in C, to built in", ratio(mine, built_in()), 1.05
         if importlib.util.find_spec("numba"):
-            scope = {"__name__": "pendulum"}
-            exec(NUMBA, scope)
-            yield "pendulum by numba, to built in", ratio(zd.native(scope["compiled"], ["x", "y"], **GIVEN), built_in()), None
+            from numba_pendulum import compiled
+
+            yield "pendulum by numba, to built in", ratio(zd.native(compiled, ["x", "y"], **GIVEN), built_in()), None
 
 
 def main():
