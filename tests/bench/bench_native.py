@@ -4,17 +4,17 @@ Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and n
 ``results/native.csv``.
 """
 
-import csv
+import functools
 import importlib.util
 import sys
 import tempfile
 from pathlib import Path
 
 import zerodrift as zd
+from measuring import least, record
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
-from native_systems import GIVEN, PENDULUM, built_in, compile_four_bar, compile_library, pendulum  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from native_systems import GIVEN, PENDULUM, built_in, compile_four_bar, compile_library, pendulum
 
 ROUNDS = 60
 
@@ -25,9 +25,9 @@ def seconds(system, steps):
 
 
 def ratio(mine, other, steps=20000):
-    """Of the least times of interleaved rounds."""
-    times = [(seconds(mine, steps), seconds(other, steps)) for _ in range(ROUNDS)]
-    return min(first for first, _ in times) / min(second for _, second in times)
+    """Of their least times."""
+    first, second = least(ROUNDS, *(functools.partial(seconds, system, steps) for system in (mine, other)))
+    return first / second
 
 
 def measured():
@@ -43,15 +43,5 @@ def measured():
             yield "pendulum by numba, to built in", ratio(zd.native(compiled, ["x", "y"], **GIVEN), built_in()), None
 
 
-def main():
-    """Measure, print and write."""
-    with (HERE / "results" / "native.csv").open("w", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["what", "value", "at most"])
-        for what, value, limit in measured():
-            print(f"{what:46} {value:8.3g}" + (f" (at most {limit})" if limit else ""))
-            table.writerow([what, f"{value:.3g}", limit or ""])
-
-
 if __name__ == "__main__":
-    main()
+    record("native", measured())
