@@ -11,6 +11,7 @@ import tempfile
 import pytest
 
 import zerodrift as zd
+from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
 TAKEN = {f"{name}-{integrator}": (system, integrator)
@@ -41,3 +42,9 @@ def pytest_generate_tests(metafunc):
 def bar():
     """The paper's four-bar, for tests that need some particular mechanism."""
     return SYSTEMS["four_bar"]
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory):
+    """The pendulum of tests/native/, for tests of compiled functions."""
+    return compile_library(PENDULUM, tmp_path_factory.mktemp("native") / "pendulum.so")

@@ -1,16 +1,13 @@
-"""Ctrl-C, exceptions and the end of memory at any moment; threads; fork: nothing crashes, leaks or is lost that was computed."""
+"""Ctrl-C, exceptions and the end of memory at any moment: nothing crashes, leaks or is lost that was computed."""
 
 import contextlib
 import dataclasses
 import gc
-import multiprocessing
 import os
 import signal
 import subprocess
 import sys
 import textwrap
-import threading
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -19,46 +16,12 @@ import pytest
 import zerodrift as zd
 from support import motion
 from test_runs import assert_same_bits
+from watched import At, pendulum, throw
 from zerodrift import _gateway, simulation
 
 PACKAGE = str(Path(zd.__file__).parent)
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
-posix = pytest.mark.skipif(os.name != "posix", reason="there is no fork")
-
-
-def pendulum(watch=lambda: None):
-    """In Python, every callable of it watched."""
-    def watched(function):
-        def call(p, v):
-            watch()
-            return function(p, v)
-        return call
-
-    return zd.System(
-        ["x", "y"], mass=watched(lambda p, v: np.eye(2)), force=watched(lambda p, v: np.array([0.0, -9.81])),
-        bias=watched(lambda p, v: np.zeros(2)), constraints=watched(lambda p, v: np.array([p @ p - 1]) / 2),
-        jacobian=watched(lambda p, v: p[None]), xi=watched(lambda p, v: -np.array([v @ v])),
-        kinematics=watched(lambda p, v: np.eye(2)), potential=watched(lambda p, v: 9.81 * p[1]),
-        power=watched(lambda p, v: 0.0), p0=[1.0, 0.0])
-
-
-class At:
-    """Does something when it is called the k-th time."""
-
-    def __init__(self, k, action):
-        self.k, self.action, self.calls = k, action, 0
-
-    def __call__(self, *_):
-        self.calls += 1
-        if self.calls == self.k:
-            self.action()
-
-
-def throw(error):
-    """A function that does."""
-    def raise_it():
-        raise error
-    return raise_it
+posix = pytest.mark.skipif(os.name != "posix", reason="there is no timer that sends signals")
 
 
 def assert_beginning(part, whole):
@@ -258,80 +221,6 @@ def test_a_ctrl_c_that_a_callable_swallows_is_heard_all_the_same():
     assert 10 < len(caught.value.solution.t) < 99_000
 
 
-# ---- threads and processes ----
-
-
-def test_threads_share_a_system_written_in_python():
-    system = pendulum()
-    alone = zd.simulate(system, 1.0, step=0.01)
-    with ThreadPoolExecutor(8) as pool:
-        for sol in pool.map(lambda _: zd.simulate(system, 1.0, step=0.01), range(24)):
-            assert_same_bits(alone, sol)
-
-
-def test_an_exception_stays_in_its_thread():
-    """Callables of one system, shared: those of one thread fail."""
-    failing = threading.local()
-
-    def watch():
-        if getattr(failing, "now", False):
-            raise ZeroDivisionError(threading.get_ident())
-
-    def run(i):
-        failing.now = i % 2 == 1
-        try:
-            return zd.simulate(system, 0.5, step=0.01)
-        except ZeroDivisionError as error:
-            return error.args[0] == threading.get_ident()
-        finally:
-            failing.now = False
-
-    system = pendulum(watch)
-    alone = zd.simulate(system, 0.5, step=0.01)
-    with ThreadPoolExecutor(8) as pool:
-        for i, outcome in enumerate(pool.map(run, range(40))):
-            if i % 2:
-                assert outcome is True
-            else:
-                assert_same_bits(alone, outcome)
-
-
-FORKED = {"core": zd.systems.pendulum(), "Python": pendulum()}
-
-
-def run_forked(name, **options):
-    """The bits of a run."""
-    sol = zd.simulate(FORKED[name], 2.0, step=0.01, **options)
-    return np.column_stack([sol.t, sol.p, sol.v, sol.multipliers, sol.energy_violation]).tobytes()
-
-
-@posix
-@pytest.mark.parametrize("name", FORKED)
-@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")     # that it has threads, and forks
-def test_forked_processes_give_the_same_bits(name):
-    alone = run_forked(name)
-    with ThreadPoolExecutor(2) as threads, multiprocessing.get_context("fork").Pool(2) as pool:
-        meanwhile = [threads.submit(run_forked, name) for _ in range(4)]
-        for bits in [*pool.map(run_forked, [name] * 4), *(run.result() for run in meanwhile)]:
-            assert bits == alone
-
-
-@posix
-@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
-@pytest.mark.parametrize("name", FORKED)
-def test_a_run_goes_on_in_parent_and_child_of_a_fork(name, monkeypatch):
-    monkeypatch.setattr(simulation, "SLICE", 0.0)
-    alone = run_forked(name)
-    parent, (read, write), children = os.getpid(), os.pipe(), []
-    bits = run_forked(name, progress=At(3, lambda: children.append(os.fork())))
-    if os.getpid() != parent:
-        os.write(write, b"same" if bits == alone else b"not!")
-        os._exit(0)
-    os.waitpid(children[0], 0)
-    assert os.read(read, 4) == b"same"
-    assert bits == alone
-
-
 # ---- memory ----
 
 
@@ -411,11 +300,7 @@ def refused():
 
 def stopped():
     with pytest.raises(ZeroDivisionError):
-        zd.simulate(wide(), 0.1, step=0.05, progress=throw_now)
-
-
-def throw_now(part):
-    raise ZeroDivisionError
+        zd.simulate(wide(), 0.1, step=0.05, progress=At(1, throw(ZeroDivisionError())))
 
 
 def succeeding():

@@ -10,11 +10,12 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 
 from . import _check
+from ._style import COLOURS
 from ._system import BaseSystem
 from .compare import nearest
 from .solution import Solution
 
-COLOUR = "#0072B2"
+COLOUR = COLOURS[0]
 GHOSTS = 9      # positions in the drawing of a motion
 JOINTS = 12     # a drawing of more points is taken for curves, not for links with joints
 

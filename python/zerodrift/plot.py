@@ -14,11 +14,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from . import _style
 from ._drawing import animate, mechanism
 from ._gateway import Variable
+from ._style import COLOURS, panels
 from .benchmarking import Row, Setting, WorkPrecision
 from .certified import Reference
 from .compare import difference, signals
@@ -29,8 +30,6 @@ from .stability import StabilityMap
 __all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
            "violation", "work_precision"]
 
-# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last is Tol's wine, as integrators are eight.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255")
 MARKERS = "os^Dv<>pPX*"
 
 
@@ -61,13 +60,13 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     'rad'
     """
     values, variables = signals(sol, names)
-    ax = _axes(ax)
-    units = _units(variables)
+    ax = _style.axes(ax)
+    units = _style.units(variables)
     for column, variable in zip(values.T, variables, strict=True):
-        ax.plot(sol.t, column, **{"label": variable.name if len(units) == 1 else _labelled(variable)} | style)
+        ax.plot(sol.t, column, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
     if len(variables) == 1 and "label" not in style:
-        return _finished(ax, _labelled(variables[0]), legend=False)
-    return _finished(ax, ", ".join(units))
+        return _style.finished(ax, _style.labelled(variables[0]), legend=False)
+    return _style.finished(ax, ", ".join(units))
 
 
 def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, velocities: bool = True,
@@ -107,16 +106,16 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     rates = [Variable(c.name, f"{c.unit}/s" if c.unit else "1/s") for c in constraints[:mh]] + list(constraints[mh:])
     lines = []
     if positions and mh:
-        lines.append((sol.position_violation, _with_unit("|Φ|", constraints[:mh])))
+        lines.append((sol.position_violation, _style.with_unit("|Φ|", constraints[:mh])))
     if velocities and constraints:
-        lines.append((sol.velocity_violation, _with_unit("|Ψ|", rates)))
+        lines.append((sol.velocity_violation, _style.with_unit("|Ψ|", rates)))
     if not lines:
         raise ValueError(f"{sol.system.name} has no such constraints, so there is no violation to draw")
-    ax = _axes(ax)
+    ax = _style.axes(ax)
     for values, label in lines:
-        _log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
+        _style.log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
     several = len(lines) > 1
-    return _finished(ax, "constraint violation" if several else lines[0][1], legend=several or "label" in style)
+    return _style.finished(ax, "constraint violation" if several else lines[0][1], legend=several or "label" in style)
 
 
 def energy(sol: Solution, ax: Axes | None = None) -> Axes:
@@ -146,13 +145,13 @@ def energy(sol: Solution, ax: Axes | None = None) -> Axes:
     ['T', 'V', 'E = T + V']
     """
     _require_energy(sol)
-    ax = _axes(ax)
+    ax = _style.axes(ax)
     ax.plot(sol.t, sol.kinetic_energy, label="T")
     ax.plot(sol.t, sol.potential_energy, label="V")
     ax.plot(sol.t, sol.kinetic_energy + sol.potential_energy, label="E = T + V")
     if sol.energy_input.any():
         ax.plot(sol.t, sol.energy_input, "--", label="energy input")
-    return _finished(ax, "energy [J]")
+    return _style.finished(ax, "energy [J]")
 
 
 def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False, **style: Any) -> Axes:
@@ -186,9 +185,9 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     'energy violation [J]'
     """
     _require_energy(sol)
-    ax = _axes(ax)
-    _line(ax, sol.t, sol.energy_violation, log, **style)
-    return _finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
+    ax = _style.axes(ax)
+    _style.line(ax, sol.t, sol.energy_violation, log, **style)
+    return _style.finished(ax, f"{'|energy violation|' if log else 'energy violation'} [J]", legend="label" in style)
 
 
 def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any],
@@ -229,12 +228,17 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     'error of x [m]'
     """
     values, variables = difference(sol, reference, names), signals(sol, names)[1]
-    ax = _axes(ax)
-    units = _units(variables)
+    ax = _style.axes(ax)
+    units = _style.units(variables)
     for column, variable in zip(values.T, variables, strict=True):
-        _line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _labelled(variable)} | style)
-    of = f" of {_labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
-    return _finished(ax, ("|error|" if log else "error") + of, legend=len(variables) > 1 or "label" in style)
+        _style.line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
+    of = f" of {_style.labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
+    return _style.finished(ax, ("|error|" if log else "error") + of, legend=len(variables) > 1 or "label" in style)
+
+
+def _require_energy(sol: Solution) -> None:
+    if sol.potential_energy is None:
+        raise ValueError(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
 
 
 def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
@@ -261,7 +265,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     >>> ax.get_xlabel()
     'time [ms]'
     """
-    ax = _axes(ax)
+    ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and row.error > 0]
     integrators = _assigned((row.setting.integrator for row in result.rows), COLOURS)
@@ -356,82 +360,3 @@ def _variant(setting: Setting) -> str:
 def _assigned(names: Iterable[str], to: Sequence[str]) -> dict[str, str]:
     """Colours or markers by name, in order of appearance."""
     return dict(zip(dict.fromkeys(names), itertools.cycle(to), strict=False))
-
-
-# ---- what all share ----
-
-
-def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
-           **options: Any) -> tuple[Figure, np.ndarray]:
-    """A figure of its own, outside pyplot, and its axes (rows, columns), in the style of this module.
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> figure, axes = zd.plot.panels(1, 2)
-    >>> ax = zd.plot.motion(zd.simulate(zd.systems.oscillator(), 2.0, step=0.1), ax=axes[0, 0])
-    """
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.subplots(rows, columns, squeeze=False, **options)
-    for ax in axes.flat:
-        _style(ax)
-    return figure, axes
-
-
-def _axes(ax: Axes | None) -> Axes:
-    return _style(plt.subplots(layout="constrained")[1]) if ax is None else ax
-
-
-def _style(ax: Axes) -> Axes:
-    ax.set_prop_cycle(color=COLOURS)
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, alpha=0.3, linewidth=0.6)
-    return ax
-
-
-def _finished(ax: Axes, ylabel: str, *, legend: bool = True) -> Axes:
-    ax.set_xlabel("t [s]")
-    ax.set_ylabel(ylabel)
-    if legend:
-        ax.legend(frameon=False)
-    return ax
-
-
-def _line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -> None:
-    if log:
-        _log_line(ax, t, np.abs(values), **style)
-    else:
-        ax.plot(t, values, **style)
-
-
-def _log_line(ax: Axes, t: np.ndarray, magnitude: np.ndarray, **style: Any) -> None:
-    """A line on a logarithmic scale: zeros as triangles on the lower edge, values between two zeros as dots."""
-    ax.set_yscale("log")
-    there = np.isfinite(magnitude) & (magnitude > 0)
-    (line,) = ax.plot(t, np.where(there, magnitude, np.nan), **style)
-    beside = np.concatenate([[False], there[:-1]]) | np.concatenate([there[1:], [False]])
-    alone, zero = there & ~beside, magnitude == 0
-    ax.plot(t[alone], magnitude[alone], ".", color=line.get_color(), markersize=3)
-    if zero.any():
-        ax.plot(t[zero], np.zeros(zero.sum()), "v", transform=ax.get_xaxis_transform(), clip_on=False,
-                color=line.get_color(), markersize=4, markeredgewidth=0, zorder=3)
-    if not any(np.any(np.asarray(other.get_ydata()) > 0) for other in ax.lines):
-        ax.set_ylim(1e-17, 1)
-
-
-def _require_energy(sol: Solution) -> None:
-    if sol.potential_energy is None:
-        raise ValueError(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
-
-
-def _units(variables: Sequence[Variable]) -> list[str]:
-    """The different units, in order of appearance."""
-    return list(dict.fromkeys(variable.unit or "1" for variable in variables))
-
-
-def _labelled(variable: Variable) -> str:
-    return f"{variable.name} [{variable.unit}]" if variable.unit else variable.name
-
-
-def _with_unit(symbol: str, variables: Sequence[Variable]) -> str:
-    return f"{symbol} [{', '.join(_units(variables))}]"

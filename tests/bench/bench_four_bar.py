@@ -3,7 +3,7 @@
 Run it with ``python tests/bench/bench_four_bar.py``; it needs a C compiler, and writes ``results/four_bar.csv``.
 """
 
-import csv
+import functools
 import itertools
 import os
 import subprocess
@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import zerodrift as zd
+from measuring import least, record, timed
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -46,13 +47,9 @@ def steps():
 
 def simulate_beyond_its_steps(rounds=200):
     """Seconds of a call of 160 steps, less 160 steps at the cost they have in a call of 1600."""
-    bar, best = zd.systems.four_bar(), {}
-    for _ in range(rounds):
-        for count in (160, 1600):
-            start = time.perf_counter()
-            zd.simulate(bar, 0.05 * count, step=0.05)
-            best[count] = min(best.get(count, 1.0), time.perf_counter() - start)
-    return best[160] - 160 * (best[1600] - best[160]) / 1440
+    bar = zd.systems.four_bar()
+    short, long = least(rounds, *(timed(functools.partial(zd.simulate, bar, 0.05 * count, step=0.05)) for count in (160, 1600)))
+    return short - 160 * (long - short) / 1440
 
 
 def cheapest(errors, span=8.0, rounds=40):
@@ -102,17 +99,5 @@ def measured():
     yield "import beyond NumPy and CFFI", 1e3 * import_beyond_numpy_and_cffi(), "ms", 50
 
 
-def main():
-    """Measure, print and write."""
-    path = HERE / "results" / "four_bar.csv"
-    path.parent.mkdir(exist_ok=True)
-    with path.open("w", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["what", "value", "unit", "at most"])
-        for what, value, unit, limit in measured():
-            print(f"{what:74} {value:8.4g} {unit:3}" + (f" (at most {limit})" if limit else ""))
-            table.writerow([what, f"{value:.4g}", unit, limit or ""])
-
-
 if __name__ == "__main__":
-    main()
+    record("four_bar", measured(), ("what", "value", "unit", "at most"), digits=4)

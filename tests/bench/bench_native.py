@@ -4,17 +4,17 @@ Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and n
 ``results/native.csv``.
 """
 
-import csv
+import functools
 import importlib.util
 import sys
 import tempfile
 from pathlib import Path
 
 import zerodrift as zd
+from measuring import least, record
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
-from test_native import GIVEN, NUMBA, bar_source, built_in, compile_library, compile_text, pendulum  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from native_systems import GIVEN, PENDULUM, built_in, compile_four_bar, compile_library, pendulum
 
 ROUNDS = 60
 
@@ -25,33 +25,23 @@ def seconds(system, steps):
 
 
 def ratio(mine, other, steps=20000):
-    """Of the least times of interleaved rounds."""
-    times = [(seconds(mine, steps), seconds(other, steps)) for _ in range(ROUNDS)]
-    return min(first for first, _ in times) / min(second for _, second in times)
+    """Of their least times."""
+    first, second = least(ROUNDS, *(functools.partial(seconds, system, steps) for system in (mine, other)))
+    return first / second
 
 
 def measured():
     """Rows (what, value, limit)."""
     with tempfile.TemporaryDirectory() as folder:
-        bar = zd.native(compile_text(bar_source(), Path(folder) / "four_bar.so", "-O3", "-Wno-pedantic"), symbol="four_bar")
+        bar = zd.native(compile_four_bar(Path(folder) / "four_bar.so"), symbol="four_bar")
         yield "four-bar in C, to built in", ratio(bar, zd.systems.four_bar(), 8000), 1.05
-        yield "pendulum in C, to built in", ratio(pendulum(compile_library(HERE.parent / "native" / "pendulum.c",
-                                                                           Path(folder) / "pendulum.so")), built_in()), 1.05
+        mine = pendulum(compile_library(PENDULUM, Path(folder) / "pendulum.so"))
+        yield "pendulum in C, to built in", ratio(mine, built_in()), 1.05
         if importlib.util.find_spec("numba"):
-            scope = {"__name__": "pendulum"}
-            exec(NUMBA, scope)
-            yield "pendulum by numba, to built in", ratio(zd.native(scope["compiled"], ["x", "y"], **GIVEN), built_in()), None
+            from numba_pendulum import compiled
 
-
-def main():
-    """Measure, print and write."""
-    with (HERE / "results" / "native.csv").open("w", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["what", "value", "at most"])
-        for what, value, limit in measured():
-            print(f"{what:46} {value:8.3g}" + (f" (at most {limit})" if limit else ""))
-            table.writerow([what, f"{value:.3g}", limit or ""])
+            yield "pendulum by numba, to built in", ratio(zd.native(compiled, ["x", "y"], **GIVEN), built_in()), None
 
 
 if __name__ == "__main__":
-    main()
+    record("native", measured())

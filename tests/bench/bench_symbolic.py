@@ -5,6 +5,7 @@ and ``results/symbolic_chain.csv``.
 """
 
 import csv
+import functools
 import itertools
 import os
 import subprocess
@@ -17,6 +18,7 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
+from measuring import least, record
 from zerodrift.symbolics import compiling
 from zerodrift.symbolics.blocks import Blocks
 from zerodrift.symbolics.definition import Definition
@@ -54,15 +56,14 @@ def four_bar():
 
 
 def steps(rounds=200):
-    """For each formulation: the least time of a run of the symbolic four-bar over that of the system in C, interleaved."""
-    mine, core = four_bar(), zd.systems.four_bar()
+    """For each formulation: the least time of a run of the symbolic four-bar over that of the system in C."""
+    def seconds(system, formulation):
+        return zd.simulate(system, STEP * STEPS, formulation=formulation, **OPTIONS).stats["seconds"]
+
+    systems = (four_bar(), zd.systems.four_bar())
     for formulation in zd.formulations():
-        best = {}
-        for _ in range(rounds):
-            for system in (mine, core):
-                seconds = zd.simulate(system, STEP * STEPS, formulation=formulation, **OPTIONS).stats["seconds"]
-                best[system.name] = min(best.get(system.name, 1e9), seconds)
-        yield formulation, best["symbolic"] / best["four_bar"]
+        mine, core = least(rounds, *(functools.partial(seconds, system, formulation) for system in systems))
+        yield formulation, mine / core
 
 
 def costs(n, relative, rounds=3):
@@ -137,12 +138,7 @@ def main():
     """Measure, print and write."""
     with tempfile.TemporaryDirectory() as folder:
         os.environ["ZERODRIFT_CACHE"] = folder
-        with (HERE / "results" / "symbolic.csv").open("w", newline="") as file:
-            table = csv.writer(file, lineterminator="\n")
-            table.writerow(["what", "value", "unit", "at most"])
-            for what, value, unit, limit in measured():
-                print(f"{what:46} {value:8.3g} {unit:3}" + (f" (at most {limit})" if limit else ""), flush=True)
-                table.writerow([what, f"{value:.3g}", unit, limit or ""])
+        record("symbolic", measured(), ("what", "value", "unit", "at most"))
         with (HERE / "results" / "symbolic_chain.csv").open("w", newline="") as file:
             table = csv.writer(file, lineterminator="\n")
             heading = ["angles", "links", *(f"{part} [ms]" for part in PARTS), "operations"]

@@ -37,8 +37,9 @@ def computable(function: Any) -> bool:
 class Writer:
     """Expressions of one language for the operations of a program."""
 
-    language = ""
-    words = {"and": "&&", "or": "||", "not": "!"}
+    language = end = ""             # the name of its printer; the end of a statement
+    state = case = ""               # patterns: of an entry of p or v, and of one of several cases
+    words: dict[str, str] = {}      # what is called otherwise than in `Operation`
 
     def __init__(self, blocks: Blocks) -> None:
         self.blocks, self.operations = blocks, blocks.lowering.operations
@@ -94,6 +95,23 @@ class Writer:
             return self.binary(code, *values)
         return {"negative": f"(-{values[0]})"}.get(code) or self.named(code, *map(unwrapped, values))
 
+    def leaf(self, kind: str, index: int) -> str:
+        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, self.state.format(kind=kind, index=index))
+
+    def binary(self, sign: str, a: str, b: str) -> str:
+        return f"({a} {sign} {b})"
+
+    def named(self, code: str, *values: str) -> str:
+        return f"{self.words.get(code, code)}({', '.join(values)})"
+
+    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
+        before = "".join(self.case.format(condition=condition, value=value) for condition, value in cases)
+        return f"({before}{otherwise})"
+
+    def logic(self, word: str, parts: list[str]) -> str:
+        said = self.words.get(word, word)
+        return f"({said}{parts[0]})" if word == "not" else f"({f' {said} '.join(parts)})"
+
     def call(self, function: Any, values: list[str]) -> str:
         """A call, by SymPy's printer; what it is handed are our own names and expressions."""
         if function is sympy.Pow:
@@ -117,26 +135,13 @@ class CWriter(Writer):
     """C99, one function in the core's interface."""
 
     language, end = "C", ";"
-
-    def leaf(self, kind: str, index: int) -> str:
-        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, f"{kind}{index}")
+    state, case = "{kind}{index}", "{condition} ? {value} : "
+    words = {"and": "&&", "or": "||", "not": "!", "root": "sqrt", "power": "pow"}
 
     def number(self, value: float) -> str:
         if not math.isfinite(value):
             return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "(-INFINITY)"
         return repr(value) if value >= 0 else f"({value!r})"
-
-    def binary(self, sign: str, a: str, b: str) -> str:
-        return f"({a} {sign} {b})"
-
-    def named(self, code: str, *values: str) -> str:
-        return f"{ {'root': 'sqrt', 'power': 'pow'}[code]}({', '.join(values)})"
-
-    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
-        return "(" + "".join(f"{condition} ? {value} : " for condition, value in cases) + otherwise + ")"
-
-    def logic(self, word: str, parts: list[str]) -> str:
-        return f"(!{parts[0]})" if word == "not" else "(" + f" {self.words[word]} ".join(parts) + ")"
 
     def source(self, heading: list[str], parameters: int) -> tuple[str, int, int]:
         """The C source, the number of constants it computes from the parameters, and of doubles it keeps."""
@@ -228,9 +233,8 @@ class PythonWriter(Writer):
     """Python with floats, one function that fills arrays."""
 
     language, end = "Python", ""
-
-    def leaf(self, kind: str, index: int) -> str:
-        return {"parameter": f"k[{index}]", "t": "t"}.get(kind, f"{kind}[{index}]")
+    state, case = "{kind}[{index}]", "{value} if {condition} else "
+    words = {"not": "not "}
 
     def number(self, value: float) -> str:
         return f"({value!r})" if math.isfinite(value) else f"float('{value}')"
@@ -240,16 +244,7 @@ class PythonWriter(Writer):
         return f"missing({function.__name__!r})" if "Not supported" in text else text
 
     def binary(self, sign: str, a: str, b: str) -> str:
-        return f"divide({a}, {b})" if sign == "/" else f"({a} {sign} {b})"
-
-    def named(self, code: str, *values: str) -> str:
-        return f"{code}({', '.join(values)})"
-
-    def choice(self, cases: list[tuple[str, str]], otherwise: str) -> str:
-        return "(" + "".join(f"{value} if {condition} else " for condition, value in cases) + otherwise + ")"
-
-    def logic(self, word: str, parts: list[str]) -> str:
-        return f"(not {parts[0]})" if word == "not" else "(" + f" {word} ".join(parts) + ")"
+        return f"divide({a}, {b})" if sign == "/" else super().binary(sign, a, b)
 
     def source(self) -> str:
         """The Python source: `evaluate(want, t, p, v, k, out)`, `want` being the names of the terms."""

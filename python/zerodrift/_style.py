@@ -1,0 +1,88 @@
+"""Axes, lines and labels in one style; `zerodrift.plot` draws with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ._gateway import Variable
+
+# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last is Tol's wine, as integrators are eight.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255")
+
+
+def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
+           **options: Any) -> tuple[Figure, np.ndarray]:
+    """A figure of its own, outside pyplot, and its axes (rows, columns), in the style of this module.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> figure, axes = zd.plot.panels(1, 2)
+    >>> ax = zd.plot.motion(zd.simulate(zd.systems.oscillator(), 2.0, step=0.1), ax=axes[0, 0])
+    """
+    figure = Figure(figsize=(width, height), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False, **options)
+    for ax in grid.flat:
+        styled(ax)
+    return figure, grid
+
+
+def axes(ax: Axes | None) -> Axes:
+    """Those given, or those of a new figure."""
+    return styled(plt.subplots(layout="constrained")[1]) if ax is None else ax
+
+
+def styled(ax: Axes) -> Axes:
+    ax.set_prop_cycle(color=COLOURS)
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.grid(True, alpha=0.3, linewidth=0.6)
+    return ax
+
+
+def finished(ax: Axes, ylabel: str, *, legend: bool = True) -> Axes:
+    ax.set_xlabel("t [s]")
+    ax.set_ylabel(ylabel)
+    if legend:
+        ax.legend(frameon=False)
+    return ax
+
+
+def line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -> None:
+    if log:
+        log_line(ax, t, np.abs(values), **style)
+    else:
+        ax.plot(t, values, **style)
+
+
+def log_line(ax: Axes, t: np.ndarray, magnitude: np.ndarray, **style: Any) -> None:
+    """A line on a logarithmic scale: zeros as triangles on the lower edge, values between two zeros as dots."""
+    ax.set_yscale("log")
+    there = np.isfinite(magnitude) & (magnitude > 0)
+    (values,) = ax.plot(t, np.where(there, magnitude, np.nan), **style)
+    beside = np.concatenate([[False], there[:-1]]) | np.concatenate([there[1:], [False]])
+    alone, zero = there & ~beside, magnitude == 0
+    ax.plot(t[alone], magnitude[alone], ".", color=values.get_color(), markersize=3)
+    if zero.any():
+        ax.plot(t[zero], np.zeros(zero.sum()), "v", transform=ax.get_xaxis_transform(), clip_on=False,
+                color=values.get_color(), markersize=4, markeredgewidth=0, zorder=3)
+    if not any(np.any(np.asarray(other.get_ydata()) > 0) for other in ax.lines):
+        ax.set_ylim(1e-17, 1)
+
+
+def units(variables: Sequence[Variable]) -> list[str]:
+    """The different units, in order of appearance."""
+    return list(dict.fromkeys(variable.unit or "1" for variable in variables))
+
+
+def labelled(variable: Variable) -> str:
+    return f"{variable.name} [{variable.unit}]" if variable.unit else variable.name
+
+
+def with_unit(symbol: str, variables: Sequence[Variable]) -> str:
+    return f"{symbol} [{', '.join(units(variables))}]"

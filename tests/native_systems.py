@@ -1,0 +1,67 @@
+"""Systems of compiled functions for several tests: the pendulum of native/pendulum.c, and how to compile and describe it."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+HERE = Path(__file__).resolve().parent
+PENDULUM = HERE / "native" / "pendulum.c"
+COMPILER = shutil.which(os.environ.get("CC", "cc"))
+needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+
+TERMS = ["M", "f", "Phi", "C", "xi", "V"]
+GIVEN = {"terms": TERMS, "constraints": ["rod"], "parameters": {"mass": 1.0, "gravity": 9.81, "length": 1.0}, "p0": [1.0, 0.0]}
+POINTER = ctypes.POINTER(ctypes.c_double)
+PROTOTYPE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_int, ctypes.c_double, POINTER, POINTER, ctypes.c_void_p)
+
+
+def compile_library(source, library, *options):
+    subprocess.run([COMPILER, "-shared", "-fPIC", "-O2", "-std=c11", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic",
+                    "-Werror", *options, "-I", zd.get_include(), "-o", library, source, "-lm"], check=True)
+    return library
+
+
+def compile_text(text, library, *options):
+    source = library.with_suffix(".c")
+    source.write_text(text)
+    return compile_library(source, library, *options)
+
+
+def compile_four_bar(library):
+    """The built-in one as the library of a user."""
+    source = HERE.parent / "csrc" / "systems" / "four_bar.c"
+    text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n'
+    return compile_text(text, library, "-O3", "-Wno-pedantic")
+
+
+def pendulum(library, symbol="pendulum", **changes):
+    return zd.native(library, ["x", "y"], symbol=symbol, **(GIVEN | changes))
+
+
+def built_in():
+    return zd.systems.pendulum(angle=np.pi / 2)
+
+
+def motion(system, **options):
+    """Of a pendulum, from exactly the same place."""
+    return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, **options)
+
+
+# ---- its function, as other packages hand it over ----
+
+
+def of_ctypes(library):
+    function = ctypes.CDLL(str(library)).pendulum
+    function.restype, function.argtypes = ctypes.c_int, PROTOTYPE._argtypes_
+    return function
+
+
+def address(library):
+    return ctypes.cast(ctypes.CDLL(str(library)).pendulum, ctypes.c_void_p).value
