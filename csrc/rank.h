@@ -41,7 +41,7 @@ struct zd_rank {
     double *G;          /* (m, m): what they had along each other, and then (rows beyond those that count) T: C_other = T C */
     double *whole, *left;   /* (m,): squares of their lengths, before and after */
     double *weight;     /* (m,): 1 / |row|^2 */
-    double *K;          /* (rows, rows): factored; see zd_rank_share_out */
+    double *K;          /* (rows, rows): factored; see share_out() */
     double *L;          /* (n, n): of M */
     double *rhs, *lambda;   /* (rows,) */
     double *sample;     /* (2 n + m m + m,): for the start */
