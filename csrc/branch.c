@@ -24,12 +24,13 @@
 #include "linalg/lu.h"
 #include "linalg/small.h"
 
-enum { MAX_TURNS = 100 };
+enum { MAX_TURNS = 100, MOST_STALLS = 8 };     /* of an iteration from rest */
 
 static const double PATH = 0x1p-17;     /* radians, or parts of the mechanism's length: squared, it is rounding over it */
 static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path, is a rate: less may be rounding */
 static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
 static const double SETTLED = 0x1p-36;  /* parts of an acceleration: it is that of a branch if it changes no more */
+static const double FALLING = 0.99;     /* of the smallest change so far: more is a stall */
 static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
 
 /* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
@@ -250,7 +251,8 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
     zd_point_force(point, self->branch.force);
     for (int a = 0; a < self->independent; a++) rhs[a] = point->terms.xi[self->row[a]];
     if (!solve(point, 0, self->branch.force, rhs, e)) return ZD_DONE;
-    for (int i = 0; i < MAX_TURNS; i++) {
+    double best = INFINITY;
+    for (int i = 0, stalls = 0; i < MAX_TURNS && stalls < MOST_STALLS; i++) {
         zd_point_rate(point, e, self->branch.pdot);
         status = find_rates(point, wanted, found);
         if (status || !*found) return status;
@@ -260,8 +262,11 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
         for (int j = 0; j < wanted; j++) limits[j] = of_limit(point, self->row[self->independent + j], e) - limits[j] / 2;
         if (!solve(point, wanted, self->branch.force, rhs, x)) return ZD_DONE;
         zd_subtract(n, x, e, e);
-        *found = zd_max_scaled(n, e, point->per_unit) <= SETTLED * self->branch.speed;
+        double change = zd_max_scaled(n, e, point->per_unit) / self->branch.speed;
+        *found = change <= SETTLED;
         if (*found) return ZD_DONE;
+        stalls += change > FALLING * best;
+        best = fmin(best, change);
         zd_copy(n, x, e);
     }
     return ZD_DONE;
