@@ -182,7 +182,7 @@ def test_a_progress_bar_needs_tqdm(bar, monkeypatch):
 
 
 def test_a_system_that_is_only_described_is_not_simulated(bar):
-    from zerodrift.solution import Described
+    from zerodrift.runs.solution import Described
 
     description = Described(bar._described())
     with pytest.raises(TypeError, match=r"system must be one of zd.systems.*, not <description of four_bar>"):

@@ -9,7 +9,7 @@ import pytest
 import zerodrift as zd
 from support import SYSTEMS
 from test_references import definition, number, table
-from zerodrift import compare
+from zerodrift.studies import compare
 
 ERRORS = (1e-6, 1e-9, 1e-11, None)
 PRINTED = 2e-16         # relative: the numbers of the files as doubles
@@ -144,7 +144,7 @@ def test_a_motion_that_forgets_its_start_is_refused(monkeypatch):
 
     lorenz = zd.System(3, mass=np.eye(3), force=force, p0=np.zeros(3), v0=np.array([1.0, 1.0, 20.0]))
     assert zd.reference(lorenz, 2.0, error=1e-9).error <= 1e-9
-    monkeypatch.setattr("zerodrift.certified.REFINEMENTS", 3)
+    monkeypatch.setattr("zerodrift.studies.reference.REFINEMENTS", 3)
     with pytest.raises(zd.UnreachableTolerance, match="Ask for a shorter t_span"):
         zd.reference(lorenz, 60.0, error=1e-6)
 

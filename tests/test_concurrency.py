@@ -11,7 +11,7 @@ import pytest
 import zerodrift as zd
 from test_runs import assert_same_bits
 from watched import At, pendulum
-from zerodrift import simulation
+from zerodrift.runs import simulate as simulation
 
 posix = pytest.mark.skipif(os.name != "posix", reason="there is no fork")
 

@@ -70,7 +70,7 @@ def test_first_and_largest_step_are_kept(bar):
 
 def test_records_grow_as_long_as_they_have_to(bar, monkeypatch):
     whole = adaptive(bar, 2.0)
-    monkeypatch.setattr("zerodrift.simulation.FIRST_BLOCK", 3)
+    monkeypatch.setattr("zerodrift.runs.simulate.FIRST_BLOCK", 3)
     pieces = adaptive(bar, 2.0)
     assert pieces.p.tobytes() == whole.p.tobytes()
     assert pieces.iterations.tobytes() == whole.iterations.tobytes()
@@ -78,7 +78,7 @@ def test_records_grow_as_long_as_they_have_to(bar, monkeypatch):
 
 def test_slices_change_no_bit(bar, monkeypatch):
     whole = adaptive(bar, 2.0)
-    monkeypatch.setattr("zerodrift.simulation.SLICE", 0.0)
+    monkeypatch.setattr("zerodrift.runs.simulate.SLICE", 0.0)
     assert adaptive(bar, 2.0).p.tobytes() == whole.p.tobytes()
 
 

@@ -120,7 +120,8 @@ def test_the_examples_of_the_docstrings():
     import importlib
     import pkgutil
 
-    names = [name for _, name, _ in pkgutil.iter_modules(zd.__path__) if name not in ("_core", "__main__", "plot", "reproduce")]
-    tried = [doctest.testmod(importlib.import_module(f"zerodrift.{name}")) for name in names]
+    rooms = [importlib.import_module(f"zerodrift.{room}") for room in ("runs", "studies", "systems")]
+    names = [name for room in rooms for _, name, _ in pkgutil.iter_modules(room.__path__, f"{room.__name__}.")]
+    tried = [doctest.testmod(importlib.import_module(name)) for name in names]
     assert sum(result.attempted for result in tried) >= 20
     assert not sum(result.failed for result in tried)

@@ -11,7 +11,7 @@ import tolerances as tol
 import zerodrift as zd
 from support import SYSTEMS, assert_close
 from test_custom import four_bar as bar_in_python
-from zerodrift import simulation
+from zerodrift.runs import simulate as simulation
 
 OSCILLATOR = zd.systems.oscillator(x0=0.1, v0=0.05)
 DENSE = {"step": 1 / 100, "integrator": "dop853"}      # in a hundredth of a second it leaves nothing but round-off

@@ -17,7 +17,8 @@ import zerodrift as zd
 from support import motion
 from test_runs import assert_same_bits
 from watched import At, pendulum, throw
-from zerodrift import _gateway, simulation
+from zerodrift import _gateway
+from zerodrift.runs import simulate as simulation
 
 PACKAGE = str(Path(zd.__file__).parent)
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")

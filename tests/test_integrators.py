@@ -7,7 +7,7 @@ from scipy.optimize import fsolve
 import tolerances as tol
 import zerodrift as zd
 from support import assert_close, observed_order, rate
-from zerodrift.settings import STABILIZATIONS
+from zerodrift.runs.settings import STABILIZATIONS
 
 
 @pytest.mark.parametrize("stabilization", [None, *STABILIZATIONS])

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from zerodrift import compare, plot
+from zerodrift import plot
+from zerodrift.studies import compare
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt

@@ -10,7 +10,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from support import FORMULATIONS, INTEGRATORS, assert_close, motion
-from zerodrift import simulation
+from zerodrift.runs import simulate as simulation
 
 ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
         "energy_input", "energy_violation", "iterations")

@@ -12,7 +12,7 @@ import pytest
 import zerodrift as zd
 from support import motion
 from test_runs import ROWS, assert_same_bits
-from zerodrift.solution import Described
+from zerodrift.runs.solution import Described
 
 
 def saved_and_loaded(sol, tmp_path):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import sympy as sp
@@ -281,7 +282,7 @@ def test_drawings_are_those_of_the_system_in_c():
     assert_close(mine.points(mine.p0), core.points(core.p0), tol.SAME)
     assert WRITTEN["rolling_disc"]().points(SYSTEMS["rolling_disc"].p0) is None
     zd.plot.mechanism(zd.simulate(mine, 0.2, step=0.01)).figure.canvas.draw()
-    zd.plot.plt.close("all")
+    plt.close("all")
 
 
 def test_several_threads_run_one_system_at_once():

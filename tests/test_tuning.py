@@ -5,8 +5,8 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS
-from zerodrift import compare
-from zerodrift.benchmarking import Bench
+from zerodrift.studies import compare
+from zerodrift.studies.work_precision import Bench
 
 BAR = SYSTEMS["four_bar"]
 FEW = {"formulations": ["schur", "independent"], "integrators": ["rk4", "dop853"], "rounds": 1}

@@ -10,8 +10,6 @@ import importlib
 from typing import Any
 
 from . import systems
-from .checking import check
-from .custom import System
 from .errors import (
     AccuracyWarning,
     Bifurcation,
@@ -33,10 +31,12 @@ from .errors import (
     UnsuitedIntegrator,
     ZerodriftError,
 )
-from .operations import acceleration, assemble, project
-from .settings import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
-from .simulation import simulate
-from .solution import Solution, load
+from .runs.operations import acceleration, assemble, project
+from .runs.settings import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
+from .runs.simulate import simulate
+from .runs.solution import Solution, load
+from .studies.check import check
+from .systems.callables import System
 
 __version__ = "0.1.0"
 __all__ = [
@@ -49,9 +49,9 @@ __all__ = [
     "work_precision",
 ]
 _LATER = {      # imported at first use
-    "from_mechanics": "symbolics.mechanics", "get_include": "compiled", "native": "compiled", "numba_signature": "compiled",
-    "reference": "certified", "stability_map": "stability", "symbolic": "symbolics.define", "tune": "tuning",
-    "work_precision": "benchmarking",
+    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "native": "systems.native",
+    "numba_signature": "systems.native", "reference": "studies.reference", "stability_map": "studies.stability_map",
+    "symbolic": "symbolics.define", "tune": "studies.tune", "work_precision": "studies.work_precision",
 }
 
 

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .benchmarking import WorkPrecision
-    from .solution import Solution
+from typing import Any
 
 
 class ZerodriftError(Exception):
@@ -18,7 +14,7 @@ class ZerodriftError(Exception):
         What was computed before the failure, if it happened during a run.
     """
 
-    solution: Solution | None = None
+    solution: Any = None
 
 
 class InconsistentStart(ZerodriftError, ValueError):
@@ -80,7 +76,7 @@ class StabilityWarning(UserWarning):
 class Interrupted(KeyboardInterrupt):
     """A run was interrupted from the keyboard; `solution` has what was computed before: a Solution, or a WorkPrecision."""
 
-    def __init__(self, message: str, solution: Solution | WorkPrecision) -> None:
+    def __init__(self, message: str, solution: Any) -> None:
         super().__init__(message)
         self.solution = solution
 

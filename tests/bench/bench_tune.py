@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import zerodrift as zd
-from zerodrift import compare
-from zerodrift.benchmarking import Bench, default_steps
+from zerodrift.studies import compare
+from zerodrift.studies.work_precision import Bench, default_steps
 
 HERE = Path(__file__).resolve().parent
 SPAN = (0.0, 2.0)

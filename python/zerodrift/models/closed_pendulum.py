@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 from .. import _check
-from ..operations import assemble
+from ..runs.operations import assemble
 from ..symbolics.define import symbolic
 from ..symbolics.system import SymbolicSystem
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import systems
-from ..settings import Baumgarte, Projection
-from ..simulation import simulate, unwarned
-from ..solution import Solution
-from ..systems import BuiltIn
+from ..runs.settings import Baumgarte, Projection
+from ..runs.simulate import simulate, unwarned
+from ..runs.solution import Solution
+from ..systems.builtin import BuiltIn
 
 
 @dataclass(frozen=True, repr=False)

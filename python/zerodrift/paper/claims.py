@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ..compare import difference
-from ..settings import Projection
-from ..simulation import simulate, unwarned
-from ..solution import Solution
+from ..runs.settings import Projection
+from ..runs.simulate import simulate, unwarned
+from ..runs.solution import Solution
+from ..studies.compare import difference
 from . import FOUR_BAR, reference
 
 Runs = dict[str, Solution]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from .. import plot
-from ..simulation import simulate, unwarned
-from ..solution import Solution
+from ..runs.simulate import simulate, unwarned
+from ..runs.solution import Solution
 from . import FOUR_BAR, STEP, reference
 from .claims import Runs, energy_errors, largest, link_1_error
 

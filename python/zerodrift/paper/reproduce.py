@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from .. import plot
-from ..simulation import simulate
+from ..runs.simulate import simulate
 from . import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, claims, figures, run
 
 FORMATS = ("png", "svg")

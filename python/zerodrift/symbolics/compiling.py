@@ -24,8 +24,8 @@ from pathlib import Path
 from typing import Any
 
 from .. import _gateway
-from ..compiled import get_include
 from ..errors import CacheWarning, CompilationFailed
+from ..systems.native import get_include
 
 FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
 CANDIDATES = ("cc", "gcc", "clang")

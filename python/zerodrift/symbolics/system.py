@@ -14,8 +14,8 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
-from .._system import BaseSystem, with_units
 from ..errors import NoCompilerWarning
+from ..systems.base import BaseSystem, with_units
 from . import compiling
 
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, _gateway
-from ._gateway import TERMS, Variable
-from ._system import BaseSystem, with_units
-from .errors import ZerodriftError
-from .systems import OfKind
+from .. import _check, _gateway
+from .._gateway import TERMS, Variable
+from ..errors import ZerodriftError
+from .base import BaseSystem, with_units
+from .builtin import OfKind
 
 BIT = namedtuple("Bits", TERMS)(*(bit for bit, _ in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
@@ -33,8 +33,8 @@ def get_include() -> str:
     ['system.h']
     """
     here = Path(__file__).resolve()
-    in_source_tree = here.parents[2] / "csrc" / "include"
-    return str(in_source_tree if in_source_tree.is_dir() else here.parent / "include")
+    in_source_tree = here.parents[3] / "csrc" / "include"
+    return str(in_source_tree if in_source_tree.is_dir() else here.parents[1] / "include")
 
 
 def numba_signature() -> Any:

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, _gateway, _jets
-from ._gateway import TERMS, Variable
-from ._system import BaseSystem, with_units
+from .. import _check, _gateway
+from .._gateway import TERMS, Variable
+from . import jets as _jets
+from .base import BaseSystem, with_units
 
 BIT = {name: bit for name, (bit, _) in TERMS.items()}
 

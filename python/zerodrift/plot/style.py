@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ._gateway import Variable
+from .._gateway import Variable
 
 # Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last is Tol's wine, as integrators are eight.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255")

@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, certified, settings
-from ._system import BaseSystem
-from .benchmarking import Bench, Row, Setting, default_steps
-from .errors import Interrupted
-from .simulation import progress_of
+from .. import _check
+from ..errors import Interrupted
+from ..runs import settings
+from ..runs.simulate import progress_of
+from ..systems.base import BaseSystem
+from . import reference as certified
+from .work_precision import Bench, Row, Setting, default_steps
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
 OPTIONS = {"formulation": "schur", "integrator": "rk4", "stabilization": "projection", "energy": None}

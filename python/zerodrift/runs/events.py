@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _check
+from .. import _check
 
 
 class Event(NamedTuple):

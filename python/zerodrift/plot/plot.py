@@ -1,8 +1,4 @@
-"""Pictures of any solution and any system that can be drawn.
-
-Each function draws into `ax`, or into a new figure, and returns the axes. Nothing is shown until the caller says so,
-and no global setting of matplotlib is touched.
-"""
+"""Curves and maps of solutions, and of what studies found; `zerodrift.plot` hands them on."""
 
 from __future__ import annotations
 
@@ -16,19 +12,15 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
-from . import _style
-from ._drawing import animate, mechanism
-from ._gateway import Variable
-from ._style import COLOURS, panels
-from .benchmarking import Row, Setting, WorkPrecision
-from .certified import Reference
-from .compare import difference, signals
-from .settings import Projection
-from .solution import Solution
-from .stability import StabilityMap
-
-__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
-           "violation", "work_precision"]
+from .._gateway import Variable
+from ..runs.settings import Projection
+from ..runs.solution import Solution
+from ..studies.compare import difference, signals
+from ..studies.reference import Reference
+from ..studies.stability_map import StabilityMap
+from ..studies.work_precision import Row, Setting, WorkPrecision
+from . import style as _style
+from .style import COLOURS
 
 MARKERS = "os^Dv<>pPX*"
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from . import _check
-from ._system import BaseSystem, Terms
-from .errors import ZerodriftError
-from .operations import acceleration, project
-from .settings import Projection
+from .. import _check
+from ..errors import ZerodriftError
+from ..runs.operations import acceleration, project
+from ..runs.settings import Projection
+from ..systems.base import BaseSystem, Terms
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, in units of what is varied
 AGREE = 1e-5                            # relative: far above the 1e-10 a difference leaves, far below any mistake

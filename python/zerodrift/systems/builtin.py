@@ -1,7 +1,4 @@
-"""The built-in systems: ``zd.systems.four_bar(...)`` and whatever else the core's table has.
-
-Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
-"""
+"""Systems of the core's table, and the functions in `zerodrift.systems` that make them."""
 
 from __future__ import annotations
 
@@ -10,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, _gateway
-from ._system import BaseSystem
+from .. import _check, _gateway
+from .base import BaseSystem
 
 _KINDS = _gateway.kinds()
 
@@ -103,7 +100,7 @@ def _factory(kind: str) -> Any:
         return BuiltIn(kind, parameters)
 
     row = _KINDS[kind]
-    make.__name__ = make.__qualname__ = kind
+    make.__module__, make.__name__, make.__qualname__ = __package__, kind, kind
     make.__doc__ = _documentation(row)
     defaults = [_shown(p, _values(p, None)) for p in row.parameters]
     make.__signature__ = inspect.Signature(
@@ -112,5 +109,4 @@ def _factory(kind: str) -> Any:
     return make
 
 
-__all__ = list(_KINDS)
-globals().update({kind: _factory(kind) for kind in _KINDS})
+FACTORIES = {kind: _factory(kind) for kind in _KINDS}

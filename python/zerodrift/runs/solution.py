@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from . import _gateway, systems
-from ._system import BaseSystem, core_of
+from .. import _gateway
+from ..systems.base import BaseSystem, core_of
+from ..systems.builtin import FACTORIES, BuiltIn
 from .settings import STABILIZATIONS, EnergyCorrection, core_settings
 
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
@@ -269,8 +270,8 @@ class Described(BaseSystem):
 
 
 def _restored_system(description: dict[str, Any]) -> BaseSystem:
-    if "parameters" in description and description["name"] in systems.__all__:
-        return systems.BuiltIn(description["name"], description["parameters"])
+    if "parameters" in description and description["name"] in FACTORIES:
+        return BuiltIn(description["name"], description["parameters"])
     return Described(description)
 
 

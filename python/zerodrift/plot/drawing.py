@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 
-from . import _check
-from ._style import COLOURS
-from ._system import BaseSystem
-from .compare import nearest
-from .solution import Solution
+from .. import _check
+from ..runs.solution import Solution
+from ..studies.compare import nearest
+from ..systems.base import BaseSystem
+from .style import COLOURS
 
 COLOUR = COLOURS[0]
 GHOSTS = 9      # positions in the drawing of a motion

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from . import _check, _gateway
-from ._system import BaseSystem, core_of
+from .. import _check, _gateway
+from ..systems.base import BaseSystem, core_of
 
 
 def _keep(settings: Any, **checked: float) -> None:

@@ -10,11 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _check, _gateway, settings
+from .. import _check, _gateway
+from ..errors import AccuracyWarning, CorrectionWarning, Interrupted, StabilityWarning
+from ..systems.base import BaseSystem, core_of
 from . import events as _events
-from ._keyboard import Keyboard
-from ._system import BaseSystem, core_of
-from .errors import AccuracyWarning, CorrectionWarning, Interrupted, StabilityWarning
+from . import settings
+from .keyboard import Keyboard
 from .solution import Solution
 
 SLICE = 0.03        # seconds the core runs between looks at the keyboard and the progress bar

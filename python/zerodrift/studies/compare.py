@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from . import _check
-from ._gateway import Variable
-from .certified import Reference
-from .solution import Solution
+from .. import _check
+from .._gateway import Variable
+from ..runs.solution import Solution
+from .reference import Reference
 
 SAME_TIME = 1e-9    # of the larger of the time itself and 1 s: far above round-off, far below any step
 

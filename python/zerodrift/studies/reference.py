@@ -13,11 +13,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _check, settings
-from ._system import BaseSystem
-from .errors import UnreachableTolerance, ZerodriftError
-from .simulation import simulate, unwarned
-from .solution import Solution
+from .. import _check
+from ..errors import UnreachableTolerance, ZerodriftError
+from ..runs import settings
+from ..runs.simulate import simulate, unwarned
+from ..runs.solution import Solution
+from ..systems.base import BaseSystem
 
 SAFETY = 10         # of the largest difference of two runs: rounding that all of them share is not seen in it
 STALLED = 4         # a halved step that divides the error by less than this may have met round-off ...

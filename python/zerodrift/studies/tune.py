@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from . import _check, certified
-from ._system import BaseSystem
-from .benchmarking import Bench, Row, Setting, WorkPrecision, work_precision
-from .errors import Interrupted, UnreachableTolerance
-from .simulation import FINEST_RTOL
+from .. import _check
+from ..errors import Interrupted, UnreachableTolerance
+from ..runs.simulate import FINEST_RTOL
+from ..systems.base import BaseSystem
+from . import reference as certified
+from .work_precision import Bench, Row, Setting, WorkPrecision, work_precision
 
 EXTENSIONS = 6      # finer steps than those of the first sweep, at most
 REFINEMENTS = 3     # a step is found to within the eighth root of the factor between those of the first sweep

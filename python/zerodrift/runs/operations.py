@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, _gateway, settings
-from ._system import BaseSystem, core_of
+from .. import _check, _gateway
+from ..systems.base import BaseSystem, core_of
+from . import settings
 
 
 def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = (), *, t: float = 0.0, tol: float = 1e-12,

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _check, _gateway
-from ._gateway import Variable
+from .. import _check, _gateway
+from .._gateway import Variable
 
 
 class Terms:

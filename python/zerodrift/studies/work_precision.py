@@ -11,12 +11,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _check, _gateway, certified, settings
-from ._system import BaseSystem
+from .. import _check, _gateway
+from ..errors import Interrupted, StabilityWarning
+from ..runs import settings
+from ..runs.simulate import doubts, progress_of, simulate, unwarned
+from ..runs.solution import Solution
+from ..systems.base import BaseSystem
+from . import reference as certified
 from .compare import states_of
-from .errors import Interrupted, StabilityWarning
-from .simulation import doubts, progress_of, simulate, unwarned
-from .solution import Solution
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
 STEPS = tuple(2.0**-k for k in range(-2, 5))        # those multiples

@@ -1,0 +1,12 @@
+"""Pictures of any solution and any system that can be drawn.
+
+Each function draws into `ax`, or into a new figure, and returns the axes. Nothing is shown until the caller says so,
+and no global setting of matplotlib is touched.
+"""
+
+from .drawing import animate, mechanism
+from .plot import energy, energy_violation, error, motion, stability_map, violation, work_precision
+from .style import COLOURS, panels
+
+__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
+           "violation", "work_precision"]

@@ -1,0 +1,9 @@
+"""The built-in systems: ``zd.systems.four_bar(...)`` and whatever else the core's table has.
+
+Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
+"""
+
+from .builtin import FACTORIES, BuiltIn  # noqa: F401  (systems pickled by earlier versions name it here)
+
+globals().update(FACTORIES)
+__all__ = list(FACTORIES)
