@@ -1,0 +1,5 @@
+"""Coordinates and velocities by name, and how far a solution is from a reference."""
+
+from .studies.compare import difference, signals
+
+__all__ = ["difference", "signals"]
