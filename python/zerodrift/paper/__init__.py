@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import systems
+from ..runs.diagnosis import unwarned
 from ..runs.settings import Baumgarte, Projection
-from ..runs.simulate import simulate, unwarned
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.builtin import BuiltIn
 

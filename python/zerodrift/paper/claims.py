@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from ..runs.diagnosis import unwarned
 from ..runs.settings import Projection
-from ..runs.simulate import simulate, unwarned
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..studies.compare import difference
 from . import FOUR_BAR, reference

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from .. import plot
-from ..runs.simulate import simulate, unwarned
+from ..runs.diagnosis import unwarned
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from . import FOUR_BAR, STEP, reference
 from .claims import Runs, energy_errors, largest, link_1_error

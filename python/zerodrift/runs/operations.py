@@ -28,13 +28,13 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     v : array_like (nv,), optional
         Guess of the velocities; left out: zero.
     hold : sequence of str, or str
-        Names of coordinates and velocities that keep the values guessed.
+        Names of the coordinates and velocities that keep the values of the guess.
     t : float
         Time in s, for constraints that depend on it.
     tol : float
         Of ``|Phi|`` in units of its size, as in `Projection`.
     max_iterations : int
-        At most so many.
+        The largest number of iterations.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
-            formulation: str = "schur") -> tuple[np.ndarray, np.ndarray]:
+            formulation: str = settings.FORMULATION) -> tuple[np.ndarray, np.ndarray]:
     """Correct positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
 
     Parameters
@@ -114,7 +114,7 @@ def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndar
     return p, v
 
 
-def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = "schur",
+def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = settings.FORMULATION,
                  on_singular: str = "stop") -> tuple[np.ndarray, np.ndarray]:
     """Accelerations and multipliers at (t, p, v).
 
@@ -129,15 +129,16 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     formulation : str
         One of `formulations()`.
     on_singular : {"stop", "continue"}
-        At a bifurcation, where constraints that are independent elsewhere are not: raise `Bifurcation`, or give the
-        acceleration of the motion that goes through it with this velocity; at rest, the least along any branch.
+        What to do at a bifurcation, a position in which constraints that are independent elsewhere become dependent. "stop"
+        raises `Bifurcation`. "continue" returns the acceleration of the motion that goes through the bifurcation with this
+        velocity; at rest, the smallest acceleration along any branch.
 
     Returns
     -------
     vdot, multipliers : ndarray (nv,), (m,)
         With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``. Where constraints are redundant,
         the smallest multipliers: ``sum(multipliers**2 * s**2)`` is least, with ``s**2 = diag(C inv(M) C.T)``. At a bifurcation
-        some have no bounds: their part of the reactions is left out.
+        some are unbounded; their part of the reactions is left out.
 
     Examples
     --------

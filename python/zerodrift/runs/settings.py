@@ -1,17 +1,19 @@
-"""What a run may be told: formulation, integrator, stabilization, energy correction."""
+"""What a run may be told: formulation, integrator, stabilization, energy correction, steps, and what is saved."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
 
 
-def _keep(settings: Any, **checked: float) -> None:
-    """Keep numbers of Python's own kinds, whatever kinds were given: equal settings then are saved alike."""
-    for name, value in checked.items():
+def _set(settings: Any, **numbers: float) -> None:
+    """Replace attributes of frozen settings by Python's own numbers, so that equal settings are saved alike."""
+    for name, value in numbers.items():
         object.__setattr__(settings, name, value)
 
 
@@ -23,11 +25,12 @@ class Projection:
     ----------
     tol : float
         Positions are iterated until every ``|Phi|`` is at most this, in units of its size `Solution.position_size`: the largest
-        ``|C_ki|`` times one radian of an angle or the mechanism's own length, at the start. So it means the same in any
-        unit; it is as if coordinates were off by so many rad or parts of that length.
+        ``|C_ki|`` times one radian of an angle or the mechanism's own length, at the start. The tolerance so means the same
+        in any unit: angles are off by about that many rad, and lengths by that part of the mechanism's length.
     max_iterations : int
-        At most so many. A correction that needs more is tried again with shortened iterations, then with the step in up to
-        eight parts (or shorter, where steps are chosen), all counted in `Solution.stats`; if none helps, it is an error.
+        The largest number of iterations. A correction that needs more is tried again with shortened iterations, then with the
+        step in up to eight parts (or shorter, where steps are chosen); `Solution.stats` counts all of them. Where none of this
+        helps, the run fails.
     every : int
         Steps between corrections; the last step is always corrected.
     metric : {"mass", "identity"}
@@ -53,7 +56,7 @@ class Projection:
     velocities: bool = True
 
     def __post_init__(self) -> None:
-        _keep(self, tol=_check.number("tol", self.tol, above=0), every=_check.count("every", self.every),
+        _set(self, tol=_check.number("tol", self.tol, above=0), every=_check.count("every", self.every),
               max_iterations=_check.count("max_iterations", self.max_iterations))
         _check.choice("metric", self.metric, self.METRICS)
         for name in ("positions", "velocities"):
@@ -89,7 +92,7 @@ class Baumgarte:
     integral: float = 0.0
 
     def __post_init__(self) -> None:
-        _keep(self, **{name: _check.number(name, getattr(self, name), least=0) for name in ("alpha", "beta", "integral")})
+        _set(self, **{name: _check.number(name, getattr(self, name), least=0) for name in ("alpha", "beta", "integral")})
         if self.integral and not self.integral < self.alpha * self.beta:
             raise ValueError(f"integral must be less than alpha * beta = {self.alpha * self.beta:g}, not {self.integral:g}")
 
@@ -110,7 +113,7 @@ class EnergyCorrection:
     every: int = 1
 
     def __post_init__(self) -> None:
-        _keep(self, every=_check.count("every", self.every))
+        _set(self, every=_check.count("every", self.every))
 
     def _core(self) -> dict[str, Any]:
         return {"energy": {"every": self.every}}
@@ -118,6 +121,7 @@ class EnergyCorrection:
 
 STABILIZATIONS = {"projection": Projection, "baumgarte": Baumgarte}
 Stabilization = Projection | Baumgarte | None
+FORMULATION, INTEGRATOR, STABILIZATION = "schur", "rk4", "projection"       # what is taken where nothing else is asked for
 
 
 def stabilization(value: Any) -> Stabilization:
@@ -141,19 +145,19 @@ def energy(value: Any) -> EnergyCorrection | None:
     raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
 
 
-class _Names(dict):
-    """Cards by name, printed as a table."""
+class CardTable(dict):
+    """The cards of a table of the core by name, printed as a table."""
 
     def __repr__(self) -> str:
         width = max(map(len, self), default=0)
         return "\n".join(f"{card.name:{width}}  {card.equations:24}  {card.summary}" for card in self.values())
 
 
-def _names(table: str) -> _Names:
-    return _Names({card.name: card for card in _gateway.cards(table)})
+def _table(name: str) -> CardTable:
+    return CardTable({card.name: card for card in _gateway.cards(name)})
 
 
-_FORMULATIONS, _INTEGRATORS, _CORRECTIONS = _names("formulations"), _names("integrators"), _names("corrections")
+_FORMULATIONS, _INTEGRATORS, _CORRECTIONS = _table("formulations"), _table("integrators"), _table("corrections")
 
 
 def formulations() -> dict[str, _gateway.Card]:
@@ -165,7 +169,7 @@ def formulations() -> dict[str, _gateway.Card]:
     >>> zd.formulations()["schur"].equations
     '(13), (27)'
     """
-    return _Names(_FORMULATIONS)
+    return CardTable(_FORMULATIONS)
 
 
 def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
@@ -183,14 +187,14 @@ def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
     False
     """
     if system is None:
-        return _Names(_INTEGRATORS)
+        return CardTable(_INTEGRATORS)
     core = core_of(system)
-    return _Names({name: card for row, (name, card) in enumerate(_INTEGRATORS.items()) if core.suits(row)})
+    return CardTable({name: card for row, (name, card) in enumerate(_INTEGRATORS.items()) if core.suits(row)})
 
 
 def corrections() -> dict[str, _gateway.Card]:
     """The corrections there are, by name, in the order in which they are applied."""
-    return _Names(_CORRECTIONS)
+    return CardTable(_CORRECTIONS)
 
 
 def formulation_row(name: Any) -> int:
@@ -211,8 +215,86 @@ def on_singular_row(value: Any) -> int:
     return ON_SINGULAR.index(_check.choice("on_singular", value, ON_SINGULAR))
 
 
-# Settings that the core takes as they are.
-_PLAIN = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eval")
+# ---- all of them together ----
+
+TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}     # where steps are chosen
+FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off
+
+
+def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
+            stabilization: Any, energy: Any, save_every: Any, t_eval: Any, step: Any, **tolerances: Any) -> dict[str, Any]:
+    """The arguments of `simulate`, checked, as `Solution.settings` keeps them."""
+    on_singular_row(on_singular)
+    return {**_steps(span, step, integrator, tolerances), **_methods(system, formulation, integrator, stabilization, energy),
+            **_saved(span, save_every, t_eval), "on_singular": on_singular}
+
+
+def _steps(span: tuple[float, float], step: Any, integrator: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
+    """How steps are made: of a fixed size, or chosen by their error."""
+    integrator_row(integrator)
+    latest = max(map(abs, span))
+    smallest = 16 * np.finfo(float).eps * latest
+    if step is None:
+        return {"step": None, **_tolerances(integrator, tolerances, smallest)}
+    for name, value in tolerances.items():
+        if value is not None:
+            raise ValueError(f"{name} is for steps that are chosen by their error: with it, leave out step")
+    step = _check.number("step", step, above=0)
+    if step < smallest:
+        raise ValueError(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
+    return {"step": step}
+
+
+def _tolerances(integrator: str, given: dict[str, Any], smallest: float) -> dict[str, Any]:
+    able = [name for name, card in integrators().items() if card.error_order]
+    if integrator not in able:
+        raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size; "
+                         f"{', '.join(map(repr, able))} can choose theirs")
+    values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
+    least = {"rtol": FINEST_RTOL, "atol": 0.0, "first_step": smallest, "max_step": smallest}
+    found = {name: None if value is None else _check.number(name, value, least=least[name]) for name, value in values.items()}
+    if found["atol"] == 0:
+        raise ValueError("atol must be greater than 0: parts of the state pass through zero")
+    return found
+
+
+def _methods(system: BaseSystem, formulation: Any, integrator: Any, given_stabilization: Any,
+             given_energy: Any) -> dict[str, Any]:
+    """Equations, integrator and corrections."""
+    formulation_row(formulation)
+    correction = energy(given_energy)
+    if correction and not system.has_energy:
+        raise ValueError(f"energy correction needs a potential energy, and {system.name} declares none")
+    return {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
+            "energy": correction}
+
+
+def _saved(span: tuple[float, float], save_every: Any, t_eval: Any) -> dict[str, Any]:
+    """Which rows are saved."""
+    save_every = _check.count("save_every", save_every)
+    if t_eval is None:
+        return {"save_every": save_every}
+    if save_every != 1:
+        raise ValueError("save_every counts steps, and t_eval names times: give one of them")
+    times = _check.vector("t_eval", t_eval, np.size(t_eval))
+    if not times.size or (np.diff(times) <= 0).any() or times[0] < span[0] or times[-1] > span[1]:
+        raise ValueError(f"t_eval must increase from at least {span[0]:g} to at most {span[1]:g}, not {t_eval!r}")
+    times.flags.writeable = False
+    return {"save_every": 1, "t_eval": times}
+
+
+def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
+    """The number of rows that a run saves, its start included; None where it is not known, as steps are chosen."""
+    if "t_eval" in chosen:
+        return len(chosen["t_eval"]) + 1    # an event may end the run between two of them
+    if chosen["step"] is None:
+        return None
+    steps = _gateway.count_steps(*span, chosen["step"])
+    return steps // chosen["save_every"] + 1 + (steps % chosen["save_every"] != 0)
+
+
+# Settings that the core takes under the same name and without any change.
+_PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eval")
 
 
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
@@ -220,7 +302,7 @@ def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     options = {"formulation": formulation_row(chosen["formulation"]),
                "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
                "on_singular": on_singular_row(chosen.get("on_singular", "stop"))}
-    options |= {name: chosen[name] for name in _PLAIN if chosen.get(name) is not None}
+    options |= {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
     for correction in (chosen["stabilization"], chosen["energy"]):
         options |= correction._core() if correction else {}
     return _gateway.settings(options)

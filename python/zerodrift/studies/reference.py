@@ -16,7 +16,8 @@ import numpy as np
 from .. import _check
 from ..errors import UnreachableTolerance, ZerodriftError
 from ..runs import settings
-from ..runs.simulate import simulate, unwarned
+from ..runs.diagnosis import unwarned
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem
 
@@ -76,7 +77,7 @@ def reference(
     error: float | None = 1e-12,
     t_eval: Any = None,
     formulations: tuple[str, str] = ("augmented", "independent"),
-    stabilization: str | settings.Stabilization = "projection",
+    stabilization: str | settings.Stabilization = settings.STABILIZATION,
 ) -> Reference:
     """A motion with a certified error.
 

@@ -11,13 +11,14 @@ import numpy as np
 from .. import _check
 from ..errors import Interrupted
 from ..runs import settings
-from ..runs.simulate import progress_of
+from ..runs.progress import progress_of
 from ..systems.base import BaseSystem
 from . import reference as certified
 from .work_precision import Bench, Row, Setting, default_steps
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
-OPTIONS = {"formulation": "schur", "integrator": "rk4", "stabilization": "projection", "energy": None}
+OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
+           "energy": None}
 
 
 def _critically_damped(gain: float) -> dict[str, Any]:

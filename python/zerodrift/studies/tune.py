@@ -10,7 +10,7 @@ from typing import Any
 
 from .. import _check
 from ..errors import Interrupted, UnreachableTolerance
-from ..runs.simulate import FINEST_RTOL
+from ..runs.settings import FINEST_RTOL
 from ..systems.base import BaseSystem
 from . import reference as certified
 from .work_precision import Bench, Row, Setting, WorkPrecision, work_precision

@@ -14,7 +14,9 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import Interrupted, StabilityWarning
 from ..runs import settings
-from ..runs.simulate import doubts, progress_of, simulate, unwarned
+from ..runs.diagnosis import doubts, unwarned
+from ..runs.progress import progress_of
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem
 from . import reference as certified
@@ -179,7 +181,7 @@ def work_precision(
     integrators: Iterable[str] | None = None,
     steps: Iterable[float] | None = None,
     tolerances: Iterable[float] | None = None,
-    stabilizations: Iterable[str | settings.Stabilization] = ("projection",),
+    stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
     energy: Iterable[bool | settings.EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
     progress: bool | Callable[[float], None] = False,

@@ -1,0 +1,91 @@
+"""What was off in a run that reached its end: warnings, and the sentences that say what to do about them."""
+
+from __future__ import annotations
+
+import contextlib
+import warnings
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
+from . import settings
+from .solution import Solution
+
+# Both limits are parts of the largest kinetic energy. Among the runs that were measured, none whose error of the energy balance
+# (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without harm, as
+# long as no single one of them has to take out more than the second limit.
+LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION = 0.005, 0.02
+ENERGY_ROUNDING = 1e-10     # of all the energy there is; smaller errors are rounding and say nothing about the steps
+TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
+              "of step")
+CATEGORIES = (AccuracyWarning, CorrectionWarning, StabilityWarning)
+
+
+def warn(solution: Solution, stacklevel: int) -> None:
+    """Warn of everything that was off but did not stop the run; `stacklevel` as of `warnings.warn`, counted from the caller."""
+    for category, sentence in doubts(solution):
+        warnings.warn(sentence, category, stacklevel=stacklevel + 1)
+
+
+@contextlib.contextmanager
+def unwarned() -> Iterator[None]:
+    """No such warnings in this context: for callers that measure what `simulate` warns of, or show it."""
+    with warnings.catch_warnings():
+        for category in CATEGORIES:
+            warnings.simplefilter("ignore", category)
+        yield
+
+
+def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    """The warnings that a solution deserves, with their sentences."""
+    yield from _skipped_corrections(solution)
+    if solution.success:
+        yield from _instability(solution)
+        yield from _inaccuracy(solution)
+
+
+def _skipped_corrections(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    if skipped := solution.stats["energy_skipped"]:
+        yield CorrectionWarning, (f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning "
+                                  "point the kinetic energy is too small for them; sol.energy_skipped says where")
+
+
+def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    stats, integrator = solution.stats, solution.settings["integrator"]
+    steps = stats["steps"]
+    if too_long := stats["too_long"]:
+        stable = settings.integrators()[integrator].stability
+        limit = f"is stable for ({stable:g})" if stable else "resolves: what moves so fast is stable, but wrong"
+        yield StabilityWarning, (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
+                                 f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")
+    if stats["stiff"]:
+        yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
+                                 f"of its {steps} steps; an implicit method takes longer ones")
+
+
+def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    error, correction = _relative_energy_errors(solution)
+    if error > LARGEST_ENERGY_ERROR:
+        yield AccuracyWarning, f"the energy balance is off by {error:.2g} of the largest kinetic energy: {TOO_COARSE}"
+    if correction > LARGEST_ENERGY_CORRECTION:
+        yield AccuracyWarning, f"energy corrections were up to {correction:.2g} of the largest kinetic energy: {TOO_COARSE}"
+
+
+def _relative_energy_errors(solution: Solution) -> tuple[float, float]:
+    """The largest error of the energy balance and its largest single correction, as parts of the largest kinetic energy.
+
+    Both are 0 where they are no more than rounding.
+    """
+    violation = solution.energy_violation
+    if violation is None or not len(violation):
+        return 0.0, 0.0
+    errors = max(violation.max(), -violation.min()), solution.stats["energy_corrected"]
+    # The saved rows may all be at turning points; the statistics look in between, too.
+    kinetic = max(solution.kinetic_energy.max(), solution.stats["largest_kinetic"])
+    if max(errors) <= LARGEST_ENERGY_ERROR * kinetic:
+        return 0.0, 0.0
+    if not np.isfinite(kinetic + errors[0]) or not kinetic:
+        return np.inf, 0.0
+    rounding = ENERGY_ROUNDING * (kinetic + np.abs(solution.potential_energy).max())
+    return tuple(float(error / kinetic) if error > rounding else 0.0 for error in errors)

@@ -1,0 +1,27 @@
+"""How far a run has come, shown by a bar or handed to a callable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+
+def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
+    """Two functions for the argument `progress` of `simulate`: one shows the part done, 0 ... 1, the other ends the display."""
+    if progress is False or progress is None:
+        return (lambda part: None), (lambda: None)
+    if callable(progress):
+        return progress, (lambda: None)
+    if progress is not True:
+        raise TypeError(f"progress must be True, False or a callable, not {progress!r}")
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        raise ImportError("progress=True shows a bar with tqdm, which is not installed: pip install tqdm") from None
+    bar = tqdm(total=1.0, bar_format="{percentage:3.0f}%|{bar}| {elapsed}<{remaining}")
+
+    def show(part: float) -> None:
+        bar.n = part
+        bar.refresh()
+
+    return show, bar.close
