@@ -1,8 +1,8 @@
 """Builds the C core as the extension module ``zerodrift._core`` (CFFI, out of line, stable ABI)."""
 
-import hashlib
 import os
 import re
+import runpy
 from pathlib import Path
 
 from cffi import FFI
@@ -21,11 +21,7 @@ def sources() -> list[str]:
 
 def fingerprint() -> str:
     """What the core is made of; `zerodrift` compares it to notice that a core in place is stale."""
-    digest = hashlib.sha256()
-    for path in sorted((ROOT / "csrc").rglob("*.[ch]")):
-        digest.update(path.relative_to(ROOT).as_posix().encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return runpy.run_path(str(ROOT / "python" / "zerodrift" / "_fingerprint.py"))["core_fingerprint"](ROOT)
 
 
 def declarations() -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,6 +10,7 @@ import numpy as np
 
 from .. import errors
 from .._core import ffi, lib
+from .._fingerprint import core_fingerprint
 
 TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
@@ -93,11 +93,7 @@ def check_fingerprint() -> None:
     root = Path(__file__).resolve().parents[3]
     if not (root / "python" / "build_core.py").is_file():
         return
-    digest = hashlib.sha256()
-    for path in sorted((root / "csrc").rglob("*.[ch]")):
-        digest.update(path.relative_to(root).as_posix().encode())
-        digest.update(path.read_bytes())
-    if digest.hexdigest() != text(lib.zd_fingerprint):
+    if core_fingerprint(root) != text(lib.zd_fingerprint):
         raise errors.StaleCore(f"the compiled core is older than {root / 'csrc'}; rebuild it with: pip install -e {root}")
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
 import importlib
 import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from .._core import ffi
+from .._fingerprint import fingerprint
 from .native import VERSION
 
 SIGNATURE = "int (const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)"
@@ -116,7 +116,7 @@ def digest_of(path: Path) -> str:
     """What a file holds, as a hash."""
     if not path.is_file():
         raise FileNotFoundError(f"there is no shared library {path}")
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    return fingerprint(path.read_bytes())
 
 
 def address_of(library: ctypes.CDLL, symbol: str) -> int:

@@ -8,7 +8,6 @@ library that is not what its name says is built anew.
 from __future__ import annotations
 
 import ctypes
-import hashlib
 import json
 import os
 import platform
@@ -24,11 +23,13 @@ from pathlib import Path
 from typing import Any
 
 from .. import _gateway
+from .._fingerprint import fingerprint
 from ..errors import CacheWarning, CompilationFailed
 from ..systems.native import get_include
 
 FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
 CANDIDATES = ("cc", "gcc", "clang")
+DIGITS = 40         # of the fingerprints that name files
 
 
 def compiler() -> list[str] | None:
@@ -81,8 +82,8 @@ def _note(source: str, command: list[str]) -> str:
 
 
 def digest_of(*parts: Any) -> str:
-    """A name for what the parts say."""
-    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:40]
+    """A name for the parts, which may be whatever JSON can express."""
+    return fingerprint(parts)[:DIGITS]
 
 
 def _build(source: str, command: list[str]) -> tuple[str, Path]:
@@ -95,7 +96,7 @@ def _build(source: str, command: list[str]) -> tuple[str, Path]:
         if done.returncode or not product.is_file():
             raise CompilationFailed(_complaint(command, done, source))
         data = product.read_bytes()
-    digest = hashlib.sha256(data).hexdigest()[:40]
+    digest = fingerprint(data)[:DIGITS]
     return digest, put(f"{digest}.so", data)
 
 
@@ -167,7 +168,7 @@ def _intact(name: str, digest: str) -> Path | None:
     """Where a library is that is what it should be."""
     for path in (folder / name for folder in folders()):
         try:
-            if hashlib.sha256(path.read_bytes()).hexdigest()[:40] == digest:
+            if fingerprint(path.read_bytes())[:DIGITS] == digest:
                 return path
         except OSError:
             continue
