@@ -77,12 +77,13 @@ class Parameter(NamedTuple):
     initial: tuple[float, ...] | None
 
 
-PURE = ("", "1", "rad", "deg")
+DIMENSIONLESS = ("", "1", "rad", "deg")
 
 
 def lengths(variables: Iterable[Variable]) -> Any:
-    """`zd_system.lengths` of coordinates and velocities: what is no pure number, or the rate of one, is a length."""
-    return ffi.new("int[]", [variable.unit != "1/s" and variable.unit.removesuffix("/s") not in PURE for variable in variables])
+    """`zd_system.lengths`: which variables are lengths or their rates, namely all but pure numbers and the rates of these."""
+    pure = {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
+    return ffi.new("int[]", [variable.unit not in pure for variable in variables])
 
 
 RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}

@@ -1,4 +1,4 @@
-"""What is written in Python, systems and events: the way from the core to the callables and back."""
+"""Systems and events that are written in Python: how the core calls them, and what becomes of their errors."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ class Evaluator:
     def __init__(self, core: PythonCore, bridge: Any) -> None:
         self.core, self.bridge, self.error, self.arrays = core, bridge, None, {}
 
-    def write(self, want: int, t: float, elsewhere: int) -> int:
-        """What the core calls: `elsewhere` says that its memory is another than at the last call."""
+    def write(self, want: int, t: float, memory_changed: int) -> int:
+        """The function that the core calls; `memory_changed` says that its arrays are not where they were at the last call."""
         try:
-            if elsewhere:
-                self.arrays = self._over(self.bridge)
+            if memory_changed:
+                self.arrays = self._arrays_over(self.bridge)
             self.core.write(want, t, self.arrays)
         except BaseException as error:      # it surfaces where the run was started
             self.error = error
             return CALLBACK
         return DONE
 
-    def _over(self, memory: Any) -> dict[str, np.ndarray]:
+    def _arrays_over(self, memory: Any) -> dict[str, np.ndarray]:
         core = self.core
-        arrays = {"p": _over(memory.p, (core.nq,)), "v": _over(memory.v, (core.nv,))}
+        arrays = {"p": _array_over(memory.p, (core.nq,)), "v": _array_over(memory.v, (core.nv,))}
         arrays["p"].flags.writeable = arrays["v"].flags.writeable = False
         for name, (bit, shape) in TERMS.items():
             if core.provides & bit:
-                arrays[name] = _over(getattr(memory.terms, name), [getattr(core, size) for size in shape])
+                arrays[name] = _array_over(getattr(memory.terms, name), [getattr(core, size) for size in shape])
         if "C" in arrays:
             arrays["C_H"], arrays["C_NH"] = arrays["C"][: core.mh], arrays["C"][core.mh :]
         return arrays
@@ -49,26 +49,26 @@ class Evaluator:
         """What a callable raised, or the error for a term that was not finite."""
         bit = self.bridge.not_finite
         if self.error is None and bit:
-            name = next(name for name, (mine, _) in TERMS.items() if mine == bit)
+            name = next(name for name, (term, _) in TERMS.items() if term == bit)
             self.error = self.core.write.not_finite(name, self.bridge.t, self.arrays[name])
         return self.error
 
 
-def _over(pointer: Any, shape: Any) -> np.ndarray:
+def _array_over(pointer: Any, shape: Any) -> np.ndarray:
     size = int(np.prod(shape))
     if size == 0:
         return np.empty(shape)
     return np.frombuffer(ffi.buffer(pointer, size * 8), dtype=np.float64).reshape(shape)
 
 
-def _keep(kind: Any, error: BaseException, traceback: Any) -> None:
+def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
     """What a callback raises, Ctrl-C included, surfaces where the run was started."""
     ffi.from_handle(traceback.tb_frame.f_locals["owner"]).error = error.with_traceback(traceback)
 
 
-@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
-def zd_write_in_python(owner, want, t, elsewhere):
-    return ffi.from_handle(owner).write(want, t, elsewhere)
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
+def zd_write_in_python(owner, want, t, memory_changed):
+    return ffi.from_handle(owner).write(want, t, memory_changed)
 
 
 class Watcher:
@@ -89,12 +89,12 @@ class Watcher:
             "evaluate": lib.zd_event_in_python, "found": lib.zd_found_in_python})
 
     def value(self, event: int, t: float, p: Any, v: Any) -> float:
-        """What an event is worth."""
+        """The value of an event."""
         return self.events[event].value(t, *self.state(p, v))
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
         """The core's p and v, copied, as an event may keep them."""
-        return tuple(_over(pointer, shape).copy() for pointer, shape in zip((p, v), self._shapes, strict=True))
+        return tuple(_array_over(pointer, shape).copy() for pointer, shape in zip((p, v), self._shapes, strict=True))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Where an event was found: t (k,), p (k, nq), v (k, nv)."""
@@ -102,20 +102,20 @@ class Watcher:
         return tuple(np.array(column).reshape(-1, *shape) for column, shape in zip(columns, ((), *self._shapes), strict=True))
 
 
-@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
 def zd_event_in_python(owner, event, t, p, v, value):
     value[0] = ffi.from_handle(owner).value(event, t, p, v)
     return DONE
 
 
-@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep)
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
 def zd_found_in_python(owner, event, t, p, v):
     watcher = ffi.from_handle(owner)
     watcher.found[event].append((t, *watcher.state(p, v)))
     return DONE
 
 
-CALLBACK_CODE = Evaluator.write.__code__, Watcher.value.__code__      # below them runs what users wrote
+CALLBACK_CODE = Evaluator.write.__code__, Watcher.value.__code__      # the code of users runs below these
 
 
 class PythonCore(CoreSystem):

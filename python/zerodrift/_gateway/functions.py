@@ -20,16 +20,16 @@ ARGUMENTS = ({"void*", "double*"}, {"int"}, {"double"}, {"double*"}, {"double*"}
 
 
 class Function(NamedTuple):
-    """Where a function is, what keeps it there, and how it gets into another process."""
+    """The address of a function, what must be kept alive with it, and how another process finds the same function."""
 
     address: int
     keep: Any
-    again: Any = None       # what `find` makes the same of, elsewhere
-    why_not: str = "a function pointer means nothing in another process; give the library's path and symbol"
+    origin: Any = None       # where another process finds the same function: InLibrary, InModule or FromPython, for `find`
+    why_no_origin: str = "a function pointer means nothing in another process; give the library's path and symbol"
 
 
 class InLibrary(NamedTuple):
-    """A symbol of a shared library that is to be what it was."""
+    """A symbol of a shared library whose content must not have changed."""
 
     path: str
     symbol: str
@@ -58,17 +58,17 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
     if symbol is not None:
         raise TypeError(f"symbol names a function of a library: with it, function must be the library's path, not {function!r}")
     if isinstance(function, InLibrary):
-        return _unchanged(function)
+        return _find_unchanged(function)
     if isinstance(function, InModule):
-        return find(_named(function.module, function.name), None, None)
+        return find(_imported(function.module, function.name), None, None)
     if isinstance(function, FromPython):
         import numba
 
         return find(numba.cfunc(numba_signature())(function.function), None, None)
-    for is_one, made in _SORTS:
-        if is_one(function):
-            check_version(version, "version", required=made is _address)
-            return made(function)
+    for is_of_kind, found in _KINDS_OF_POINTER:
+        if is_of_kind(function):
+            check_version(version, "version", required=found is _address)
+            return found(function)
     raise TypeError("function must be the path of a shared library, an address with its version, a function pointer of ctypes or "
                     f"cffi, a numba.cfunc, or a scipy.LowLevelCallable, not {function!r}")
 
@@ -91,8 +91,8 @@ _loaded: dict[str, ctypes.CDLL] = {}    # by digest
 def load_library(path: str | Path) -> ctypes.CDLL:
     """A shared library as it is on disk now; OSError where it is none.
 
-    It is loaded from a copy: from the same path, the system's loader gives back what it loaded before, whatever the file holds
-    meanwhile; and who overwrites a file that is loaded takes its memory away.
+    It is loaded from a copy for two reasons. From the same path, the system's loader returns what it loaded before, even if the
+    file has changed. And overwriting a file that is loaded changes the memory of this process.
     """
     path = Path(path).resolve()
     digest = digest_of(path)
@@ -147,17 +147,17 @@ def in_library(path: str | Path, symbol: Any) -> Function:
     return Function(address, library, InLibrary(str(path), symbol, digest))
 
 
-def _unchanged(there: InLibrary) -> Function:
-    found = in_library(there.path, there.symbol)
-    if found.again.digest != there.digest:
-        raise ValueError(f"{there.path} is not what it was when this system was made: its content has changed")
+def _find_unchanged(origin: InLibrary) -> Function:
+    found = in_library(origin.path, origin.symbol)
+    if found.origin.digest != origin.digest:
+        raise ValueError(f"{origin.path} is not what it was when this system was made: its content has changed")
     return found
 
 
 # ---- pointers ----
 
 
-def _typed(types: list[str], what: str) -> None:
+def _check_signature(types: list[str], what: str) -> None:
     """Refuses a function of other types: those of result and arguments."""
     result, *arguments = [re.sub(r"\bconst\b|\s", "", name) for name in types]
     fits = len(arguments) == len(ARGUMENTS) and all(name in allowed for name, allowed in zip(arguments, ARGUMENTS, strict=True))
@@ -207,7 +207,7 @@ def _c_name(kind: Any) -> str:
 def _from_ctypes(function: Any) -> Function:
     if function.argtypes is None:
         raise TypeError(f"set argtypes and restype of {function!r}, as of a {SIGNATURE}")
-    _typed([_c_name(kind) for kind in (function.restype, *function.argtypes)], "the ctypes function")
+    _check_signature([_c_name(kind) for kind in (function.restype, *function.argtypes)], "the ctypes function")
     address = ctypes.cast(function, ctypes.c_void_p).value
     if not address:
         raise ValueError("the ctypes function is a null pointer")
@@ -218,7 +218,7 @@ def _from_cffi(function: Any) -> Function:
     kind = ffi.typeof(function)
     if kind.kind != "function":
         raise TypeError(f"the cffi object is a {kind.cname}, and must be a pointer to a function {SIGNATURE}")
-    _typed([part.cname for part in (kind.result, *kind.args)], "the cffi function")
+    _check_signature([part.cname for part in (kind.result, *kind.args)], "the cffi function")
     if not function:
         raise ValueError("the cffi function is a null pointer")
     return Function(int(ffi.cast("intptr_t", function)), function)
@@ -228,12 +228,12 @@ def _from_numba(function: Any) -> Function:
     signature = function._sig
     names = [_numba_name(kind) for kind in (signature.return_type, *signature.args)]
     try:
-        _typed(names, "the numba.cfunc")
+        _check_signature(names, "the numba.cfunc")
     except TypeError as error:
         raise TypeError(f"{error}; zerodrift.numba_signature() is that for numba") from None
-    again = _numba_elsewhere(function)
-    why_not = "numba would have to find its Python function at the top of a module"
-    return Function(function.address, function, again, why_not)
+    origin = _numba_origin(function)
+    why_no_origin = "numba would have to find its Python function at the top of a module"
+    return Function(function.address, function, origin, why_no_origin)
 
 
 def _numba_name(kind: Any) -> str:
@@ -244,11 +244,11 @@ def _numba_name(kind: Any) -> str:
     return {"int32": "int", "float64": "double", "none": "void", "voidptr": "void*"}.get(str(kind), str(kind))
 
 
-def _numba_elsewhere(function: Any) -> Any:
-    """How another process gets the same: by importing it, or by compiling what it was made of."""
+def _numba_origin(function: Any) -> Any:
+    """How another process gets the same function: by importing it, or by compiling the Python function again."""
     python = function.__wrapped__
     try:
-        found = _named(python.__module__, python.__qualname__)
+        found = _imported(python.__module__, python.__qualname__)
     except (ImportError, AttributeError):
         return None
     if found is function:
@@ -256,7 +256,7 @@ def _numba_elsewhere(function: Any) -> Any:
     return FromPython(python) if found is python else None
 
 
-def _named(module: str, name: str) -> Any:
+def _imported(module: str, name: str) -> Any:
     found = importlib.import_module(module)
     for part in name.split("."):
         found = getattr(found, part)
@@ -275,7 +275,7 @@ def numba_signature() -> Any:
 
 def _from_scipy(function: Any) -> Function:
     types = re.fullmatch(r"\s*(.*?)\s*\((.*)\)\s*", function.signature)
-    _typed([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
+    _check_signature([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
     if function.user_data is not None:
         raise ValueError("the LowLevelCallable has user_data: what the function is handed are the parameters")
     if _is_ctypes(function.function) or _is_cffi(function.function):
@@ -287,5 +287,5 @@ def _from_scipy(function: Any) -> Function:
     return Function(pointer(function.function, name(function.function)), function)
 
 
-_SORTS = ((_is_address, _address), (_is_ctypes, _from_ctypes), (_is_cffi, _from_cffi), (_is_numba, _from_numba),
+_KINDS_OF_POINTER = ((_is_address, _address), (_is_ctypes, _from_ctypes), (_is_cffi, _from_cffi), (_is_numba, _from_numba),
           (_is_scipy, _from_scipy))

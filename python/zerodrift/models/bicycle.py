@@ -48,7 +48,7 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     given = {"wheelbase": wheelbase, "centre": centre, "mass": mass, "inertia": inertia, "fork_mass": fork_mass,
              "fork_inertia": fork_inertia, "amplitude": amplitude, "frequency": frequency, "stiffness": stiffness,
              "damping": damping, "thrust": thrust}
-    w, b, m, J, m_fork, J_fork, far, often, k, c, F = sp.symbols(list(given))
+    w, b, m, J, m_fork, J_fork, swing, pace, k, c, F = sp.symbols(list(given))
 
     def direction(angle: sp.Expr) -> sp.Matrix:
         return sp.Matrix([sp.cos(angle), sp.sin(angle)])
@@ -63,7 +63,7 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
         coordinates,
         kinetic=(m * middle.diff(t).dot(middle.diff(t)) + J * yaw.diff(t)**2
                  + m_fork * front.diff(t).dot(front.diff(t)) + J_fork * (yaw + steer).diff(t)**2) / 2,
-        potential=k * (steer - far * sp.sin(often * t))**2 / 2,
+        potential=k * (steer - swing * sp.sin(pace * t))**2 / 2,
         force={x: F * heading[0], y: F * heading[1], steer: -c * steer.diff(t)},
         nonholonomic={"rear": sideways(rear, yaw), "front": sideways(front, yaw + steer)},
         parameters=given,

@@ -47,7 +47,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     """
     n = _check.count("links", links, least=3)
     length = _check.number("length", length, above=0)
-    half = n // 2 + (n // 2 - n + 1) % 2        # of the other parity than n, and so than any sum of n times plus or minus one
+    # A sum of n terms of plus or minus one is odd where n is. As `half` is not, the links cannot all line up with the pins.
+    half = n // 2 + (n // 2 - n + 1) % 2
     span = half * length if span is None else _check.number("span", span, above=0)
     if span >= n * length:
         raise ValueError(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}")

@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from .. import plot
 from ..runs.diagnosis import unwarned
@@ -19,7 +20,7 @@ COST_STEPS = (0.1, 0.05, 0.025, 0.0125, 0.00625, 0.003125)   # s
 REPETITIONS = 15        # of each timed run; the fastest counts
 
 
-def figure_4(fine: Solution) -> plot.Figure:
+def figure_4(fine: Solution) -> Figure:
     """The mechanism at the start, and positions it goes through."""
     figure, axes = plot.panels(1, 2, 9, 3.6, sharex=True, sharey=True)
     plot.mechanism(fine.system, ax=axes[0, 0])
@@ -40,7 +41,7 @@ def _name_links(ax: Any, system: Any) -> None:
     ax.annotate("$l_0$", points[[0, -1]].mean(axis=0) - np.array([0, 0.07]), ha="center", va="center")
 
 
-def figure_5(fine: Solution) -> plot.Figure:
+def figure_5(fine: Solution) -> Figure:
     """Position and velocity of link 1."""
     figure, axes = plot.panels(2, 1, 7, 5, sharex=True)
     plot.motion(fine, "alpha1", ax=axes[0, 0])
@@ -51,7 +52,7 @@ def figure_5(fine: Solution) -> plot.Figure:
     return figure
 
 
-def figure_6(runs: Runs) -> plot.Figure:
+def figure_6(runs: Runs) -> Figure:
     """Constraint violations in the four cases."""
     figure, axes = plot.panels(2, 2, 9, 6, sharex=True, sharey=True)
     for ax, (case, sol) in zip(axes.flat, runs.items(), strict=True):
@@ -67,7 +68,7 @@ def figure_6(runs: Runs) -> plot.Figure:
     return figure
 
 
-def figure_7(runs: Runs) -> plot.Figure:
+def figure_7(runs: Runs) -> Figure:
     """Energy violation and error of link 1 in the four cases."""
     figure, ((upper,), (lower,)) = plot.panels(2, 1, 9.5, 6.6, sharex=True)
     for style, (case, sol) in zip(STYLES, runs.items(), strict=True):
@@ -79,7 +80,7 @@ def figure_7(runs: Runs) -> plot.Figure:
     return figure
 
 
-def figure_8(runs: Runs) -> plot.Figure:
+def figure_8(runs: Runs) -> Figure:
     """Energy violation and error of the oscillator; last the remark on equal steps."""
     figure, ((energy,), (printed,), (equal,)) = plot.panels(3, 1, 8, 8, sharex=True)
     a, b, c, same_step = runs
@@ -99,7 +100,7 @@ def figure_8(runs: Runs) -> plot.Figure:
     return figure
 
 
-def figure_9(runs: Runs) -> plot.Figure:
+def figure_9(runs: Runs) -> Figure:
     """Errors in kinetic, potential and total energy of the oscillator."""
     figure, axes = plot.panels(1, 3, 11, 3.8, sharex=True, sharey=True)
     for ax, (case, sol) in zip(axes.flat, list(runs.items())[:3], strict=True):
@@ -133,7 +134,7 @@ def _cost(repetitions: list[Solution]) -> tuple[float, float]:
     return milliseconds, largest(link_1_error(sol)) if sol.success else np.nan
 
 
-def figure_of_costs(runs: Runs, measured: dict[str, np.ndarray]) -> plot.Figure:
+def figure_of_costs(runs: Runs, measured: dict[str, np.ndarray]) -> Figure:
     """The paper's point in two panels: what the four cases violate, and what accuracy costs."""
     figure, ((left, right),) = plot.panels(1, 2, 10, 4.2)
     for marker, (case, sol) in zip("os^D", runs.items(), strict=True):
@@ -154,7 +155,7 @@ def _with_step(case: str, sol: Solution) -> str:
     return f"{case}, {sol.settings['step']:g} s"
 
 
-def _one_legend(figure: plot.Figure, *axes: Any) -> None:
+def _one_legend(figure: Figure, *axes: Any) -> None:
     """One legend above the axes, of the lines of the first, instead of one in each."""
     if any(line.get_marker() == "v" for ax in axes for line in ax.lines):
         axes[0].plot([], [], "v", color="grey", markersize=5, markeredgewidth=0, label="exactly 0")

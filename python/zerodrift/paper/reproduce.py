@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .. import plot
+from matplotlib.figure import Figure
+
 from ..runs.simulate import simulate
 from . import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, claims, figures, run
 
@@ -12,7 +13,7 @@ FORMATS = ("png", "svg")
 DPI = 150
 
 
-def compute() -> tuple[dict[str, plot.Figure], list[claims.Claim]]:
+def compute() -> tuple[dict[str, Figure], list[claims.Claim]]:
     """All figures by the name of their file, and all claims."""
     fine = simulate(FOUR_BAR.system, FOUR_BAR.end, **FOUR_BAR_REFERENCE)
     bar, oscillator = run(FOUR_BAR), run(OSCILLATOR)

@@ -16,8 +16,8 @@ from ..systems.base import BaseSystem
 from .style import COLOURS
 
 COLOUR = COLOURS[0]
-GHOSTS = 9      # positions in the drawing of a motion
-JOINTS = 12     # a drawing of more points is taken for curves, not for links with joints
+FAINT_POSITIONS = 9      # positions in the drawing of a motion
+JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
 
 
 def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None) -> Axes:
@@ -54,18 +54,18 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     moving = isinstance(system_or_solution, Solution) and p is None
     system = system_or_solution.system if isinstance(system_or_solution, Solution) else system_or_solution
     if moving:
-        rows = np.unique(np.linspace(0, len(system_or_solution.t) - 1, GHOSTS).round().astype(int))
+        rows = np.unique(np.linspace(0, len(system_or_solution.t) - 1, FAINT_POSITIONS).round().astype(int))
         positions = system_or_solution.p[rows]
     else:
         positions = [system.p0 if p is None else p]
     drawings = _drawings(system, positions)
     ax = _drawing_axes(ax, drawings.shape[2])
     for points in drawings[:0:-1]:
-        ax.plot(*points.T, _marked(points), color=COLOUR, alpha=0.25, linewidth=1.2, markersize=2.5)
+        ax.plot(*points.T, _line_format(points), color=COLOUR, alpha=0.25, linewidth=1.2, markersize=2.5)
     _links(ax, drawings[0])
     if moving:
-        ax.plot(*_resting(drawings).T, "s", color="black", markersize=7, zorder=3)
-    return _equal(ax)
+        ax.plot(*_fixed_points(drawings).T, "s", color="black", markersize=7, zorder=3)
+    return _with_equal_scales(ax)
 
 
 def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0) -> FuncAnimation:
@@ -107,7 +107,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     ax = _drawing_axes(ax, drawings.shape[2])
     line = _links(ax, drawings[0])
     _set_limits(ax, drawings)
-    _equal(ax)
+    _with_equal_scales(ax)
     title = ax.set_title("", fontsize="medium")
 
     def show(frame: int) -> tuple[Any, ...]:
@@ -129,15 +129,15 @@ def _drawings(system: BaseSystem, positions: Any) -> np.ndarray:
 
 def _links(ax: Axes, points: np.ndarray) -> Any:
     """The mechanism as one line."""
-    (line,) = ax.plot(*points.T, _marked(points), color=COLOUR, linewidth=2.5, markersize=6, solid_capstyle="round")
+    (line,) = ax.plot(*points.T, _line_format(points), color=COLOUR, linewidth=2.5, markersize=6, solid_capstyle="round")
     return line
 
 
-def _marked(points: np.ndarray) -> str:
+def _line_format(points: np.ndarray) -> str:
     return "o-" if len(points) <= JOINTS else "-"
 
 
-def _resting(drawings: np.ndarray) -> np.ndarray:
+def _fixed_points(drawings: np.ndarray) -> np.ndarray:
     """The points (n, dimension) that are in the same place in all drawings."""
     size = (np.nanmax(drawings, axis=(0, 1)) - np.nanmin(drawings, axis=(0, 1))).max()
     return drawings[0][np.ptp(drawings, axis=0).max(axis=1) <= 1e-6 * size]
@@ -153,7 +153,7 @@ def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
     return ax
 
 
-def _equal(ax: Axes) -> Axes:
+def _with_equal_scales(ax: Axes) -> Axes:
     """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn."""
     ax.set_aspect("equal", adjustable="box")
     return ax

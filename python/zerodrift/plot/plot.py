@@ -224,8 +224,8 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     units = _style.units(variables)
     for column, variable in zip(values.T, variables, strict=True):
         _style.line(ax, sol.t, column, log, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
-    of = f" of {_style.labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
-    return _style.finished(ax, ("|error|" if log else "error") + of, legend=len(variables) > 1 or "label" in style)
+    subject = f" of {_style.labelled(variables[0])}" if len(variables) == 1 else f" [{', '.join(units)}]"
+    return _style.finished(ax, ("|error|" if log else "error") + subject, legend=len(variables) > 1 or "label" in style)
 
 
 def _require_energy(sol: Solution) -> None:
@@ -260,8 +260,8 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and row.error > 0]
-    integrators = _assigned((row.setting.integrator for row in result.rows), COLOURS)
-    variants = _assigned((_variant(row.setting) for row in result.rows), MARKERS)
+    integrators = _assign((row.setting.integrator for row in result.rows), COLOURS)
+    variants = _assign((_variant(row.setting) for row in result.rows), MARKERS)
     for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
         times, errors, first, *_ = _curve(rows)
         ax.plot(times, errors, "--" if first.tolerance else "-", color=integrators[first.integrator], linewidth=1, alpha=0.6,
@@ -308,14 +308,14 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     axes = np.atleast_1d(axes)
     scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)
     for ax, way in zip(axes, result.rows, strict=True):
-        drawn = _map(ax, result.steps, result.values, result.error(way), scale)
+        drawn = _draw_cells(ax, result.steps, result.values, result.error(way), scale)
         ax.set(title=way, xlabel="step [s]")
     axes[0].set_ylabel(result.parameter)
     axes[0].figure.colorbar(drawn, ax=list(axes), label="max |p - reference|")
     return axes
 
 
-def _map(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogNorm) -> Any:
+def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogNorm) -> Any:
     """Cells around (x, y) on logarithmic scales, crossed out where there is no value."""
     ax.set_xscale("log")
     ax.set_yscale("log" if (y > 0).all() else "linear")
@@ -328,13 +328,13 @@ def _map(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogN
 
 
 def _edges(centres: np.ndarray) -> np.ndarray:
-    """Of cells: halfway between their centres, geometrically where these are positive."""
-    there, back = (np.log, np.exp) if (centres > 0).all() else (np.asarray, np.asarray)
+    """The edges of cells halfway between their centres, geometrically where all centres are positive."""
+    forward, inverse = (np.log, np.exp) if (centres > 0).all() else (np.asarray, np.asarray)
     if len(centres) == 1:
-        return back(there(centres)[0] + np.array([-0.1, 0.1]))
-    middle = there(centres)[:-1] + np.diff(there(centres)) / 2
-    first, last = there(centres)[[0, -1]] * 2 - middle[[0, -1]]
-    return back(np.concatenate([[first], middle, [last]]))
+        return inverse(forward(centres)[0] + np.array([-0.1, 0.1]))
+    middle = forward(centres)[:-1] + np.diff(forward(centres)) / 2
+    first, last = forward(centres)[[0, -1]] * 2 - middle[[0, -1]]
+    return inverse(np.concatenate([[first], middle, [last]]))
 
 
 def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:
@@ -344,11 +344,11 @@ def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:
 
 
 def _variant(setting: Setting) -> str:
-    """Formulation and corrections, in words; projection is what goes without saying."""
+    """Formulation and corrections, in words; projection is not mentioned, as it is the default."""
     other = setting.stabilization != Projection()
     return setting.formulation + (f", {setting.stabilization}" if other else "") + (", energy" if setting.energy else "")
 
 
-def _assigned(names: Iterable[str], to: Sequence[str]) -> dict[str, str]:
+def _assign(names: Iterable[str], to: Sequence[str]) -> dict[str, str]:
     """Colours or markers by name, in order of appearance."""
     return dict(zip(dict.fromkeys(names), itertools.cycle(to), strict=False))

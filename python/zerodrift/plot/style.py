@@ -63,11 +63,11 @@ def line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -
 def log_line(ax: Axes, t: np.ndarray, magnitude: np.ndarray, **style: Any) -> None:
     """A line on a logarithmic scale: zeros as triangles on the lower edge, values between two zeros as dots."""
     ax.set_yscale("log")
-    there = np.isfinite(magnitude) & (magnitude > 0)
-    (values,) = ax.plot(t, np.where(there, magnitude, np.nan), **style)
-    beside = np.concatenate([[False], there[:-1]]) | np.concatenate([there[1:], [False]])
-    alone, zero = there & ~beside, magnitude == 0
-    ax.plot(t[alone], magnitude[alone], ".", color=values.get_color(), markersize=3)
+    positive = np.isfinite(magnitude) & (magnitude > 0)
+    (values,) = ax.plot(t, np.where(positive, magnitude, np.nan), **style)
+    has_neighbour = np.concatenate([[False], positive[:-1]]) | np.concatenate([positive[1:], [False]])
+    isolated, zero = positive & ~has_neighbour, magnitude == 0
+    ax.plot(t[isolated], magnitude[isolated], ".", color=values.get_color(), markersize=3)
     if zero.any():
         ax.plot(t[zero], np.zeros(zero.sum()), "v", transform=ax.get_xaxis_transform(), clip_on=False,
                 color=values.get_color(), markersize=4, markeredgewidth=0, zorder=3)

@@ -16,7 +16,7 @@ class Keyboard:
     """
 
     def __init__(self, *breakable: CodeType) -> None:
-        self.pressed, self._breakable, self._ours = False, breakable, False
+        self.pressed, self._breakable, self._handles_signal = False, breakable, False
 
     def _press(self, number: int, frame: FrameType | None) -> None:
         self.pressed = True
@@ -29,11 +29,11 @@ class Keyboard:
         if (threading.current_thread() is threading.main_thread()
                 and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
             signal.signal(signal.SIGINT, self._press)
-            self._ours = True
+            self._handles_signal = True
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: Any) -> None:
-        if self._ours:
+        if self._handles_signal:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         if error is not None and self.pressed and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt from error

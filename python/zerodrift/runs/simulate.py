@@ -150,7 +150,7 @@ def simulate(
         on_singular=on_singular)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events)
-    p0, v0 = system._start(p0, v0)
+    p0, v0 = system._state_or_start(p0, v0)
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:

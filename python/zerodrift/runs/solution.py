@@ -100,14 +100,16 @@ class Solution:
                     array.flags.writeable = False
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Solution, tuple(getattr(self, field.name) for field in fields(self))     # copies are read-only, too
+        # Copies and pickles are made by __init__, so that their arrays are read-only, too.
+        return Solution, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
         s, stats = self.settings, self.stats
         steps = max(1, stats["steps"])
         lines = [
-            f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._reached:g} s, {self.message}",
-            f"  how        {s['formulation']}, {s['integrator']}, {_steps(s)}, "
+            f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._last_time:g} s, "
+            f"{self.message}",
+            f"  how        {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
             f"{s['stabilization'] or 'no stabilization'}" + (f", {s['energy']}" if s["energy"] else ""),
             f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
@@ -157,11 +159,11 @@ class Solution:
             raise ValueError("values between rows need every step saved: save_every=1, and no t_eval")
         if times.size and not (self.t[0] <= times.min() and times.max() <= self.t[-1]):
             raise ValueError(f"t must be between {self.t[0]:g} and {self.t[-1]:g}, not {t!r}")
-        states = [self._at(moment) for moment in times.ravel()]
+        states = [self._state_at(moment) for moment in times.ravel()]
         p, v = (np.array([state[i] for state in states]).reshape(*times.shape, -1) for i in (0, 1))
         return p, v
 
-    def _at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+    def _state_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         row = int(np.searchsorted(self.t, t, side="right")) - 1
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
@@ -170,7 +172,7 @@ class Solution:
         return p, v
 
     @property
-    def _reached(self) -> float:
+    def _last_time(self) -> float:
         return float(self.t[-1]) if len(self.t) else self.t_span[0]
 
     def save(self, path: str | Path) -> Path:
@@ -190,13 +192,13 @@ class Solution:
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
         values = {field.name: getattr(self, field.name) for field in fields(self)}
         arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
-        rest = {name: value for name, value in values.items() if name not in arrays}
+        description = {name: value for name, value in values.items() if name not in arrays}
         for name in EVENTS:
             arrays |= {f"{name}.{i}": array for i, array in enumerate(values[name] or ())}
-            rest[name] = None if values[name] is None else len(values[name])
-        rest["system"] = self.system._described()
-        rest["settings"] = {name: _plain(value) for name, value in self.settings.items()}
-        np.savez_compressed(path, zerodrift=np.array(json.dumps(rest)), **arrays)
+            description[name] = None if values[name] is None else len(values[name])
+        description["system"] = self.system._described()
+        description["settings"] = {name: _to_json(value) for name, value in self.settings.items()}
+        np.savez_compressed(path, zerodrift=np.array(json.dumps(description)), **arrays)
         return path
 
 
@@ -217,23 +219,23 @@ def load(path: str | Path) -> Solution:
     >>> bool((again.p == sol.p).all())
     True
     """
-    arrays = _arrays(path)
+    arrays = _read_arrays(path)
     if "zerodrift" not in arrays:
         raise ValueError(f"{path} is no solution saved by zerodrift")
-    rest = json.loads(str(arrays.pop("zerodrift")))
-    rest["t_span"] = tuple(rest["t_span"])
+    description = json.loads(str(arrays.pop("zerodrift")))
+    description["t_span"] = tuple(description["t_span"])
     for name in EVENTS:
-        if (count := rest.get(name)) is not None:
-            rest[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
-    rest["system"] = _restored_system(rest["system"])
-    rest["settings"] = {name: _restored(value) for name, value in rest["settings"].items()}
-    return Solution(**arrays, **rest)
+        if (count := description.get(name)) is not None:
+            description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
+    description["system"] = _restored_system(description["system"])
+    description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
+    return Solution(**arrays, **description)
 
 
-def _arrays(path: str | Path) -> dict[str, np.ndarray]:
-    """What an NPZ file holds; nothing, if it is none."""
+def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
+    """The arrays of an NPZ file; none where it is another kind of file."""
     with open(path, "rb") as file:
-        if file.read(2) != b"PK":       # any ZIP file; others NumPy would try to read in other ways
+        if file.read(2) != b"PK":       # of any ZIP file; NumPy would try to read other files in other ways
             return {}
     with np.load(path, allow_pickle=False) as file:
         return dict(file)
@@ -242,14 +244,14 @@ def _arrays(path: str | Path) -> dict[str, np.ndarray]:
 _SETTINGS = {cls.__name__: cls for cls in (*STABILIZATIONS.values(), EnergyCorrection)}
 
 
-def _plain(value: Any) -> Any:
+def _to_json(value: Any) -> Any:
     """A setting as JSON."""
     if type(value).__name__ in _SETTINGS:
         return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def _restored(value: Any) -> Any:
+def _from_json(value: Any) -> Any:
     if isinstance(value, dict):
         return _SETTINGS[value.pop("kind")](**value)
     return np.array(value) if isinstance(value, list) else value
@@ -282,7 +284,7 @@ def _duration(seconds: float) -> str:
     return f"{1e6 * seconds:.3g} us"
 
 
-def _steps(settings: dict[str, Any]) -> str:
+def _step_sizes(settings: dict[str, Any]) -> str:
     if settings["step"] is None:
         return f"rtol {settings['rtol']:g}, atol {settings['atol']:g}"
     return f"step {settings['step']:g} s"

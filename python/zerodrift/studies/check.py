@@ -78,7 +78,7 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     >>> bool(zd.check(zd.systems.four_bar()))
     True
     """
-    p, v = system._start(p, v, "p", "v")
+    p, v = system._state_or_start(p, v, "p", "v")
     t, problems, names, states = _check.number("t", t), {}, {}, 0
     for p_now, v_now in [(p, v), *_samples(system, p, v, t, _check.count("samples", samples, least=0), seed)]:
         states += 1
@@ -102,7 +102,7 @@ class _State:
         """A v, (1)."""
         return v if self.terms.A is None else self.terms.A @ v
 
-    def along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, tdot: float = 0.0) -> Any:
+    def derivative_along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, tdot: float = 0.0) -> Any:
         """The derivative of quantity(terms, v) in the direction (tdot, pdot)."""
         size = max(np.abs(pdot).max(initial=0.0), abs(tdot), 1e-300)
         h = STEP / size * max(1.0, np.abs(self.p).max(initial=0.0))
@@ -175,9 +175,9 @@ def _jacobian(state: _State) -> Iterator[tuple[str, str]]:
     terms, mh = state.terms, state.system.mh
     if not mh:
         return
-    columns = [state.along(lambda at, v: at.Phi, pdot=state.rate(unit)) for unit in np.eye(state.system.nv)]
+    columns = [state.derivative_along(lambda at, v: at.Phi, pdot=state.rate(unit)) for unit in np.eye(state.system.nv)]
     yield "jacobian", _disagreement(terms.C[:mh], np.stack(columns, axis=1), "C is not dPhi/dp A")
-    Phi_t = state.along(lambda at, v: at.Phi, tdot=1.0)
+    Phi_t = state.derivative_along(lambda at, v: at.Phi, tdot=1.0)
     given = np.zeros(mh) if terms.Phi_t is None else terms.Phi_t[:mh]
     yield "time derivative of constraints", _disagreement(given, Phi_t, "Phi_t is not dPhi/dt")
 
@@ -185,7 +185,7 @@ def _jacobian(state: _State) -> Iterator[tuple[str, str]]:
 def _xi(state: _State) -> Iterator[tuple[str, str]]:
     if state.terms.xi is None:
         return
-    Psi_rate = state.along(_velocity_violation, pdot=state.pdot, tdot=1.0)
+    Psi_rate = state.derivative_along(_velocity_violation, pdot=state.pdot, tdot=1.0)
     yield "xi", _disagreement(state.terms.xi, -Psi_rate, "xi is not what C vdot has to be")
 
 
@@ -215,13 +215,13 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
     given = 0.0 if terms.power is None else float(terms.power)
     moving = 0.0 if terms.Phi_t is None else float(multipliers @ terms.Phi_t)
     reaction = float(-multipliers @ (terms.C @ v)) if terms.C is not None else 0.0      # as v may be off the constraints
-    rate = float(state.along(lambda at, v: 0.5 * v @ at.M @ v + at.V, pdot=state.pdot, tdot=1.0) + v @ terms.M @ vdot)
+    rate = float(state.derivative_along(lambda at, v: 0.5 * v @ at.M @ v + at.V, pdot=state.pdot, tdot=1.0) + v @ terms.M @ vdot)
     scale = max(abs(float(v @ f)), abs(float(v @ d)), abs(given), abs(moving), abs(reaction), 1e-3)
     if abs(rate - given - reaction) <= AGREE * scale:
         yield "balance of power", ""
         return
-    V_rate = float(state.along(lambda at, v: at.V, pdot=state.pdot, tdot=1.0))
-    T_rate = 0.5 * float(state.along(lambda at, v: v @ at.M @ v, pdot=state.pdot, tdot=1.0))
+    V_rate = float(state.derivative_along(lambda at, v: at.V, pdot=state.pdot, tdot=1.0))
+    T_rate = 0.5 * float(state.derivative_along(lambda at, v: v @ at.M @ v, pdot=state.pdot, tdot=1.0))
     halves = [_disagreement(v @ f, given - V_rate, "v . force is not power - dV/dt"),
               _disagreement(v @ d, T_rate, "v . bias is not the rate of v . M v / 2 at fixed v")]
     yield "balance of power", "; ".join(half for half in halves if half) or (

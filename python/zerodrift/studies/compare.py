@@ -93,22 +93,22 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
 def states_of(reference: Solution | Reference | Callable[[float], Any], times: np.ndarray, nq: int) -> np.ndarray:
     """What a reference says at each of the times: p and v (k, nq + nv), or p (k, nq) if it is a callable."""
     if isinstance(reference, Reference):
-        return _between(reference.solution, times)
+        return _interpolated(reference.solution, times)
     if isinstance(reference, Solution):
         return _states(reference)[_rows_at(reference.t, times)]
     if not callable(reference):
         raise TypeError(f"reference must be a Reference, a Solution or a callable t -> p, not {reference!r}")
-    return _called(reference, times, nq)
+    return _evaluated(reference, times, nq)
 
 
-def _between(solution: Solution, times: np.ndarray) -> np.ndarray:
-    """Rows where there are any, and values between rows where every step was saved."""
+def _interpolated(solution: Solution, times: np.ndarray) -> np.ndarray:
+    """The rows at these times; where every step was saved, values between rows, too."""
     if "t_eval" in solution.settings:
         return _states(solution)[_rows_at(solution.t, times)]
     states = _states(solution)[nearest(solution.t, times)]
-    apart = _apart(solution.t, times)
-    if apart.any():
-        states[apart] = np.hstack(solution(times[apart]))
+    without_row = _have_no_row(solution.t, times)
+    if without_row.any():
+        states[without_row] = np.hstack(solution(times[without_row]))
     return states
 
 
@@ -116,7 +116,7 @@ def _states(solution: Solution) -> np.ndarray:
     return np.hstack([solution.p, solution.v])
 
 
-def _called(reference: Callable[[float], Any], times: np.ndarray, size: int) -> np.ndarray:
+def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) -> np.ndarray:
     """What a callable says at each of the times, (k, size)."""
     exact = np.empty((len(times), size))
     for row, t in zip(exact, times, strict=True):
@@ -138,13 +138,13 @@ def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """The rows of `times` that have the times wanted."""
     if not len(times):
         raise ValueError("the reference solution has no rows")
-    missing = _apart(times, wanted)
+    missing = _have_no_row(times, wanted)
     if missing.any():
         raise ValueError(f"the reference has no row at t = {wanted[missing][0]:g} s; "
                          "its times must contain the solution's")
     return nearest(times, wanted)
 
 
-def _apart(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Which of the times wanted are none of `times`."""
+def _have_no_row(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Which of the times wanted are not among `times`."""
     return np.abs(times[nearest(times, wanted)] - wanted) > SAME_TIME * np.maximum(1, np.abs(wanted))

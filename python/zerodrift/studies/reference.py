@@ -21,13 +21,13 @@ from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem
 
-SAFETY = 10         # of the largest difference of two runs: rounding that all of them share is not seen in it
-STALLED = 4         # a halved step that divides the error by less than this may have met round-off ...
-STALLS = 2          # ... and so many of them have: one may be chance, as when an error passes through zero
-RESOLVED = 1e-2     # of the motion's size: with larger errors, steps are still too long for any order
+SAFETY = 10         # the certified error, in units of the largest difference: rounding that all runs share is not seen in that
+STALL_RATIO = 4     # halving the step has stalled where it divides the error by less than this, perhaps for round-off
+MOST_STALLS = 2     # refinement ends after so many stalls; a single one may be chance, as where an error passes through zero
+RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
 PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
-REFINEMENTS = 12    # doublings of that number, at most
-SPACING = 4 * np.finfo(float).eps       # of the motion's size: a smaller error cannot even be written down
+REFINEMENTS = 12    # the largest number of times that this number of steps is doubled
+SPACING = 4 * np.finfo(float).eps       # part of the motion's size; doubles cannot express a smaller error
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,7 +128,7 @@ def reference(
     """
     span = _check.span(t_span)
     wanted = None if error is None else _check.number("error", error, above=0)
-    first, second = _different(formulations)
+    first, second = _two_formulations(formulations)
     method = max(settings.integrators().values(), key=lambda card: card.order).name
     options = {"integrator": method, "stabilization": stabilization}
     with unwarned():
@@ -142,7 +142,7 @@ def reference(
         return simulate(system, span, p0, v0, step=(span[1] - span[0]) / steps, formulation=formulation, t_eval=t_eval,
                         **options)
 
-    found = _refined(run, probe.stats["steps"], wanted, size, (first, second), 2 if t_eval is None else 1)
+    found = _refine(run, probe.stats["steps"], wanted, size, (first, second), 2 if t_eval is None else 1)
     if wanted is not None and not found.error <= wanted:
         raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: the difference between runs stops falling at "
                                    "round-off and at the tolerance of corrections, which this motion multiplies; what can be "
@@ -150,7 +150,7 @@ def reference(
     return found
 
 
-def _different(formulations: Any) -> tuple[str, str]:
+def _two_formulations(formulations: Any) -> tuple[str, str]:
     names = tuple(formulations)
     if len(names) != 2 or names[0] == names[1]:
         raise ValueError(f"formulations must be two different formulations, not {formulations!r}")
@@ -159,20 +159,20 @@ def _different(formulations: Any) -> tuple[str, str]:
     return names
 
 
-def _refined(run, steps, wanted, size, formulations, stride) -> Reference:
+def _refine(run, steps, wanted, size, formulations, stride) -> Reference:
     """Halve the step until the error is certified, or does not fall any more."""
-    best, before, coarse, stalls = None, math.inf, None, 0
+    best, previous, coarse, stalls = None, math.inf, None, 0
     for _ in range(REFINEMENTS):
         fine = _attempt(run, steps, formulations[0])
         if fine and coarse:
-            found = _certified(run, steps, fine, coarse, formulations, stride)
+            found = _certify(run, steps, fine, coarse, formulations, stride)
             best = found if best is None or found.error < best.error else best
             if wanted is not None and best.error <= wanted:
                 return best
-            stalls += found.error * STALLED > before and found.error < RESOLVED * size
-            if stalls == STALLS:
+            stalls += found.error * STALL_RATIO > previous and found.error < RESOLVED * size
+            if stalls == MOST_STALLS:
                 return best
-            before = found.error
+            previous = found.error
         coarse, steps = fine, 2 * steps
     if best is None or best.error > RESOLVED * size:
         raise UnreachableTolerance(f"no error can be certified: runs still differ with {steps // 2} steps; the motion takes "
@@ -180,7 +180,7 @@ def _refined(run, steps, wanted, size, formulations, stride) -> Reference:
     return best
 
 
-def _certified(run, steps, fine, coarse, formulations, stride) -> Reference:
+def _certify(run, steps, fine, coarse, formulations, stride) -> Reference:
     """What the run of twice the step and that of the other formulation say."""
     differences = [_difference(steps, formulations[0], fine, coarse, stride),
                    _difference(steps, formulations[1], fine, _attempt(run, steps, formulations[1]), 1)]

@@ -54,13 +54,13 @@ class StabilityMap:
 
     def survived(self, way: str) -> np.ndarray:
         """Which runs of that way reached their end, (n, k)."""
-        return self._of(way, "success").astype(bool)
+        return self._column(way, "success").astype(bool)
 
     def error(self, way: str) -> np.ndarray:
         """``max |p - p_ref|`` of the runs of that way, (n, k); NaN where they did not reach their end."""
-        return self._of(way, "error").astype(float)
+        return self._column(way, "error").astype(float)
 
-    def _of(self, way: str, name: str) -> np.ndarray:
+    def _column(self, way: str, name: str) -> np.ndarray:
         rows = self.rows[_check.choice("way", way, self.rows)]
         return np.array([[getattr(row, name) for row in line] for line in rows])
 
@@ -141,7 +141,7 @@ def stability_map(
     combinations = {name: [_settings(name, way(value) if callable(way) else way, steps) for value in values]
                     for name, way in (WAYS if ways is None else ways).items()}
     label = parameter or ("gain α of Baumgarte's method [1/s]" if ways is None else "value")
-    known = max(bench.known for bench in benches)
+    reference_error = max(bench.reference_error for bench in benches)
     rows: dict[str, Any] = {}
     show, close = progress_of(progress)
     try:
@@ -149,11 +149,11 @@ def stability_map(
             rows[name] = _measured(benches, lines)
             show((done + 1) / len(combinations))
     except (KeyboardInterrupt, Interrupted):
-        partial = StabilityMap(label, values, steps, rows, known)
+        partial = StabilityMap(label, values, steps, rows, reference_error)
         raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} ways", partial) from None
     finally:
         close()
-    return StabilityMap(label, values, steps, rows, known)
+    return StabilityMap(label, values, steps, rows, reference_error)
 
 
 def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
@@ -177,9 +177,9 @@ def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple
 
 def _measured(benches: list[Bench], lines: list[tuple[Setting, ...]]) -> tuple[tuple[Row, ...], ...]:
     """A line of rows for each value; what does not depend on it is run once."""
-    known: dict[Any, tuple[Row, ...]] = {}
+    measured: dict[Any, tuple[Row, ...]] = {}
     for key in zip(benches, lines, strict=True):
-        if key not in known:
+        if key not in measured:
             bench, line = key
-            known[key] = bench.measure(line, 1).rows
-    return tuple(known[key] for key in zip(benches, lines, strict=True))
+            measured[key] = bench.measure(line, 1).rows
+    return tuple(measured[key] for key in zip(benches, lines, strict=True))

@@ -15,8 +15,8 @@ from ..systems.base import BaseSystem
 from . import reference as certified
 from .work_precision import Bench, Row, Setting, WorkPrecision, work_precision
 
-EXTENSIONS = 6      # finer steps than those of the first sweep, at most
-REFINEMENTS = 3     # a step is found to within the eighth root of the factor between those of the first sweep
+EXTENSIONS = 6      # the largest number of steps beyond those of the first sweep
+REFINEMENTS = 3     # each halves the logarithm of the factor between two neighbouring steps
 PROMISING = 8       # methods that are refined
 FACTOR = {False: 0.5, True: 0.1}        # to the next finer step, and tolerance
 
@@ -124,18 +124,18 @@ def tune(
 
 @dataclass(frozen=True)
 class _ReachError:
-    """In the least time. The coarsest step that does is sought."""
+    """Reach an error in the least time: the coarsest step that does so is sought."""
 
     error: float
-    finer = False
+    seeks_finest = False
 
-    def check(self, known: float) -> None:
-        if self.error <= known:
+    def check(self, reference_error: float) -> None:
+        if self.error <= reference_error:
             raise UnreachableTolerance(f"error = {self.error:g} is below round-off as this motion multiplies it: no solution of "
-                                       f"it is known to better than {known:.2g}")
+                                       f"it is known to better than {reference_error:.2g}")
 
-    def met(self, row: Row, known: float) -> bool:
-        return row.success and row.error + known <= self.error
+    def met(self, row: Row, reference_error: float) -> bool:
+        return row.success and row.error + reference_error <= self.error
 
     def cost(self, row: Row) -> float:
         return row.seconds
@@ -148,15 +148,15 @@ class _ReachError:
 
 @dataclass(frozen=True)
 class _KeepBudget:
-    """With the least error. The finest step that does is sought."""
+    """Keep a time with the least error: the finest step that does so is sought."""
 
     budget: float
-    finer = True
+    seeks_finest = True
 
-    def check(self, known: float) -> None:
+    def check(self, reference_error: float) -> None:
         """Any budget makes sense."""
 
-    def met(self, row: Row, known: float) -> bool:
+    def met(self, row: Row, reference_error: float) -> bool:
         return row.success and row.seconds <= self.budget
 
     def cost(self, row: Row) -> float:
@@ -189,21 +189,22 @@ class _Search:
     def extend(self) -> None:
         """As long as nothing meets the goal: the next step in the direction that is more likely to."""
         for _ in range(EXTENSIONS):
-            if self._met():
+            if self._rows_meeting_goal():
                 return
-            ends = [_sorted(rows)[-1 if not self.goal.finer else 0] for rows in self._methods()]
-            self._measure(_moved(row.setting, FACTOR[_chooses(row.setting)]**(-1 if self.goal.finer else 1)) for row in ends)
+            ends = [_from_coarse_to_fine(rows)[0 if self.goal.seeks_finest else -1] for rows in self._methods()]
+            sign = -1 if self.goal.seeks_finest else 1
+            self._measure(_scaled(row.setting, FACTOR[_chooses_steps(row.setting)]**sign) for row in ends)
 
     def refine(self) -> None:
         """Of the promising methods: ever closer to the last step that meets the goal."""
         for _ in range(REFINEMENTS):
-            candidates = [rows for rows in self._methods() if any(map(self._meets, rows))]
-            candidates.sort(key=lambda rows: min(self.goal.cost(row) for row in rows if self._meets(row)))
-            self._measure(self._between(rows) for rows in candidates[:PROMISING])
+            candidates = [rows for rows in self._methods() if any(map(self._meets_goal, rows))]
+            candidates.sort(key=lambda rows: min(self.goal.cost(row) for row in rows if self._meets_goal(row)))
+            self._measure(self._closer_to_goal(rows) for rows in candidates[:PROMISING])
 
     def best(self, rounds: int) -> Row:
         """Of those timed again."""
-        met = sorted(self._met(), key=self.goal.cost)
+        met = sorted(self._rows_meeting_goal(), key=self.goal.cost)
         if not met:
             raise self.goal.refusal(list(self.rows.values()))
         self._measure((row.setting for row in met[:PROMISING]), rounds)
@@ -211,7 +212,7 @@ class _Search:
 
     def evidence(self, rounds: int) -> WorkPrecision:
         rows = sorted(self.rows.values(), key=lambda row: (*map(str, row.setting.method), -_fineness(row.setting)))
-        return WorkPrecision(self.bench.system, self.bench.span, tuple(rows), self.bench.known, rounds)
+        return WorkPrecision(self.bench.system, self.bench.span, tuple(rows), self.bench.reference_error, rounds)
 
     def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
         """The same with all rows, not only those being measured."""
@@ -219,14 +220,15 @@ class _Search:
         self.rows |= {row.setting: row for row in latest.rows} if latest else {}
         return Interrupted(str(interruption), dataclasses.replace(self.evidence(rounds), complete=False))
 
-    def _between(self, rows: list[Row]) -> Setting:
-        """Between the last that meets the goal and its neighbour that does not; beyond, if there is none."""
-        ordered = _sorted(rows) if self.goal.finer else _sorted(rows)[::-1]     # from those that meet it to the others
-        last = max(place for place, row in enumerate(ordered) if self._meets(row))
+    def _closer_to_goal(self, rows: list[Row]) -> Setting:
+        """A step between the last that meets the goal and the next that does not; if all meet it, one beyond the last."""
+        ordered = _from_coarse_to_fine(rows)        # or the other way: what meets the goal comes first
+        ordered = ordered if self.goal.seeks_finest else ordered[::-1]
+        last = max(place for place, row in enumerate(ordered) if self._meets_goal(row))
         setting = ordered[last].setting
         if last + 1 < len(ordered):
-            return _moved(setting, math.sqrt(_fineness(ordered[last + 1].setting) / _fineness(setting)))
-        return _moved(setting, FACTOR[_chooses(setting)]**(1 if self.goal.finer else -1))
+            return _scaled(setting, math.sqrt(_fineness(ordered[last + 1].setting) / _fineness(setting)))
+        return _scaled(setting, FACTOR[_chooses_steps(setting)]**(1 if self.goal.seeks_finest else -1))
 
     def _measure(self, settings: Iterable[Setting], rounds: int = 1) -> None:
         self.rows |= {row.setting: row for row in self.bench.measure(list(settings), rounds).rows}
@@ -237,27 +239,27 @@ class _Search:
             methods.setdefault(row.setting.method, []).append(row)
         return list(methods.values())
 
-    def _meets(self, row: Row) -> bool:
-        return self.goal.met(row, self.bench.known)
+    def _meets_goal(self, row: Row) -> bool:
+        return self.goal.met(row, self.bench.reference_error)
 
-    def _met(self) -> list[Row]:
-        return [row for row in self.rows.values() if self._meets(row)]
+    def _rows_meeting_goal(self) -> list[Row]:
+        return [row for row in self.rows.values() if self._meets_goal(row)]
 
 
-def _chooses(setting: Setting) -> bool:
+def _chooses_steps(setting: Setting) -> bool:
     return setting.tolerance is not None
 
 
 def _fineness(setting: Setting) -> float:
-    return setting.tolerance if _chooses(setting) else setting.step
+    return setting.tolerance if _chooses_steps(setting) else setting.step
 
 
-def _moved(setting: Setting, factor: float) -> Setting:
+def _scaled(setting: Setting, factor: float) -> Setting:
     """The same method with another step or tolerance."""
     value = factor * _fineness(setting)
-    return setting._replace(tolerance=max(value, FINEST_RTOL)) if _chooses(setting) else setting._replace(step=value)
+    return setting._replace(tolerance=max(value, FINEST_RTOL)) if _chooses_steps(setting) else setting._replace(step=value)
 
 
-def _sorted(rows: list[Row]) -> list[Row]:
+def _from_coarse_to_fine(rows: list[Row]) -> list[Row]:
     """From the coarsest to the finest."""
     return sorted(rows, key=lambda row: -_fineness(row.setting))

@@ -119,10 +119,10 @@ class WorkPrecision:
         Errors below the reference's own count as that.
         """
         front: list[Row] = []
-        known = np.nan_to_num(self.reference_error)
+        floor = np.nan_to_num(self.reference_error)
         done = (row for row in self.rows if row.success and np.isfinite(row.error))
         for row in sorted(done, key=lambda row: (row.seconds, row.error)):
-            if not front or max(row.error, known) < max(front[-1].error, known):
+            if not front or max(row.error, floor) < max(front[-1].error, floor):
                 front.append(row)
         return tuple(front)
 
@@ -246,7 +246,7 @@ def work_precision(
         Setting(formulation, integrator, *fineness, stabilization, corrected)
         for formulation, integrator, stabilization, corrected in itertools.product(
             formulations, integrators, stabilizations, energy)
-        for fineness in _finenesses(integrator, steps, tolerances)]
+        for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
     if not combinations:
         raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
     rounds = _check.count("rounds", rounds)
@@ -259,7 +259,7 @@ class Bench:
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any) -> None:
         self.system, self.span, self.start = system, span, (p0, v0)
-        self.known = reference.error if isinstance(reference, certified.Reference) else np.nan
+        self.reference_error = reference.error if isinstance(reference, certified.Reference) else np.nan
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
 
@@ -272,20 +272,20 @@ class Bench:
                 rows[setting] = self._row(setting, rows.get(setting))
                 show((done + 1) / (rounds * len(combinations)))
         except KeyboardInterrupt:
-            partial = WorkPrecision(self.system, self.span, tuple(rows.values()), self.known, rounds, complete=False)
+            partial = WorkPrecision(self.system, self.span, tuple(rows.values()), self.reference_error, rounds, complete=False)
             raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} rows", partial) from None
         finally:
             close()
-        return WorkPrecision(self.system, self.span, tuple(rows.values()), self.known, rounds)
+        return WorkPrecision(self.system, self.span, tuple(rows.values()), self.reference_error, rounds)
 
     def _row(self, setting: Setting, before: Row | None) -> Row:
         """A run measured; if it was before, only its time."""
         solution = self._run(setting)
         if before:
             return before._replace(seconds=min(before.seconds, solution.stats["seconds"]))
-        again = self._run(setting, t_eval=self._times) if solution.success else solution    # with what is known at these times
-        error = _largest(again.p - self._exact) if again.success else np.nan
-        return Row(setting, again.success, _message(again), solution.stats["seconds"], solution.stats["steps"],
+        resampled = self._run(setting, t_eval=self._times) if solution.success else solution    # at the times of the reference
+        error = _largest(resampled.p - self._exact) if resampled.success else np.nan
+        return Row(setting, resampled.success, _message(resampled), solution.stats["seconds"], solution.stats["steps"],
                    solution.stats["evaluations"], error,
                    *map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation)))
 
@@ -310,22 +310,22 @@ def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
 
 def _message(solution: Solution) -> str:
     skipped = solution.stats["energy_skipped"]
-    doubted = [sentence for category, sentence in doubts(solution) if category is StabilityWarning]
-    return "; ".join([solution.message, *([f"{skipped} energy corrections left out"] if skipped else []), *doubted])
+    doubtful = [sentence for category, sentence in doubts(solution) if category is StabilityWarning]
+    return "; ".join([solution.message, *([f"{skipped} energy corrections left out"] if skipped else []), *doubtful])
 
 
 def _largest(values: np.ndarray | None) -> float:
     return float(np.abs(values).max()) if values is not None and values.size else np.nan
 
 
-def _names(table: str, known: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
+def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
     """Those chosen of a table, or all."""
     if isinstance(chosen, str):
         raise TypeError(f"{table} must be a list of names, not {chosen!r}")
-    return [_check.choice(table, name, known) for name in (known if chosen is None else chosen)]
+    return [_check.choice(table, name, available) for name in (available if chosen is None else chosen)]
 
 
-def _finenesses(integrator: str, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
+def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
     """Pairs (step, tolerance), one of them None."""
     chooses = settings.integrators()[integrator].error_order
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]

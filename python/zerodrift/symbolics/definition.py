@@ -40,14 +40,14 @@ class Definition:
             raise TypeError("either kinetic or mass is needed")
         if mass is None and bias is not None:
             raise TypeError("bias goes with mass; from kinetic it is derived")
-        self.meaning = dict(speeds) if isinstance(speeds, Mapping) else {}
+        self.speed_definitions = dict(speeds) if isinstance(speeds, Mapping) else {}
         self.speeds = self._speeds(speeds, kinematics)
         holonomic, names = _named(constraints, "constraint")
         rows, more = _named(nonholonomic, "nonholonomic")
         self.constraint_names = tuple(names + more)
         self.values, self._parameters = _parameters(parameters)
         self.expressions = {
-            "time": self.time, "coordinates": self.coordinates, "speeds": self.speeds, "meaning": self.meaning,
+            "time": self.time, "coordinates": self.coordinates, "speeds": self.speeds, "meaning": self.speed_definitions,
             "kinetic": kinetic, "potential": potential, "force": self._force(force, kinematics), "holonomic": holonomic,
             "nonholonomic": rows, "kinematics": self._kinematics(kinematics), "mass": _matrix("mass", mass),
             "bias": None if bias is None else list(bias), "points": [tuple(point) for point in points],
@@ -128,7 +128,7 @@ class Definition:
         A, pdot = None, v
         if e["kinematics"] is not None:
             pdot = each("kinematics", e["kinematics"], moving)
-            A = [[graph.along({u: graph.one})(row) for u in v] for row in pdot]
+            A = [[graph.derivative_along({u: graph.one})(row) for u in v] for row in pdot]
             self._check_kinematics(graph, A, pdot, v)
         moving |= {rate: node for rate, node in zip(self.rates, pdot, strict=True) if rate is not None and rate not in moving}
         given = Given(
@@ -165,16 +165,16 @@ class Definition:
             return dict(moving)
         rates = {rate: reader.graph.leaf("rate", i) for i, rate in enumerate(self.rates) if rate is not None}
         known = self.placed | rates
-        meaning = {u: reader.read(f"speed {u}", value, known) for u, value in self.meaning.items()}
-        used = {u for u in self.speeds if u not in meaning and sympy.sympify(self.expressions["kinetic"]).has(u)}
+        speed_definitions = {u: reader.read(f"speed {u}", value, known) for u, value in self.speed_definitions.items()}
+        used = {u for u in self.speeds if u not in speed_definitions and sympy.sympify(self.expressions["kinetic"]).has(u)}
         if used:
             raise ValueError(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
                              "coordinates, or say in the dict speeds what this speed is in terms of these")
-        return known | meaning
+        return known | speed_definitions
 
     @staticmethod
     def _check_kinematics(graph: Any, A: list[list[Node]], pdot: list[Node], v: list[Node]) -> None:
-        at_rest = graph.replaced(dict.fromkeys(v, graph.zero))
+        at_rest = graph.substitution(dict.fromkeys(v, graph.zero))
         for i, row in enumerate(A):
             if any(entry.stage >= MOVING for entry in row) or at_rest(pdot[i]) is not graph.zero:
                 raise ValueError(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")

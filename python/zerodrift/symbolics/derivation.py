@@ -48,7 +48,7 @@ class Derivation:
         self.v = [graph.leaf("v", i) for i in range(given.nv)]
         self.rate = self.v if given.A is None else [graph.leaf("rate", i) for i in range(given.nq)]
         self.pdot = self.v if given.A is None else [graph.dot(row, self.v) for row in given.A]
-        self.moving = graph.along({self.t: graph.one, **dict(zip(self.p, self.pdot, strict=True))})
+        self.moving = graph.derivative_along({self.t: graph.one, **dict(zip(self.p, self.pdot, strict=True))})
 
     def terms(self) -> dict[str, list[Node]]:
         """What there is of A, M, d, f, Phi, C, Phi_t, xi, V, power; what is zero throughout is left out where it may be."""
@@ -63,17 +63,18 @@ class Derivation:
 
     def _of_kinetic_energy(self) -> tuple[Matrix, list[Node]]:
         graph, A = self.graph, self.given.A
-        T = graph.spread(self.given.kinetic)
-        by_rate = [graph.along({r: graph.one}) for r in self.rate]
+        T = graph.multiplied_out(self.given.kinetic)
+        by_rate = [graph.derivative_along({r: graph.one}) for r in self.rate]
         momentum = [derivative(T) for derivative in by_rate]
         T_rr = [[by_rate[max(i, j)](momentum[min(i, j)]) for j in range(len(self.rate))] for i in range(len(self.rate))]
         if any(node.stage >= MOVING for row in T_rr for node in row):
             raise ValueError("kinetic must be quadratic in the velocities: its mass matrix depends on them")
-        turning = self._inertial()
-        d = [graph.plus(turning(momentum[i]), graph.minus(graph.along({p: graph.one})(T))) for i, p in enumerate(self.p)]
+        D = self._derivative_at_constant_v()
+        by_position = [graph.derivative_along({p: graph.one}) for p in self.p]
+        d = [graph.plus(D(moment), graph.minus(slope(T))) for moment, slope in zip(momentum, by_position, strict=True)]
         if A is None:
             return T_rr, d
-        at_v = graph.replaced(dict(zip(self.rate, self.pdot, strict=True)))
+        at_v = graph.substitution(dict(zip(self.rate, self.pdot, strict=True)))
         columns = _transposed(A)
         rows = [[graph.dot(T_rr_row, column) for column in columns] for T_rr_row in T_rr]
         upper = {(i, j): graph.plus(*(graph.times(column[k], rows[k][j]) for k in range(self.given.nq)))
@@ -81,20 +82,20 @@ class Derivation:
         M = [[upper[min(i, j), max(i, j)] for j in range(self.given.nv)] for i in range(self.given.nv)]
         return M, [graph.dot(column, map(at_v, d)) for column in columns]
 
-    def _inertial(self):
-        """D of what depends on rates."""
+    def _derivative_at_constant_v(self):
+        """D of nodes that depend on rates: the derivative along the motion at constant v."""
         graph = self.graph
         direction = {self.t: graph.one, **dict(zip(self.p, self.rate, strict=True))}
         if self.given.A is not None:
             direction |= dict(zip(self.rate, map(self.moving, self.pdot), strict=True))
-        return graph.along(direction)
+        return graph.derivative_along(direction)
 
     def _force(self) -> list[Node]:
         graph, given = self.graph, self.given
         force = given.force or [graph.zero] * given.nv
         if given.potential is None:
             return force
-        V = graph.spread(given.potential)
+        V = graph.multiplied_out(given.potential)
         if V.stage >= MOVING:
             raise ValueError("potential must not depend on velocities")
         gradient = self._by_velocity(V)
@@ -103,19 +104,19 @@ class Derivation:
     def _by_velocity(self, node: Node) -> list[Node]:
         """Its gradient times A."""
         graph = self.graph
-        gradient = [graph.along({p: graph.one})(node) for p in self.p]
+        gradient = [graph.derivative_along({p: graph.one})(node) for p in self.p]
         return gradient if self.given.A is None else [graph.dot(gradient, column) for column in _transposed(self.given.A)]
 
     def _constraints(self) -> dict[str, list[Node]]:
         graph, given = self.graph, self.given
-        by_time, at_rest = graph.along({self.t: graph.one}), graph.replaced(dict.fromkeys(self.v, graph.zero))
+        by_time, at_rest = graph.derivative_along({self.t: graph.one}), graph.substitution(dict.fromkeys(self.v, graph.zero))
         C, Phi_t, Psi = [], [], []
         for Phi in given.holonomic:
             C.append(self._by_velocity(Phi))
             Phi_t.append(by_time(Phi))
             Psi.append(self.moving(Phi))
         for row in given.nonholonomic:
-            C.append([graph.along({v: graph.one})(row) for v in self.v])
+            C.append([graph.derivative_along({v: graph.one})(row) for v in self.v])
             Phi_t.append(at_rest(row))
             Psi.append(row)
         xi = [graph.minus(self.moving(row)) for row in Psi]         # (6)
@@ -123,7 +124,7 @@ class Derivation:
 
     def _power(self, M: Matrix, d: Sequence[Node]) -> Node:
         graph, given = self.graph, self.given
-        power = [graph.along({self.t: graph.one})(given.potential)]
+        power = [graph.derivative_along({self.t: graph.one})(given.potential)]
         if given.force:
             power.append(graph.dot(given.force, self.v))
         if given.mass is None:
@@ -136,11 +137,11 @@ class Derivation:
 
     def _rheonomic_power(self) -> Node:
         graph, T = self.graph, self.given.kinetic
-        at_rest = graph.replaced(dict.fromkeys(self.rate, graph.zero))(T)
-        by_time = graph.along({self.t: graph.one})
-        held = graph.replaced(dict(zip(self.rate, self.pdot, strict=True)))
-        along = graph.along(dict(zip(self.p, self.pdot, strict=True)))(at_rest)
-        return graph.plus(graph.minus(held(by_time(T))), by_time(at_rest), along)
+        at_rest = graph.substitution(dict.fromkeys(self.rate, graph.zero))(T)
+        by_time = graph.derivative_along({self.t: graph.one})
+        at_velocity = graph.substitution(dict(zip(self.rate, self.pdot, strict=True)))
+        by_motion = graph.derivative_along(dict(zip(self.p, self.pdot, strict=True)))(at_rest)
+        return graph.plus(graph.minus(at_velocity(by_time(T))), by_time(at_rest), by_motion)
 
 
 def _flat(matrix: Matrix) -> list[Node]:

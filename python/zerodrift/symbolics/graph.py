@@ -107,14 +107,14 @@ class Graph:
     def _factors(self, factors: Iterable[tuple[Node, Number]]) -> tuple[Number, dict[Node, Number]]:
         coefficient, collected = 1, {}
         for node, exponent in factors:
-            whole = exponent == int(exponent)
-            if node.kind == "number" and (whole or node.content[0] >= 0) and not (node.content[0] == 0 and exponent < 0):
+            is_integer = exponent == int(exponent)
+            if node.kind == "number" and (is_integer or node.content[0] >= 0) and not (node.content[0] == 0 and exponent < 0):
                 coefficient = coefficient * power(node.content[0], exponent)
                 continue
-            if node.kind == "sum" and len(node.content) == 1 and whole:
+            if node.kind == "sum" and len(node.content) == 1 and is_integer:
                 (node, factor), = node.content
                 coefficient = coefficient * power(factor, exponent)
-            for base, inner in node.content if node.kind == "product" and whole else ((node, 1),):
+            for base, inner in node.content if node.kind == "product" and is_integer else ((node, 1),):
                 total = collected.get(base, 0) + inner * exponent
                 collected[base] = total
                 if total == 0:
@@ -156,23 +156,24 @@ class Graph:
 
     # ---- rewriting ----
 
-    def along(self, direction: Mapping[Node, Node]) -> Callable[[Node], Node]:
-        """The derivative in the direction that gives each leaf's rate; what it does not name is held."""
+    def derivative_along(self, direction: Mapping[Node, Node]) -> Callable[[Node], Node]:
+        """The derivative in a direction, which gives the rates of some leaves; all other leaves are constant."""
         return Derivative(self, direction)
 
-    def replaced(self, values: Mapping[Node, Node]) -> Callable[[Node], Node]:
-        """With values in place of leaves."""
+    def substitution(self, values: Mapping[Node, Node]) -> Callable[[Node], Node]:
+        """A function that puts values in place of leaves."""
         return Replacement(self, values)
 
-    def spread(self, node: Node) -> Node:
-        """With factors that are parameters multiplied into sums, so that like terms of different sums meet."""
+    def multiplied_out(self, node: Node) -> Node:
+        """The node with factors of parameters multiplied into sums, so that like terms of different sums are collected."""
         if node.kind == "sum":
-            return self.sum((self.spread(term), factor) for term, factor in node.content)
+            return self.sum((self.multiplied_out(term), factor) for term, factor in node.content)
         if node.kind == "product" and node.stage > FIXED:
             fixed = [item for item in node.content if item[0].stage == FIXED]
             others = [item for item in node.content if item[0].stage > FIXED]
             if len(others) == 1 and others[0][1] == 1 and others[0][0].kind == "sum":
-                return self.sum((self.spread(self.product([*fixed, (term, 1)])), factor) for term, factor in others[0][0].content)
+                terms = others[0][0].content
+                return self.sum((self.multiplied_out(self.product([*fixed, (term, 1)])), factor) for term, factor in terms)
         return node
 
 
@@ -184,8 +185,8 @@ def power(base: Number, exponent: Number) -> Number:
     return int(result) if isinstance(result, Fraction) and result.denominator == 1 else result
 
 
-class _Walk:
-    """Something of any node that follows from that of some leaves; what was found is kept."""
+class _NodeFunction:
+    """A function of nodes that is given for some leaves and follows for all other nodes; each value is computed once."""
 
     def __init__(self, graph: Graph, leaves: Mapping[Node, Node]) -> None:
         self._graph, self._known = graph, dict(leaves)
@@ -193,17 +194,17 @@ class _Walk:
 
     def __call__(self, node: Node) -> Node:
         if node.stage < self._lowest:
-            return self._elsewhere(node)
+            return self._of_unaffected(node)
         found = self._known.get(node)
         if found is None:
             found = self._known[node] = self._of(node)
         return found
 
 
-class Derivative(_Walk):
+class Derivative(_NodeFunction):
     """The derivative of any node in the direction that leaves are given."""
 
-    def _elsewhere(self, node: Node) -> Node:
+    def _of_unaffected(self, node: Node) -> Node:
         return self._graph.zero
 
     def _of(self, node: Node) -> Node:
@@ -231,10 +232,10 @@ class Derivative(_Walk):
         return self._graph.product([*node.content, (base, -1), (rate, 1)])
 
 
-class Replacement(_Walk):
+class Replacement(_NodeFunction):
     """Any node with values in place of leaves."""
 
-    def _elsewhere(self, node: Node) -> Node:
+    def _of_unaffected(self, node: Node) -> Node:
         return node
 
     def _of(self, node: Node) -> Node:

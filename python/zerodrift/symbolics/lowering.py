@@ -191,18 +191,18 @@ class Lowering:
             base = factor[1]
         else:
             base = self.lower(factor) if isinstance(factor, Node) else self._number(factor)
-        whole, rest = int(exponent), exponent - int(exponent)
-        if rest == 0 and whole <= 64:
-            return self._whole_power(base, whole)
-        if rest == 0.5 and whole <= 64:
+        integer, rest = int(exponent), exponent - int(exponent)
+        if rest == 0 and integer <= 64:
+            return self._integer_power(base, integer)
+        if rest == 0.5 and integer <= 64:
             root = self._emit("root", base)
-            return root if whole == 0 else self._emit("*", self._whole_power(base, whole), root)
+            return root if integer == 0 else self._emit("*", self._integer_power(base, integer), root)
         return self._emit("power", base, self._number(exponent))
 
-    def _whole_power(self, base: int, exponent: int) -> int:
+    def _integer_power(self, base: int, exponent: int) -> int:
         if exponent == 1:
             return base
-        half = self._whole_power(base, exponent // 2)
+        half = self._integer_power(base, exponent // 2)
         square = self._emit("*", half, half)
         return self._emit("*", square, base) if exponent % 2 else square
 
@@ -217,7 +217,7 @@ def _without(factors: dict[Any, Number], factor: Any, exponent: Number) -> dict[
 
 
 def _unit(exponent: Number) -> Number:
-    """What of an exponent can be taken out: one factor of a whole power, or all."""
+    """The part of an exponent that can be taken out: one factor of an integer power, or all of another power."""
     if exponent == int(exponent):
         return 1 if exponent > 0 else -1
     return exponent

@@ -110,7 +110,7 @@ def _of_kane(method: KanesMethod, potential: Any) -> dict[str, Any]:
         raise ValueError(f"auxiliary speeds such as {method._uaux[0]} are not for integration: leave u_auxiliary out")
     velocity = list(method._k_nh * method.u + method._f_nh) if len(method._k_nh) else []
     pdot = [method._qdot_u_map[rate] for rate in method.q.diff(dynamicsymbols._t)]
-    nonholonomic = _beyond(list(method._f_h), velocity, method.q, method.u, pdot)
+    nonholonomic = _not_from_positions(list(method._f_h), velocity, method.q, method.u, pdot)
     return _unconstrained(method._inertial, method.q, method.u, pdot, method.bodylist, method.forcelist, potential) | {
         "constraints": list(method._f_h), "nonholonomic": nonholonomic}
 
@@ -140,14 +140,14 @@ def _unconstrained(frame: Any, q: Any, u: Any, pdot: list[Any], bodies: Any, loa
             "force": list(force), "potential": potential}
 
 
-def _beyond(holonomic: list[Any], velocity: list[Any], q: Any, u: Any, pdot: list[Any]) -> list[Any]:
-    """Those of the velocity constraints that are not rates of the holonomic ones, found at random states."""
+def _not_from_positions(holonomic: list[Any], velocity: list[Any], q: Any, u: Any, pdot: list[Any]) -> list[Any]:
+    """The velocity constraints that do not follow from the holonomic ones by differentiation, found at random states."""
     if not holonomic or not velocity:
         return velocity
     by_position = sympy.Matrix(holonomic).jacobian(q) * sympy.Matrix(pdot).jacobian(u)
     rows = by_position.col_join(sympy.Matrix(velocity).jacobian(u))
     unknown = sorted(rows.atoms(sympy.Symbol, *(type(x) for x in [*q, *u])), key=str)
-    random, beyond = np.random.default_rng(0), set()
+    random, independent = np.random.default_rng(0), set()
     for _ in range(SAMPLES):
         values = dict(zip(unknown, random.uniform(0.5, 1.5, len(unknown)), strict=True))
         numbers = np.array(rows.xreplace({x: sympy.Float(value) for x, value in values.items()}), dtype=float)
@@ -155,6 +155,6 @@ def _beyond(holonomic: list[Any], velocity: list[Any], q: Any, u: Any, pdot: lis
         for i, row in enumerate(numbers[len(holonomic):]):
             fit = np.linalg.lstsq(np.array(basis).T, row)[0]
             if np.abs(row - np.array(basis).T @ fit).max() > DEPENDENT * np.abs(row).max():
-                beyond.add(i)
+                independent.add(i)
                 basis.append(row)
-    return [velocity[i] for i in sorted(beyond)]
+    return [velocity[i] for i in sorted(independent)]

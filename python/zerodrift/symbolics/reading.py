@@ -110,7 +110,7 @@ class _Reading:
         base, exponent = map(self, e.args)
         if exponent.kind == "number":
             if base.kind == "number":
-                return self._folded(e)
+                return self._constant(e)
             value = exponent.content[0]
             return self._graph.product([(base, int(value) if value == int(value) else value)])
         return self._graph.call(sympy.Pow, base, exponent)
@@ -120,10 +120,10 @@ class _Reading:
             raise self.refusal(e, f"and {type(e).__name__} has no counterpart in C")
         arguments = [self(argument) for argument in e.args]
         if all(argument.kind == "number" for argument in arguments):
-            return self._folded(e)
+            return self._constant(e)
         return self._graph.call(type(e), *arguments)
 
-    def _folded(self, e: Any) -> Node:
+    def _constant(self, e: Any) -> Node:
         value = e.evalf(20)
         if not value.is_Float and not value.is_Rational:
             raise self.refusal(e, "which is no real number")

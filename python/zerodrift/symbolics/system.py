@@ -90,13 +90,13 @@ class SymbolicSystem(BaseSystem):
         return self._code.c_source
 
     def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
-        return self._again(parameters=self.parameters | changed)
+        return self._copy_with(parameters=self.parameters | changed)
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
         """The same system with another start; what is left out stays."""
-        return self._again(p0=self.p0 if p0 is None else p0, v0=self.v0 if v0 is None else v0)
+        return self._copy_with(p0=self.p0 if p0 is None else p0, v0=self.v0 if v0 is None else v0)
 
-    def _again(self, **changed: Any) -> SymbolicSystem:
+    def _copy_with(self, **changed: Any) -> SymbolicSystem:
         given = {"code": self._code, "parameters": self.parameters, "units": self._units, "p0": self.p0, "v0": self.v0,
                  "name": self.name}
         return SymbolicSystem(**(given | changed))

@@ -84,10 +84,10 @@ class BaseSystem:
         >>> zd.systems.oscillator(mass=2.0).evaluate().M
         array([[2.]])
         """
-        p, v = self._start(p, v, "p", "v")
+        p, v = self._state_or_start(p, v, "p", "v")
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
 
-    def _start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0") -> tuple[np.ndarray, np.ndarray]:
+    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0") -> tuple[np.ndarray, np.ndarray]:
         """The state given, or the system's own start for what is left out."""
         if p is None and self.p0 is None:
             raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
@@ -139,11 +139,11 @@ def core_of(system: Any) -> _gateway.CoreSystem:
 
 def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
                are_rates: bool) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
-    """Coordinates and velocities; where the latter are the rates of the former, so are their units."""
+    """Coordinates and velocities with their units; velocities that are rates of coordinates have the units of rates."""
     size = len(names) if are_rates else len(names) + len(rates)
-    given = [""] * size if units is None else units
-    if isinstance(given, str) or len(given) != size or not all(isinstance(unit, str) for unit in given):
+    all_units = [""] * size if units is None else units
+    if isinstance(all_units, str) or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
         raise ValueError(f"units must be {size} strings, one for each coordinate"
                          f"{'' if are_rates else ' and each velocity'}, not {units!r}")
-    own = given[len(names):] if not are_rates else [f"{unit}/s" if unit else "" for unit in given]
-    return tuple(map(Variable, names, given)), tuple(map(Variable, rates, own))
+    rate_units = [f"{unit}/s" if unit else "" for unit in all_units] if are_rates else all_units[len(names):]
+    return tuple(map(Variable, names, all_units)), tuple(map(Variable, rates, rate_units))

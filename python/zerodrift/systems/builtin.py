@@ -13,29 +13,29 @@ from .base import BaseSystem
 _KINDS = _gateway.kinds()
 
 
-class OfKind(BaseSystem):
-    """A kind of system with its parameters."""
+class SystemOfKind(BaseSystem):
+    """A system of a kind that C code describes, with its parameters."""
 
-    def __init__(self, row: _gateway.Kind, parameters: dict[str, Any]) -> None:
-        kind = row.card.name
-        unknown = set(parameters) - {parameter.name for parameter in row.parameters}
+    def __init__(self, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
+        name = kind.card.name
+        unknown = set(parameters) - {parameter.name for parameter in kind.parameters}
         if unknown:
-            known = ", ".join(parameter.name for parameter in row.parameters)
-            raise TypeError(f"{kind} has no parameter {sorted(unknown)[0]!r}; it has {known}")
-        self._kind = row
-        values = [_values(parameter, parameters.get(parameter.name)) for parameter in row.parameters]
-        self._core, self.p0, self.v0 = row.make(np.concatenate([*values, []]))
+            known = ", ".join(parameter.name for parameter in kind.parameters)
+            raise TypeError(f"{name} has no parameter {sorted(unknown)[0]!r}; it has {known}")
+        self._kind = kind
+        values = [_as_numbers(parameter, parameters.get(parameter.name)) for parameter in kind.parameters]
+        self._core, self.p0, self.v0 = kind.make(np.concatenate([*values, []]))
         self.p0.flags.writeable = self.v0.flags.writeable = False
-        self.name, self.parameters = kind, {p.name: _shown(p, v) for p, v in zip(row.parameters, values, strict=True)}
-        self._given = {name: self.parameters[name] for name in parameters}     # as it is now: a caller's array may change
-        self.coordinates, self.velocities, self.constraints = row.coordinates, row.velocities, row.constraints
+        self.name, self.parameters = name, {p.name: _as_given(p, v) for p, v in zip(kind.parameters, values, strict=True)}
+        self._given = {name: self.parameters[name] for name in parameters}     # as checked: a caller's array may change later
+        self.coordinates, self.velocities, self.constraints = kind.coordinates, kind.velocities, kind.constraints
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return self._kind.draw(self._core, _check.vector("p", p, self.nq))
 
 
-class BuiltIn(OfKind):
+class BuiltIn(SystemOfKind):
     """A system of the core's table."""
 
     def __init__(self, kind: str, parameters: dict[str, Any]) -> None:
@@ -55,7 +55,7 @@ class BuiltIn(OfKind):
         return {**super()._described(), "parameters": self._given}
 
 
-def _values(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
+def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
     """The numbers the core is handed for a parameter."""
     if given is None:
         return np.array(parameter.initial or [np.nan] * parameter.size, dtype=float)
@@ -70,7 +70,7 @@ def _values(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
     return values
 
 
-def _shown(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
+def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
     """A parameter's value as a user would write it; None where it is derived."""
     if parameter.rule == "choice":
         return parameter.text.split()[int(values[0])]
@@ -102,7 +102,7 @@ def _factory(kind: str) -> Any:
     row = _KINDS[kind]
     make.__module__, make.__name__, make.__qualname__ = __package__, kind, kind
     make.__doc__ = _documentation(row)
-    defaults = [_shown(p, _values(p, None)) for p in row.parameters]
+    defaults = [_as_given(p, _as_numbers(p, None)) for p in row.parameters]
     make.__signature__ = inspect.Signature(
         [inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=value)
          for p, value in zip(row.parameters, defaults, strict=True)])

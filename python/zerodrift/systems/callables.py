@@ -60,8 +60,9 @@ class System(BaseSystem):
 
     Notes
     -----
-    What is derived, is derived by passing numbers that carry derivatives through the callables: these must be written with
-    operators and NumPy's elementwise functions, and build their results with ``np.array``, ``np.stack`` and the like.
+    What is derived is found by forward-mode automatic differentiation, exact up to rounding. For that, the callables are called
+    with arrays of dtype object. They must be written with operators and NumPy's elementwise functions, and build their results
+    with ``np.array``, ``np.stack`` and the like.
 
     Raises
     ------
@@ -126,12 +127,12 @@ def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
 
 # ---- the callables ----
 
-# Shape of what each returns; a size that no other callable fixes is fixed by the first that has it.
+# The shape of what each callable returns. The first callable in which a size appears determines that size.
 SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints": ("mh",), "jacobian": ("mh", "nq"),
           "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
 
 
-# How a callable is called that wants these of t, p, v, by name; its parameters are bound beforehand.
+# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand.
 _CALLS: dict[frozenset[str], Callable[..., Any]] = {
     frozenset(""): lambda f, t, p, v: f(),
     frozenset("t"): lambda f, t, p, v: f(t=t),
@@ -152,13 +153,13 @@ class _Function:
         if callable(given):
             names = _arguments(name, given, ["t", "p", "v", *parameters])
             bound = {key: parameters[key] for key in names if key in parameters}
-            self.wants = frozenset(names) - frozenset(bound)
+            self.state_arguments = frozenset(names) - frozenset(bound)
             self._function = functools.partial(given, **bound) if bound else given
         else:
             value = np.array(given, dtype=float)
             value.flags.writeable = False
-            self.wants, self._function = frozenset(), lambda: value
-        self._call = _CALLS[self.wants]
+            self.state_arguments, self._function = frozenset(), lambda: value
+        self._call = _CALLS[self.state_arguments]
 
     def __call__(self, t: Any, p: Any, v: Any) -> Any:
         """What the user's function returns, whatever it is."""
@@ -173,8 +174,8 @@ class _Function:
             raise ValueError(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
         out[...] = value
 
-    def jets(self, shape: tuple[int, ...], t: Any, p: Any, v: Any) -> Any:
-        """Its value with derivatives."""
+    def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: Any, v: Any) -> Any:
+        """Its value and its derivatives: an array (shape) of jets or plain numbers."""
         result = np.asarray(self(t, p, v), dtype=object)
         if result.shape != shape:
             raise ValueError(f"{self.name} must return shape {shape}, not {result.shape}")
@@ -182,13 +183,13 @@ class _Function:
 
 
 def _arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
-    wants = []
+    names = []
     for argument in inspect.signature(given).parameters.values():
         if argument.name in allowed:
-            wants.append(argument.name)
+            names.append(argument.name)
         elif argument.default is argument.empty:
             raise TypeError(f"{name} asks for {argument.name!r}; there is {', '.join(allowed)}")
-    return wants
+    return names
 
 
 def _sizes(nq: int, functions: dict[str, _Function], p0: np.ndarray | None) -> tuple[int, int, int, int]:
@@ -224,9 +225,9 @@ def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.
             raise ValueError(f"{name} must return shape {expected}, not {found}")
 
 
-# Which callable gives a term directly.
-_SOURCE = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential", "power": "power",
-           "xi": "xi"}
+# The callable that gives a term without any derivation.
+_CALLABLE_OF = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential",
+                "power": "power", "xi": "xi"}
 
 
 class _Writer:
@@ -234,10 +235,10 @@ class _Writer:
 
     def __init__(self, functions: dict[str, _Function], nq: int, nv: int, mh: int, mn: int) -> None:
         self.functions, self.nq, self.nv, self.mh, self.mn = functions, nq, nv, mh, mn
-        moving = "constraints" in functions and "t" in functions["constraints"].wants
-        self.provides = [name for name, source in _SOURCE.items() if source in functions]
+        moving = "constraints" in functions and "t" in functions["constraints"].state_arguments
+        self.provides = [name for name, source in _CALLABLE_OF.items() if source in functions]
         self.provides += ["C", "xi"] * bool(mh + mn) + ["Phi_t"] * moving
-        self._direct = {name: functions[source] for name, source in _SOURCE.items() if source in functions}
+        self._direct = {name: functions[source] for name, source in _CALLABLE_OF.items() if source in functions}
         if "kinematics" not in functions and "jacobian" in functions:
             self._direct["C_H"] = functions["jacobian"]
         if mn:
@@ -256,7 +257,7 @@ class _Writer:
             self._derive(derived, t, arrays)
 
     def _plan(self, want: int) -> tuple[list[tuple[str, _Function]], frozenset[str]]:
-        """What is called for these terms, and what of them is derived. Rows of C and xi go by group."""
+        """The callables to call for these terms, and the terms to derive. C and xi are split into holonomic and other rows."""
         names = {name for name, bit in BIT.items() if want & bit}
         grouped = {"C"} if "xi" in self.functions else {"C", "xi"}
         for name in names & grouped:
@@ -269,7 +270,7 @@ class _Writer:
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
         """The error for a term that is not finite: it names the callable, or those that may be at fault."""
-        asked = ("jacobian", "nonholonomic") if name == "C" else (_SOURCE.get(name),)
+        asked = ("jacobian", "nonholonomic") if name == "C" else (_CALLABLE_OF.get(name),)
         sources = [source for source in asked if source in self.functions]
         if sources:
             return ValueError(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}")
@@ -286,13 +287,15 @@ class _Writer:
         if derived - {"xi_NH"}:
             self._differentiate(derived, t, arrays)
         if "xi_NH" in derived:
-            jets = self.functions["nonholonomic"].jets((self.mn, self.nv), *self._along(t, arrays, gradients=False), v)
+            motion = self._motion_as_jets(t, arrays, gradients=False)
+            jets = self.functions["nonholonomic"].evaluate_jets((self.mn, self.nv), *motion, v)
             arrays["xi"][mh:] = -_jets.part(jets, "first") @ v              # (6): xi = -Cdot v
 
     def _differentiate(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         """Derivatives of the holonomic constraints, all that are wanted in one pass."""
         gradients = not derived.isdisjoint({"C_H", "Phi_t"})
-        jets = self.functions["constraints"].jets((self.mh,), *self._along(t, arrays, gradients=gradients), arrays["v"])
+        motion = self._motion_as_jets(t, arrays, gradients=gradients)
+        jets = self.functions["constraints"].evaluate_jets((self.mh,), *motion, arrays["v"])
         gradient = _jets.part(jets, "gradient", self.nq + 1) if gradients else None
         if "C_H" in derived:
             rows = gradient[:, :-1]
@@ -303,7 +306,7 @@ class _Writer:
         if "xi_H" in derived:
             arrays["xi"][: self.mh] = -_jets.part(jets, "second")           # (6)
 
-    def _along(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
+    def _motion_as_jets(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
         """(t, p) as jets: along the motion with vdot = 0, there pddot = Adot v, and with gradients in (p, t) if wanted."""
         p, v, A = arrays["p"], arrays["v"], arrays.get("A")
         velocity, curvature = (v, np.zeros(self.nq)) if A is None else (A @ v, self._curvature(t, p, v, A @ v))
@@ -313,5 +316,6 @@ class _Writer:
 
     def _curvature(self, t: float, p: np.ndarray, v: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Adot v along the motion."""
-        jets = self.functions["kinematics"].jets((self.nq, self.nv), _jets.Jet(t, 0.0, 1.0, 0.0), _jets.seeds(p, velocity), v)
+        time, position = _jets.Jet(t, 0.0, 1.0, 0.0), _jets.seeds(p, velocity)
+        jets = self.functions["kinematics"].evaluate_jets((self.nq, self.nv), time, position, v)
         return _jets.part(jets, "first") @ v

@@ -1,8 +1,8 @@
-"""Numbers that carry derivatives, for exact Jacobians and accelerations of constraints written in NumPy.
+"""Forward-mode automatic differentiation, for exact Jacobians and accelerations of constraints written in NumPy.
 
-A `Jet` holds a value, its gradient, and its first and second derivative along a curve. NumPy lets arrays of such objects
-through its functions: it calls the method of the function's name on each entry. One pass through the constraints so gives
-Phi, dPhi/dp, dPhi/dt and, along the motion, the right side of (6).
+A `Jet` holds a value, its gradient, and its first and second derivative along a curve. NumPy's functions accept arrays of such
+objects: they call the method of their own name on each entry. So one evaluation of the constraints gives Phi, dPhi/dp, dPhi/dt
+and, along the motion, the right side of (6).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Jet:
 
     def __add__(self, other: Any) -> Jet:
         if isinstance(other, np.ndarray):
-            return NotImplemented       # entry by entry, which the array does
+            return NotImplemented       # so that the array does it entry by entry
         if isinstance(other, Jet):
             return Jet(self.value + other.value, self.gradient + other.gradient, self.first + other.first,
                        self.second + other.second)
@@ -50,7 +50,7 @@ class Jet:
 
     def __mul__(self, other: Any) -> Jet:
         if isinstance(other, np.ndarray):
-            return NotImplemented       # entry by entry, which the array does
+            return NotImplemented       # so that the array does it entry by entry
         if isinstance(other, Jet):
             return Jet(self.value * other.value, self.gradient * other.value + self.value * other.gradient,
                        self.first * other.value + self.value * other.first,
@@ -61,7 +61,7 @@ class Jet:
 
     def __truediv__(self, other: Any) -> Jet:
         if isinstance(other, np.ndarray):
-            return NotImplemented       # entry by entry, which the array does
+            return NotImplemented       # so that the array does it entry by entry
         return self * (other.reciprocal() if isinstance(other, Jet) else 1 / other)
 
     def __rtruediv__(self, other: Any) -> Jet:
@@ -73,7 +73,7 @@ class Jet:
 
     def __pow__(self, n: Any) -> Jet:
         if isinstance(n, np.ndarray):
-            return NotImplemented       # entry by entry, which the array does
+            return NotImplemented       # so that the array does it entry by entry
         if isinstance(n, Jet):
             return (self.log() * n).exp()
         if n == 0:

@@ -13,7 +13,7 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import ZerodriftError
 from .base import BaseSystem, with_units
-from .builtin import OfKind
+from .builtin import SystemOfKind
 
 BIT = namedtuple("Bits", TERMS)(*(bit for bit, _ in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
@@ -135,8 +135,8 @@ class Native(BaseSystem):
         names = _check.names("coordinates", coordinates, "p")
         holonomic = _check.names("constraints", constraints, "constraint", least=0)
         rows = holonomic + _check.names("nonholonomic", nonholonomic, "rolling", least=0)
-        terms = _terms(terms, len(holonomic), len(rows))
-        rates = _rates(velocities, names, "A" in terms)
+        terms = _checked_terms(terms, len(holonomic), len(rows))
+        rates = _velocity_names(velocities, names, "A" in terms)
         self.parameters = {key: _check.number(key, value) for key, value in dict(parameters or {}).items()}
         sizes = (len(names), len(rates), len(holonomic), len(rows) - len(holonomic))
         data = np.array([*self.parameters.values()], dtype=float)
@@ -149,7 +149,7 @@ class Native(BaseSystem):
         self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
         self._given = {"coordinates": names, "velocities": rates, "constraints": holonomic, "nonholonomic": rows[len(holonomic):],
                        "terms": terms, "units": units, "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
-        _try(self)
+        _check_at_start(self)
 
     def _with(self, changed: dict[str, Any]) -> Native:
         return Native(self._found, **self._given, parameters=self.parameters | changed)
@@ -159,29 +159,29 @@ class Native(BaseSystem):
                 f"{self.mn} nonholonomic constraints>")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        if self._found.again is None:
-            raise TypeError(f"{self.name} cannot be pickled: {self._found.why_not}")
-        return _again, (self._found.again, self._given | {"parameters": self.parameters})
+        if self._found.origin is None:
+            raise TypeError(f"{self.name} cannot be pickled: {self._found.why_no_origin}")
+        return _restored, (self._found.origin, self._given | {"parameters": self.parameters})
 
 
-def _again(where: Any, given: dict[str, Any]) -> Native:
+def _restored(where: Any, given: dict[str, Any]) -> Native:
     return Native(_gateway.find(where, None, None), **given)
 
 
-class NativeKind(OfKind):
+class NativeKind(SystemOfKind):
     """A system that a shared library describes."""
 
-    def __init__(self, there: _gateway.Function, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
+    def __init__(self, found: _gateway.Function, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
         super().__init__(kind, parameters)
-        self._found = there
-        self._core.keep = there.keep
-        _try(self)
+        self._found = found
+        self._core.keep = found.keep
+        _check_at_start(self)
 
     def __repr__(self) -> str:
-        return f"<zd.native {self.name} of {self._found.again.path}: {self._given}>"
+        return f"<zd.native {self.name} of {self._found.origin.path}: {self._given}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again_of_kind, (self._found.again, self._given)
+        return _restored_from_library, (self._found.origin, self._given)
 
     def _with(self, changed: dict[str, Any]) -> NativeKind:
         return NativeKind(self._found, self._kind, self._given | changed)
@@ -192,28 +192,28 @@ def _described_by_library(library: Any, symbol: Any, parameters: Any, others: li
         raise TypeError(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}")
     if others:
         raise TypeError(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
-    there = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
-    return _of_kind(there, dict(parameters or {}))
+    found = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
+    return _from_library(found, dict(parameters or {}))
 
 
-def _of_kind(there: _gateway.Function, parameters: dict[str, Any]) -> NativeKind:
-    where = f"{there.again.symbol} of {there.again.path}"
+def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> NativeKind:
+    where = f"{found.origin.symbol} of {found.origin.path}"
     try:
-        kind = _gateway.kind_at(there.address)
-        _terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
+        kind = _gateway.kind_at(found.address)
+        _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
         raise ValueError(f"{where}: {error}") from None
-    return NativeKind(there, kind, parameters)
+    return NativeKind(found, kind, parameters)
 
 
-def _again_of_kind(there: Any, parameters: dict[str, Any]) -> NativeKind:
-    return _of_kind(_gateway.find(there, None, None), parameters)
+def _restored_from_library(found: Any, parameters: dict[str, Any]) -> NativeKind:
+    return _from_library(_gateway.find(found, None, None), parameters)
 
 
 # ---- checks ----
 
 
-def _terms(given: Any, mh: int, m: int) -> list[str]:
+def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
     """The terms a function writes, checked against the constraints there are."""
     needed = ["M", *["Phi"] * (mh > 0), *["C", "xi"] * (m > 0)]
     terms = [_check.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
@@ -229,7 +229,7 @@ def _terms(given: Any, mh: int, m: int) -> list[str]:
     return terms
 
 
-def _rates(velocities: Any, coordinates: list[str], kinematics: bool) -> list[str]:
+def _velocity_names(velocities: Any, coordinates: list[str], kinematics: bool) -> list[str]:
     if velocities is None:
         return [f"v{i}" for i in range(len(coordinates))] if kinematics else [f"{name}_dot" for name in coordinates]
     rates = _check.names("velocities", velocities, "v")
@@ -238,11 +238,11 @@ def _rates(velocities: Any, coordinates: list[str], kinematics: bool) -> list[st
     return rates
 
 
-def _try(system: BaseSystem) -> None:
+def _check_at_start(system: BaseSystem) -> None:
     """Refuses a function that does not write what it is said to, where there is a state to try it at."""
     if system.p0 is None:
         return
-    wrong = _gateway.probe(system._core, *system._start(None, None))
+    wrong = _gateway.probe(system._core, *system._state_or_start(None, None))
     if wrong:
         error = ZerodriftError if wrong.startswith("it reports") else ValueError
         raise error(f"the function of {system.name} does not do what it is said to: {wrong}")
