@@ -14,22 +14,22 @@ from .systems import CoreSystem
 
 
 class Evaluator:
-    """Between the core's evaluation of one run and the callables of a system.
+    """Calls the callables of a system when the core evaluates it, in one run.
 
-    The core hands the same memory to each call of a run, so the arrays over it are made once. What `write` raises is kept,
-    and the run stops.
+    The core hands the same memory to all calls of a run, so NumPy's arrays over it are made once. An error that `write` raises is
+    kept, and the run stops.
     """
 
     def __init__(self, core: PythonCore, bridge: Any) -> None:
         self.core, self.bridge, self.error, self.arrays = core, bridge, None, {}
 
-    def write(self, want: int, t: float, memory_changed: int) -> int:
-        """The function that the core calls; `memory_changed` says that its arrays are not where they were at the last call."""
+    def write(self, want: int, t: float, memory_moved: int) -> int:
+        """The function that the core calls; `memory_moved` says that its arrays are not where they were at the last call."""
         try:
-            if memory_changed:
+            if memory_moved:
                 self.arrays = self._arrays_over(self.bridge)
             self.core.write(want, t, self.arrays)
-        except BaseException as error:      # it surfaces where the run was started
+        except BaseException as error:      # raised again where the run was started
             self.error = error
             return CALLBACK
         return DONE
@@ -62,17 +62,17 @@ def _array_over(pointer: Any, shape: Any) -> np.ndarray:
 
 
 def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
-    """What a callback raises, Ctrl-C included, surfaces where the run was started."""
+    """Keeps what a callback raised, Ctrl-C included; it is raised again where the run was started."""
     ffi.from_handle(traceback.tb_frame.f_locals["owner"]).error = error.with_traceback(traceback)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_write_in_python(owner, want, t, memory_changed):
-    return ffi.from_handle(owner).write(want, t, memory_changed)
+def zd_write_in_python(owner, want, t, memory_moved):
+    return ffi.from_handle(owner).write(want, t, memory_moved)
 
 
 class Watcher:
-    """Between the core and the events of one run: their values, and where they were found.
+    """Calls the events of one run for the core, and keeps the states at which they were found.
 
     An event is a row with `value(t, p, v)`, `direction` and `terminal`, as the core's `zd_events` has them.
     """
@@ -93,7 +93,7 @@ class Watcher:
         return self.events[event].value(t, *self.state(p, v))
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
-        """The core's p and v, copied, as an event may keep them."""
+        """Copies of the core's p and v, as an event may keep them."""
         return tuple(_array_over(pointer, shape).copy() for pointer, shape in zip((p, v), self._shapes, strict=True))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -14,15 +14,14 @@ from .systems import CoreSystem, Kind
 VERSION = lib.ZD_INTERFACE_VERSION
 FAILURE = ffi.new("char[]", b"the native function reported a failure")
 GUARD = 256         # doubles on either side of a term that is probed
-UNWRITTEN = np.array([0x7FF8_5A5A_5A5A_5A5A], dtype=np.uint64).view(np.float64)[0]      # a number that is none, known by its bits
+UNWRITTEN = np.array([0x7FF8_5A5A_5A5A_5A5A], dtype=np.uint64).view(np.float64)[0]      # not a number, recognised by its bits
 
 
 class NativeCore(CoreSystem):
     """A system whose terms the function at `address`, a `zd_evaluate`, computes.
 
-    Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; it is handed `data`, and
-    `scratch` doubles to keep what it likes.
-    What must live as long as the system goes into `keep`.
+    Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; the function receives
+    `data`, and memory for `scratch` doubles of its own. `keep` is whatever must live as long as the system.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None,

@@ -211,11 +211,11 @@ ON_SINGULAR = ("stop", "continue")
 
 
 def on_singular_row(value: Any) -> int:
-    """What the core calls the argument `on_singular`."""
+    """The number by which the core knows a value of the argument `on_singular`."""
     return ON_SINGULAR.index(_check.choice("on_singular", value, ON_SINGULAR))
 
 
-# ---- all of them together ----
+# ---- all arguments of `simulate` ----
 
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}     # where steps are chosen
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off

@@ -40,9 +40,10 @@ class Solution:
     potential_energy, energy_input, energy_violation : ndarray (k,) or None
         V, the integral of the energy input rate, and Psi_E of (28), in J; None where the system declares no potential.
     iterations : ndarray (k,)
-        Most position iterations of a step since the row before.
+        The most position iterations that a step took, among the steps from the row before to this one.
     energy_skipped : ndarray (k,)
-        Energy corrections since the row before that were left out: no bounded factor (29) would have removed the error.
+        How many energy corrections were left out from the row before to this one, as no bounded factor (29) would have removed
+        the error.
     position_size : ndarray (mh,)
         The size of each row of Phi, in which `Projection` measures it.
     stats : dict

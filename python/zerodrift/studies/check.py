@@ -202,7 +202,7 @@ def _complement(state: _State) -> Iterator[tuple[str, str]]:
 
 
 def _power(state: _State) -> Iterator[tuple[str, str]]:
-    """The balance of power along the motion; where it does not close, its halves say where to look."""
+    """The balance of power along the motion; where it does not close, the parts of T and of V are compared one by one."""
     terms, v = state.terms, state.v
     if terms.V is None:
         return
