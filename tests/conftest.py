@@ -11,6 +11,7 @@ import tempfile
 import pytest
 
 import zerodrift as zd
+from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 

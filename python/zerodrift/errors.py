@@ -82,7 +82,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 class CompilationFailed(ZerodriftError):
-    """The C compiler refused the source of a symbolic system."""
+    """The C compiler cannot be run, refused the source of a symbolic system, or wrote no library that can be loaded."""
 
 
 class NoCompilerWarning(UserWarning):
@@ -90,4 +90,4 @@ class NoCompilerWarning(UserWarning):
 
 
 class CacheWarning(UserWarning):
-    """The folder for compiled systems cannot be written; they are compiled once in every process."""
+    """The folder for compiled systems cannot be written, or others can write it, too; they are compiled once in every process."""

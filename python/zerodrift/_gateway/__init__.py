@@ -18,7 +18,7 @@ from .base import (
     error_of,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
-from .functions import Function, InLibrary, address_of, find, in_library, load_library, numba_signature
+from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
@@ -27,7 +27,7 @@ __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
     "Watcher", "acceleration", "address_of", "cards", "count_steps", "doubles", "error_of", "find", "in_library", "kind_at",
-    "kinds", "load_library", "numba_signature", "probe", "project", "settings", "step", "terms_of",
+    "kinds", "load_data", "numba_signature", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

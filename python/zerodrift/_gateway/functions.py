@@ -95,28 +95,40 @@ def load_library(path: str | Path) -> ctypes.CDLL:
     file has changed. And overwriting a file that is loaded changes the memory of this process.
     """
     path = Path(path).resolve()
-    digest = digest_of(path)
+    return load_data(_content(path), path)  # it may look for others beside it, or nothing be executed from where the copy is
+
+
+def load_data(data: bytes, otherwise: str | Path | None = None) -> ctypes.CDLL:
+    """A shared library that is these bytes, from a copy that nobody else can change; where that fails, from a path."""
+    digest = fingerprint(data)
     if digest not in _loaded:
-        _loaded[digest] = _load_copy(path)
+        _loaded[digest] = _load_copy(data, otherwise)
     return _loaded[digest]
 
 
-def _load_copy(path: Path) -> ctypes.CDLL:
-    import shutil  # both are slow to import
-    import tempfile
+def _load_copy(data: bytes, otherwise: str | Path | None) -> ctypes.CDLL:
+    import tempfile  # slow to import
 
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        copy = Path(folder) / "library.so"
         try:
-            return ctypes.CDLL(str(shutil.copy(path, folder)))
-        except OSError:     # it may look for others beside it, or nothing be executed from that folder
-            return ctypes.CDLL(str(path))
+            copy.write_bytes(data)
+            return ctypes.CDLL(str(copy))
+        except OSError:
+            if otherwise is None:
+                raise
+            return ctypes.CDLL(str(otherwise))
+
+
+def _content(path: Path) -> bytes:
+    if not path.is_file():
+        raise FileNotFoundError(f"there is no shared library {path}")
+    return path.read_bytes()
 
 
 def digest_of(path: Path) -> str:
     """What a file holds, as a hash."""
-    if not path.is_file():
-        raise FileNotFoundError(f"there is no shared library {path}")
-    return fingerprint(path.read_bytes())
+    return fingerprint(_content(path))
 
 
 def address_of(library: ctypes.CDLL, symbol: str) -> int:

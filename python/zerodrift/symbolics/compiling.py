@@ -1,51 +1,74 @@
-"""Shared libraries from C sources, kept from one process to the next.
+"""Shared libraries from C sources, compiled where the cache does not have them.
 
-The cache is a folder of libraries, each named by a hash of what it holds, and of notes that say which of them belongs to a
-source, a compiler and its flags. Files are written beside their place and moved there, so that no process sees half of one; a
-library that is not what its name says is built anew.
+The cache has libraries, each named by a hash of what it holds, and notes that say which of them belongs to a source, a compiler
+and its flags.
 """
 
 from __future__ import annotations
 
 import ctypes
-import json
 import os
 import platform
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-import warnings
 from collections.abc import Callable
-from functools import cache
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from .. import _gateway
 from .._fingerprint import fingerprint
-from ..errors import CacheWarning, CompilationFailed
+from ..errors import CompilationFailed
 from ..systems.native import get_include
+from . import cache
 
 FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
 CANDIDATES = ("cc", "gcc", "clang")
-DIGITS = 40         # of the fingerprints that name files
+SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of each library
+PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
 
 
 def compiler() -> list[str] | None:
-    """The command of the C compiler: what `CC` says, or the first there is; None: there is none."""
-    given = os.environ.get("CC", "").strip()
-    for command in [shlex.split(given)] if given else [[name] for name in CANDIDATES]:
-        program = shutil.which(command[0])
+    """The command of the C compiler: what `CC` says, or the first there is; None: there is none.
+
+    Raises
+    ------
+    CompilationFailed
+        If `CC` cannot be read as a command.
+    """
+    for command in [_given()] if _said() else [[name] for name in CANDIDATES]:
+        program = shutil.which(command[0]) if command else None
         if program:
-            return [program, *command[1:]]
+            return [os.path.abspath(program), *command[1:]]     # it is run in another folder
     return None
+
+
+def _said() -> str:
+    return os.environ.get("CC", "").strip()
+
+
+def _given() -> list[str]:
+    try:
+        return shlex.split(_said())
+    except ValueError as error:
+        raise CompilationFailed(f"CC={_said()} is no command ({str(error)[:1].lower()}{str(error)[1:]}): {ADVICE}") from None
+
+
+ADVICE = ("CC has to be the command of a C compiler that makes shared libraries for this machine, such as gcc or clang; without "
+          f"it, the first of {', '.join(CANDIDATES)} is taken")
 
 
 def looked_for() -> str:
     """Where `compiler` looks, for messages."""
-    given = os.environ.get("CC", "").strip()
-    return f"CC={given}" if given else ", ".join(CANDIDATES)
+    if not _said():
+        return ", ".join(CANDIDATES)
+    program = Path(next(iter(_given()), ""))
+    why = ", which is a folder" if program.is_dir() else ", which may not be executed" if program.is_file() else ""
+    return f"CC={_said()}{why if len(program.parts) > 1 else ''}"
 
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> ctypes.CDLL | None:
@@ -54,22 +77,17 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> 
     Raises
     ------
     CompilationFailed
-        If the compiler refuses the source.
+        If `CC` cannot be run, the compiler refuses the source, or what it writes cannot be loaded.
     """
     command = compiler()
     if command is None:
         return None
     note = _note(source, command)
-    digest = read(note, str)
-    path = None if digest is None else _intact(f"{digest}.so", digest)
-    if path is None:
+    found = _kept(note)
+    if found is None:
         progress("compiling")
-        digest, path = _build(source, command)
-        write(note, digest)
-    try:
-        return _gateway.load_library(path)
-    except OSError:     # from some folders nothing is executed
-        return _gateway.load_library(_put(Path(_temporary().name), path.name, path.read_bytes()))
+        found = _made(source, command, note)
+    return found
 
 
 def _note(source: str, command: list[str]) -> str:
@@ -77,117 +95,116 @@ def _note(source: str, command: list[str]) -> str:
     program = Path(command[0]).resolve()
     stamp = program.stat()
     header = (Path(get_include()) / "zerodrift" / "system.h").read_text()
-    return digest_of("library", source, header, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS, sys.platform,
-                     platform.machine())
+    return cache.digest_of("library", source, header, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS,
+                           sys.platform, platform.machine())
 
 
-def digest_of(*parts: Any) -> str:
-    """A name for the parts, which may be whatever JSON can express."""
-    return fingerprint(parts)[:DIGITS]
+def _kept(note: str) -> ctypes.CDLL | None:
+    """The library of the cache that a note is about; None where it is not there, not what it was, or for another system."""
+    digest = cache.read(note, str)
+    data = None if digest is None else cache.get(f"{digest}.so")
+    if data is None or _digest(data) != digest:
+        return None
+    try:
+        return _load(f"{digest}.so", data)
+    except OSError:
+        return None
 
 
-def _build(source: str, command: list[str]) -> tuple[str, Path]:
-    """Compile; the digest of the library, and where it now is."""
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        path, product = Path(folder) / "system.c", Path(folder) / "system.so"
-        path.write_text(source)
-        done = subprocess.run([*command, *FLAGS, f"-I{get_include()}", "-o", product.name, path.name, "-lm"], cwd=folder,
-                              capture_output=True, text=True, errors="replace", check=False)
-        if done.returncode or not product.is_file():
-            raise CompilationFailed(_complaint(command, done, source))
-        data = product.read_bytes()
-    digest = fingerprint(data)[:DIGITS]
-    return digest, put(f"{digest}.so", data)
+def _made(source: str, command: list[str], note: str) -> ctypes.CDLL:
+    """Compile, load and keep."""
+    line = [*command, *FLAGS, f"-I{get_include()}", "-o", "system.so", "system.c", "-lm"]
+    data = _build(source, line)
+    digest = _digest(data)
+    cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from
+    try:
+        found = _load(f"{digest}.so", data)
+        for symbol in SYMBOLS:
+            _gateway.address_of(found, symbol)
+    except (OSError, ValueError) as error:
+        cache.drop(f"{digest}.so")
+        elsewhere = f"if nothing may be executed in {tempfile.gettempdir()}, let TMPDIR name another folder"
+        raise _failure(line, f"wrote what cannot be loaded here ({error})", f". {ADVICE}; {elsewhere}") from None
+    cache.write(note, digest)
+    return found
 
 
-def _complaint(command: list[str], done: subprocess.CompletedProcess[str], source: str) -> str:
+def _digest(data: bytes) -> str:
+    return fingerprint(data)[: cache.DIGITS]
+
+
+def _load(name: str, data: bytes) -> ctypes.CDLL:
+    """A library that is these bytes, from a copy in a folder of this process alone, else from the cache."""
+    try:
+        return _gateway.load_data(data)
+    except OSError:     # from some folders nothing is executed
+        with cache.place(name, data) as path:
+            if path is None:
+                raise
+            return _gateway.load_data(data, path)
+
+
+# ---- the compiler ----
+
+
+def _build(source: str, line: list[str]) -> bytes:
+    """Compile; what the library holds."""
+    try:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
+            folder = Path(name)
+            (folder / "system.c").write_text(source, encoding="utf-8")
+            status, said = _run(line, folder)
+            product = folder / "system.so"
+            if status or not product.is_file():
+                raise _complaint(line, status, said, source)
+            return product.read_bytes()
+    except OSError as error:
+        raise CompilationFailed(f"there is no room to compile a symbolic system: {error}. Let TMPDIR name a folder with space "
+                                "and write permission") from None
+
+
+def _run(line: list[str], folder: Path) -> tuple[int, str]:
+    """The status of a command in a folder, and what it said; it reads nothing, and is ended with all it started."""
+    with open(folder / "said", "w+b") as said:
+        try:
+            process = subprocess.Popen(line, cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=said,
+                                       start_new_session=True)
+        except OSError as error:
+            why = "it, or the program that its first line names, is missing or for another machine"
+            raise _failure(line, f"cannot be run ({error.strerror})", f": {why}. {ADVICE}") from None
+        try:
+            status = process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            raise _failure(line, f"did not end within {PATIENCE:g} s", f". {ADVICE}") from None
+        finally:
+            _end(process)
+        said.seek(0)
+        return status, said.read().decode(errors="replace")
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """End a process that still runs, and those it started."""
+    if process.poll() is None:
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+        process.wait()
+
+
+def _complaint(line: list[str], status: int, said: str, source: str) -> CompilationFailed:
     """What the compiler says first, with the line it says it of."""
-    said = done.stderr.strip().splitlines()
-    first = next((line for line in said if "error" in line), said[-1] if said else f"status {done.returncode}")
+    spoken = said.strip().splitlines()
+    first = next((each for each in spoken if "error" in each), spoken[-1] if spoken else f"status {status}")
+    if not status:
+        return _failure(line, f"wrote no library{f': {first}' if spoken else ''}", f". {ADVICE}")
     numbers = [int(part) for part in first.split(":")[1:2] if part.isdigit()]
     lines = source.splitlines()
-    where = "".join(f"\n  line {n}: {lines[n - 1].strip()}" for n in numbers if n <= len(lines))
-    return f"{command[0]} refused the C source: {first}{where}"
+    where = "".join(f"\n  line {n}: {lines[n - 1].strip()}" for n in numbers if 0 < n <= len(lines))
+    return _failure(line, f"refused the C source: {first}", where or f". {ADVICE}")
 
 
-# ---- the cache ----
-
-
-def _chosen() -> Path:
-    given = os.environ.get("ZERODRIFT_CACHE")
-    if given:
-        return Path(os.path.expanduser(given))
-    home = Path(os.path.expanduser("~"))    # unlike Path.home() this never fails
-    if sys.platform == "darwin":
-        base = home / "Library" / "Caches"
-    elif os.name == "nt":
-        base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
-    else:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
-    return base / "zerodrift"
-
-
-def folders() -> list[Path]:
-    """Where compiled systems are looked for: what `ZERODRIFT_CACHE` names or the platform's place, and where that cannot be
-    written, a folder that lasts as long as this process.
-    """
-    return [_chosen(), Path(_temporary().name)] if _warned else [_chosen()]
-
-
-@cache
-def _temporary() -> tempfile.TemporaryDirectory[str]:
-    return tempfile.TemporaryDirectory(prefix="zerodrift-", ignore_cleanup_errors=True)
-
-
-_warned: set[Path] = set()
-
-
-def put(name: str, data: bytes) -> Path:
-    """Write a file of the cache, whole or not at all; where it is."""
-    chosen = _chosen()
-    if chosen not in _warned:
-        try:
-            chosen.mkdir(parents=True, exist_ok=True)
-            return _put(chosen, name, data)
-        except OSError as error:
-            _warned.add(chosen)
-            warnings.warn(f"compiled systems are not kept: {chosen} cannot be written ({error.strerror})", CacheWarning,
-                          stacklevel=2)
-    return _put(Path(_temporary().name), name, data)
-
-
-def _put(folder: Path, name: str, data: bytes) -> Path:
-    descriptor, temporary = tempfile.mkstemp(dir=folder)
-    with os.fdopen(descriptor, "wb") as file:
-        file.write(data)
-    os.replace(temporary, folder / name)
-    return folder / name
-
-
-def _intact(name: str, digest: str) -> Path | None:
-    """Where a library is that is what it should be."""
-    for path in (folder / name for folder in folders()):
-        try:
-            if fingerprint(path.read_bytes())[:DIGITS] == digest:
-                return path
-        except OSError:
-            continue
-    return None
-
-
-def write(name: str, content: Any) -> None:
-    """Keep what JSON can say."""
-    put(f"{name}.json", json.dumps({"content": content, "digest": digest_of(content)}).encode())
-
-
-def read(name: str, kind: type) -> Any:
-    """What was kept under that name; None where there is nothing, or what there is is damaged."""
-    for folder in folders():
-        try:
-            kept = json.loads((folder / f"{name}.json").read_bytes())
-            content = kept["content"]
-            if isinstance(content, kind) and digest_of(content) == kept["digest"]:
-                return content
-        except (OSError, ValueError, KeyError, TypeError):
-            continue
-    return None
+def _failure(line: list[str], what: str, advice: str) -> CompilationFailed:
+    said = f"CC={_said()}" if _said() else "CC is not set"
+    return CompilationFailed(f"{line[0]} {what}; {said}, it was run as `{shlex.join(line)}`{advice}")

@@ -10,7 +10,7 @@ try:
 except ImportError as error:
     raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
-from . import compiling
+from . import cache
 from .blocks import Blocks
 from .definition import Definition
 from .derivation import Derivation
@@ -77,7 +77,7 @@ def symbolic(
     ValueError, TypeError
         Where an expression has what is neither known nor to be had in C, which is then named.
     CompilationFailed
-        Where the compiler refuses the C source.
+        Where CC cannot be run, or the compiler refuses the C source, or what it writes cannot be loaded.
     ImportError
         Without SymPy, the extra `symbolic`.
 
@@ -89,7 +89,10 @@ def symbolic(
     Jumps, such as those of `Heaviside` or `floor`, are taken to have no derivative.
 
     What was derived and compiled is kept in the folder that the environment variable ZERODRIFT_CACHE names, or else the
-    user's cache folder. The compiler is what CC names, or else cc, gcc or clang.
+    user's cache folder. As what is in it is executed, folder and files have to belong to the user or to root, and nobody else may
+    write them; otherwise a `CacheWarning` says so, and the folder is left alone. Administrators may fill one for everybody: as
+    root, in a folder that all can read. The compiler is the command in CC, or else cc, gcc or clang; where there is none, the
+    system is evaluated in Python, and a `NoCompilerWarning` says so. CFLAGS is not looked at: flags can stand in CC.
 
     Examples
     --------
@@ -120,12 +123,12 @@ def _code(definition: Definition, say: Progress) -> Code:
     key = fingerprint(definition.expressions)
     code = _derived.get(key)
     if code is None and key is not None:
-        kept = compiling.read(key, dict)
+        kept = cache.read(key, dict)
         code = None if kept is None else Code.from_json(kept)
     if code is None:
         code = _derive(definition, say)
         if key is not None:
-            compiling.write(key, code.as_json())
+            cache.write(key, code.as_json())
     if key is not None:
         _derived[key] = code
     return code

@@ -1,0 +1,274 @@
+"""A folder in which what was derived and compiled is kept from one process to the next.
+
+What is in it is executed, so it is only trusted where nobody but the user and root can have written it. The folder is opened
+first, then its owner and permissions are looked at, and its files are reached through what was opened: whoever can change a
+folder above it, or a symbolic link to it, cannot put another in its place meanwhile. Files are looked at in the same way. Where
+access control lists give others the right to write, the permissions of the group show it. What can be changed by others is left
+alone, and what this process makes is then kept in its memory.
+
+Files are written beside their place and moved there, so that no process sees half of one; what a file holds is bound to its name
+by a digest, and what is damaged is made anew.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import secrets
+import stat
+import sys
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from .._fingerprint import fingerprint
+from ..errors import CacheWarning
+
+DIGITS = 40             # of the fingerprints that name files
+OLD = 3600.0            # s, after which nobody is still writing a temporary file
+TEMPORARY = re.compile(r"\.zerodrift-[0-9a-f]{16}\.tmp")
+OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
+AS_WINDOWS = os.name == "nt"        # nothing is reached through an open folder there, and its owners are not these
+OPENED = "/proc/self/fd"            # where there are paths to what is open
+FOLDER = getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
+FILE = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+_memory: dict[str, bytes] = {}      # what could not be kept elsewhere
+_said: set[str] = set()             # warnings, each once
+
+
+def digest_of(*parts: Any) -> str:
+    """A name for the parts, which may be whatever JSON can express."""
+    return fingerprint(parts)[:DIGITS]
+
+
+# ---- files of any content ----
+
+
+def put(name: str, data: bytes) -> None:
+    """Keep a file, whole or not at all; where the folder cannot be used, as long as this process lasts."""
+    try:
+        with _usable(create=True) as folder:
+            if folder is not None:
+                folder.sweep()
+                folder.write(name, data)
+                return
+    except OSError as error:
+        _say(f"compiled systems are not kept: {_chosen()} cannot be written ({error.strerror}). Give it space and write "
+             "permission, or let ZERODRIFT_CACHE name another folder")
+    _memory[name] = data
+
+
+def get(name: str) -> bytes | None:
+    """What a file holds; None where there is none that can be trusted."""
+    if name in _memory:
+        return _memory[name]
+    with _usable() as folder:
+        return None if folder is None else folder.read(name)
+
+
+def drop(name: str) -> None:
+    """Keep a file no longer."""
+    _memory.pop(name, None)
+    with _usable() as folder:
+        if folder is not None:
+            folder.remove(name)
+
+
+@contextmanager
+def place(name: str, data: bytes) -> Iterator[str | None]:
+    """A path by which the system's loader finds the file that was looked at, if it holds this; None where there is none."""
+    with _usable() as folder:
+        there = folder is not None and folder.descriptor is not None and os.path.isdir(OPENED) and folder.read(name) == data
+        yield f"{OPENED}/{folder.descriptor}/{name}" if there else None
+
+
+# ---- what JSON can say ----
+
+
+def write(name: str, content: Any) -> None:
+    """Keep what JSON can say."""
+    put(f"{name}.json", json.dumps({"content": content, "digest": digest_of(name, content)}).encode())
+
+
+def read(name: str, kind: type) -> Any:
+    """What was kept under that name; None where there is nothing, or what there is is damaged."""
+    try:
+        kept = json.loads(get(f"{name}.json") or b"")
+        content = kept["content"]
+        return content if isinstance(content, kind) and digest_of(name, content) == kept["digest"] else None
+    except (ValueError, KeyError, TypeError):
+        return None
+
+
+# ---- which folder ----
+
+
+def _chosen() -> Path:
+    """What `ZERODRIFT_CACHE` names, or the platform's place."""
+    given = os.environ.get("ZERODRIFT_CACHE")
+    return Path(os.path.expanduser(given)) if given else _own()
+
+
+def _own() -> Path:
+    home = Path(os.path.expanduser("~"))    # unlike Path.home() this never fails
+    if sys.platform == "darwin":
+        base = home / "Library" / "Caches"
+    elif os.name == "nt":
+        base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
+    else:
+        said = os.environ.get("XDG_CACHE_HOME", "")
+        base = Path(said) if os.path.isabs(said) else home / ".cache"
+    return base / "zerodrift"
+
+
+@contextmanager
+def _usable(*, create: bool = False) -> Iterator[Folder | None]:
+    """The folder, opened and found to be trusted; None where it is not, which is said, or not there. `create` makes it."""
+    path = _chosen()
+    if path.parts[0].startswith("~"):
+        _say(f"compiled systems are not kept: the home folder of {path} is not known. Let ZERODRIFT_CACHE name a folder")
+        yield None
+        return
+    if create:
+        _make(path)
+    try:
+        descriptor = None if AS_WINDOWS else os.open(path, os.O_RDONLY | FOLDER)
+    except OSError as error:
+        if create:
+            raise
+        if isinstance(error, PermissionError):
+            _say(f"compiled systems are not taken from {path}, which cannot be read ({error.strerror}). Let ZERODRIFT_CACHE name "
+                 "another folder")
+        yield None
+        return
+    try:
+        yield _trusted(path, descriptor)
+    finally:
+        if descriptor is not None:
+            os.close(descriptor)
+
+
+def _make(path: Path) -> None:
+    """Make a folder that is not there, and those above it, for the user alone."""
+    if path.is_dir():
+        return
+    for folder in reversed([path, *(above for above in path.parents if not above.exists())]):
+        above = folder.absolute().parent
+        if not AS_WINDOWS and os.geteuid() == 0 and above.stat().st_uid != 0:      # such as root in the home of another
+            raise PermissionError(0, f"{above} belongs to {_name(above.stat().st_uid)}, in whose folders root makes none")
+        with suppress(FileExistsError):
+            folder.mkdir(0o700)
+
+
+def _trusted(path: Path, descriptor: int | None) -> Folder | None:
+    """The open folder, if nobody else can write there; what others may write in the user's own place is mended."""
+    if descriptor is None:
+        return Folder(path, None)
+    status = os.fstat(descriptor)
+    if path == _own() and status.st_uid == os.geteuid() and status.st_mode & OTHERS_WRITE:
+        os.fchmod(descriptor, 0o700)
+        status = os.fstat(descriptor)
+    wrong = distrust(status)
+    if not wrong:
+        return Folder(path, descriptor)
+    mend = "" if status.st_uid not in _believed() else f"make it safe by `chmod go-w {path}`, or "
+    _say(f"compiled systems are neither taken from {path} nor kept there: it {wrong}, and what is in it is executed. "
+         f"{mend[:1].upper()}{mend[1:]}{'let' if mend else 'Let'} ZERODRIFT_CACHE name a folder of your own")
+    return None
+
+
+def _believed() -> tuple[int, ...]:
+    return os.geteuid(), 0
+
+
+def distrust(status: os.stat_result) -> str:
+    """Why what is at hand may have been written by somebody else than the user or root; nothing where it may not."""
+    if AS_WINDOWS:
+        return ""
+    if status.st_uid not in _believed():
+        others = " and ".join(f"not to {_name(user)}" for user in dict.fromkeys(_believed()))
+        return f"belongs to {_name(status.st_uid)}, {others}"
+    if status.st_mode & OTHERS_WRITE:
+        return f"belongs to {_name(status.st_uid)}, but others may write it (mode {stat.S_IMODE(status.st_mode):04o})"
+    return ""
+
+
+def _name(user: int) -> str:
+    import pwd  # which Windows has not
+
+    try:
+        return f"{pwd.getpwuid(user).pw_name} (uid {user})"
+    except KeyError:
+        return f"uid {user}"
+
+
+def _say(sentence: str) -> None:
+    """Warn, once in a process."""
+    if sentence not in _said:
+        _said.add(sentence)
+        warnings.warn(sentence, CacheWarning, stacklevel=_depth())
+
+
+def _depth() -> int:
+    """How many calls ago somebody else's code was left."""
+    depth, frame = 0, sys._getframe()
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__.partition(".")[0], "contextlib"):
+        depth, frame = depth + 1, frame.f_back
+    return depth
+
+
+class Folder(NamedTuple):
+    """A folder that was opened and is trusted."""
+
+    path: Path
+    descriptor: int | None      # None: files are reached by their paths
+
+    def _at(self, name: str) -> str:
+        return name if self.descriptor is not None else str(self.path / name)
+
+    def read(self, name: str) -> bytes | None:
+        """What a file holds, whose owner and permissions were looked at when it was open."""
+        try:
+            with os.fdopen(os.open(self._at(name), os.O_RDONLY | FILE, dir_fd=self.descriptor), "rb") as file:
+                status = os.fstat(file.fileno())
+                wrong = distrust(status)
+                if not wrong:
+                    return file.read() if stat.S_ISREG(status.st_mode) else None
+        except OSError:     # it is not there, or a link
+            return None
+        _say(f"{name} in {self.path} is not used, but made anew: it {wrong}. Remove it if it stays there")
+        return None
+
+    def write(self, name: str, data: bytes) -> None:
+        """Make a file, whole or not at all, as readable as the folder."""
+        temporary = f".zerodrift-{secrets.token_hex(8)}.tmp"
+        fresh = os.open(self._at(temporary), os.O_WRONLY | os.O_CREAT | os.O_EXCL | FILE, 0o600, dir_fd=self.descriptor)
+        try:
+            with os.fdopen(fresh, "wb") as file:
+                file.write(data)
+                if self.descriptor is not None:
+                    os.fchmod(fresh, 0o600 | os.fstat(self.descriptor).st_mode & 0o044)
+            os.replace(self._at(temporary), self._at(name), src_dir_fd=self.descriptor, dst_dir_fd=self.descriptor)
+        except BaseException:
+            self.remove(temporary)
+            raise
+
+    def sweep(self) -> None:
+        """Remove the temporary files of processes that ended while they wrote."""
+        for name in os.listdir(self.path if self.descriptor is None else self.descriptor):
+            with suppress(OSError):     # another process may do the same
+                if TEMPORARY.fullmatch(name) and time.time() - self._status(name).st_mtime > OLD:
+                    self.remove(name)
+
+    def _status(self, name: str) -> os.stat_result:
+        return os.stat(self._at(name), dir_fd=self.descriptor, follow_symlinks=False)
+
+    def remove(self, name: str) -> None:
+        """Remove a file, if it is there and may be removed."""
+        with suppress(OSError):
+            os.unlink(self._at(name), dir_fd=self.descriptor)
