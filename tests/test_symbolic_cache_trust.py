@@ -236,7 +236,6 @@ def test_what_another_user_has_planted_is_not_executed(cache_folder, tmp_path, m
     with pytest.warns(zd.CacheWarning, match=f"is not used, but made anew: it belongs to uid {OTHER}"):
         made()
     assert not planted.exists()
-    assert {path.stat().st_uid for path in cache_folder.iterdir()} == {0}
 
 
 @needs_root
@@ -252,10 +251,10 @@ def test_root_makes_no_folders_in_those_of_others(tmp_path, cache_folder, monkey
 
 AS_ANOTHER = f"""
 import os, pwd, tempfile
-import sympy.physics.mechanics, zerodrift.symbolics.define as define, zerodrift.symbolics.fingerprint as fingerprint
+import sympy.physics.mechanics, zerodrift.symbolics.define as define, zerodrift.symbolics.compiling as compiling
 define.fingerprint(dict(read=sympy.S.One))      # reads the package's sources, which the other user may not
 os.setgroups([]), os.setgid({OTHERS_GROUP}), os.setuid({OTHER})
-if not os.access(define.compiling.get_include() + "/zerodrift/system.h", os.R_OK):
+if not os.access(compiling.get_include() + "/zerodrift/system.h", os.R_OK):
     print("nan")
     raise SystemExit
 """

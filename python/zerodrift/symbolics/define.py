@@ -113,7 +113,7 @@ def symbolic(
     array([-0.98629, -0.16501])
     """
     definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
-                            parameters or {}, time, mass, bias, points)
+                            {} if parameters is None else parameters, time, mass, bias, points)
     with Progress(name, progress) as say:
         return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say)
 

@@ -11,9 +11,8 @@ from sympy.core.function import AppliedUndef
 
 from .. import _check
 from .derivation import Given
-from .emission import computable
 from .graph import MOVING, Node
-from .reading import Reader
+from .reading import Reader, namesake
 
 
 class Definition:
@@ -42,15 +41,16 @@ class Definition:
             raise TypeError("bias goes with mass; from kinetic it is derived")
         self.speed_definitions = dict(speeds) if isinstance(speeds, Mapping) else {}
         self.speeds = self._speeds(speeds, kinematics)
-        holonomic, names = _named(constraints, "constraint")
-        rows, more = _named(nonholonomic, "nonholonomic")
+        holonomic, names = _named("constraints", constraints, "constraint")
+        rows, more = _named("nonholonomic", nonholonomic, "nonholonomic")
         self.constraint_names = tuple(names + more)
         self.values, self._parameters = _parameters(parameters)
         self.expressions = {
             "time": self.time, "coordinates": self.coordinates, "speeds": self.speeds, "meaning": self.speed_definitions,
             "kinetic": kinetic, "potential": potential, "force": self._force(force, kinematics), "holonomic": holonomic,
             "nonholonomic": rows, "kinematics": self._kinematics(kinematics), "mass": _matrix("mass", mass),
-            "bias": None if bias is None else list(bias), "points": [tuple(point) for point in points],
+            "bias": None if bias is None else _listed("bias", bias),
+            "points": [_listed(f"point {i}", point) for i, point in enumerate(_listed("points", points or ()))],
             "names": self.constraint_names, "parameters": [list(self.values), self._parameters]}
         self.coordinate_names = tuple(_name(q) for q in self.coordinates)
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
@@ -84,7 +84,7 @@ class Definition:
             if missing:
                 raise ValueError(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}")
             return [given[rate] for rate in self.rates]
-        matrix = sympy.Matrix(given)
+        matrix = sympy.Matrix(_matrix("kinematics", given))
         if matrix.shape == (len(self.coordinates), len(self.speeds)) and matrix.shape[1] > 1:
             return list(matrix * sympy.Matrix(self.speeds))
         if matrix.shape == (len(self.coordinates), 1):
@@ -102,10 +102,11 @@ class Definition:
                 places = [i for names in (self.speeds, [] if kinematics is not None else self.coordinates)
                           for i, name in enumerate(names) if name == key]
                 if not places:
-                    raise ValueError(f"force is given for {key}, which is no velocity")
+                    raise ValueError(f"force is given for {key}, which is no velocity"
+                                     f"{namesake(key, [*self.speeds, *self.coordinates])}")
                 force[places[0]] = value
             return force
-        force = list(given)
+        force = _listed("force", given)
         if len(force) != len(self.speeds):
             raise ValueError(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}")
         return force
@@ -114,7 +115,7 @@ class Definition:
 
     def read(self) -> tuple[Reader, Given]:
         """All expressions but those of the drawing, as nodes."""
-        reader, e = Reader(computable), self.expressions
+        reader, e = Reader(), self.expressions
         graph, nq, nv = reader.graph, len(self.coordinates), len(self.speeds)
         self.placed = self._known(reader)
         v = [graph.leaf("v", i) for i in range(nv)]
@@ -219,7 +220,7 @@ def _time() -> sympy.Symbol:
 
 
 def _variables(what: str, given: Any) -> list[Any]:
-    found = [given] if isinstance(given, sympy.Expr) else list(given)
+    found = [given] if isinstance(given, sympy.Expr) else _listed(what, given, "symbols or functions of time")
     for each in found:
         if not isinstance(each, sympy.Symbol | AppliedUndef | sympy.Derivative):
             raise TypeError(f"{what} must be symbols or functions of time, not {each!r}")
@@ -228,15 +229,24 @@ def _variables(what: str, given: Any) -> list[Any]:
     return found
 
 
-def _named(given: Any, word: str) -> tuple[list[Any], list[str]]:
+def _listed(what: str, given: Any, of: str = "expressions") -> list[Any]:
+    try:
+        return list(given)
+    except TypeError:
+        raise TypeError(f"{what} must be a sequence of {of}, not {given!r}") from None
+
+
+def _named(what: str, given: Any, word: str) -> tuple[list[Any], list[str]]:
     if isinstance(given, Mapping):
         return list(given.values()), [str(name) for name in given]
-    found = [given] if isinstance(given, sympy.Expr | sympy.Equality) else list(given)
+    found = [given] if isinstance(given, sympy.Expr | sympy.Equality) else _listed(what, () if given is None else given)
     return found, [f"{word}{i}" for i in range(len(found))]
 
 
 def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]]:
     """Values by name, and the symbols among the keys."""
+    if not isinstance(given, Mapping):
+        raise TypeError(f"parameters must be a dict of symbols or names and their values, not {given!r}")
     values: dict[str, float] = {}
     for key, value in given.items():
         if not isinstance(key, str | sympy.Symbol):
@@ -249,7 +259,10 @@ def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]
 
 
 def _matrix(what: str, given: Any) -> list[list[Any]] | None:
-    return None if given is None else sympy.Matrix(given).tolist()
+    try:
+        return None if given is None else sympy.Matrix(given).tolist()
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}") from None
 
 
 def _symbols(what: Any) -> set[Any]:

@@ -22,18 +22,6 @@ LONGEST = 100       # characters of an expression that is written in place
 PRINTERS = {"C": C99CodePrinter({"strict": False}), "Python": PythonCodePrinter({"strict": False})}
 
 
-def computable(function: Any) -> bool:
-    """Whether C has a function."""
-    arity = next(iter(function.nargs)) if getattr(function, "nargs", None) and function.nargs.is_FiniteSet else 2
-    sample = function(*(sympy.Symbol(f"x{i}", real=True) for i in range(arity)))
-    if getattr(type(sample), "_ccode", None):
-        return True
-    try:
-        return "Not supported" not in PRINTERS["C"].doprint(sample)
-    except Exception:       # printers fail in many ways
-        return False
-
-
 class Writer:
     """Expressions of one language for the operations of a program."""
 

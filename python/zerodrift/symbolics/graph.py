@@ -221,9 +221,15 @@ class Derivative(_NodeFunction):
                                     for k, rate in rates if rate is not graph.zero))
             case "choice":
                 cases, otherwise = node.content
-                return graph.choice(tuple((condition, self(value)) for condition, value in cases), self(otherwise))
+                of = self._of_case
+                return graph.choice(tuple((condition, of(value)) for condition, value in cases), of(otherwise))
             case _:
                 return graph.zero
+
+    def _of_case(self, value: Node) -> Node:
+        """Where there is no value, there is no derivative either."""
+        undefined = value.kind == "number" and value.content[0] != value.content[0]
+        return value if undefined else self(value)
 
     def _of_factor(self, node: Node, base: Node, exponent: Number) -> Node:
         rate = self(base)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -10,29 +11,29 @@ import sympy
 from sympy.core.function import Application, AppliedUndef
 from sympy.logic.boolalg import BooleanFunction
 
+from .functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
 from .graph import Graph, Node
 
-STEPS = (sympy.floor, sympy.ceiling)      # their derivative is zero but for jumps
 SIGNS = {sympy.StrictLessThan: "<", sympy.LessThan: "<=", sympy.StrictGreaterThan: ">", sympy.GreaterThan: ">=",
          sympy.Equality: "==", sympy.Unequality: "!="}
 LOGIC = {sympy.And: "and", sympy.Or: "or", sympy.Not: "not"}
-REWRITTEN: dict[Any, Callable[..., sympy.Expr]] = {
-    sympy.sec: lambda x: 1 / sympy.cos(x), sympy.csc: lambda x: 1 / sympy.sin(x), sympy.cot: lambda x: 1 / sympy.tan(x),
-    sympy.sech: lambda x: 1 / sympy.cosh(x), sympy.csch: lambda x: 1 / sympy.sinh(x), sympy.coth: lambda x: 1 / sympy.tanh(x),
-    sympy.Mod: lambda x, y: x - y * sympy.floor(x / y), sympy.frac: lambda x: x - sympy.floor(x),
-    sympy.sign: lambda x: sympy.Piecewise((1, x > 0), (-1, x < 0), (0, True)),
-    sympy.Heaviside: lambda x, middle: sympy.Piecewise((0, x < 0), (middle, sympy.Eq(x, 0)), (1, True)),
-    sympy.sinc: lambda x: sympy.Piecewise((sympy.sin(x) / x, sympy.Ne(x, 0)), (1, True)),
-    sympy.exp_polar: sympy.exp,
-}
+UNDEFINED = math.nan         # one object, so that there is one node of it
+
+
+def namesake(e: Any, others: Iterable[Any]) -> str:
+    """How something differs from another that is written like it, as the end of a sentence; nothing where there is none."""
+    other = next((x for x in others if str(x) == str(e) and x != e), None)
+    return "" if other is None else (
+        f", {sympy.srepr(e)}, which to SymPy is another than the {other} that was given, {sympy.srepr(other)}: make it once, "
+        "with the assumptions it shall have, and use it everywhere")
 
 
 class Reader:
     """Reads expressions of one system; `known` says what leaf or expression each of its symbols is."""
 
-    def __init__(self, computable: Callable[[Any], bool]) -> None:
+    def __init__(self) -> None:
         self.graph = Graph(self._slope)
-        self._computable = computable
+        self._partial: dict[Node, bool] = {}
         self._slopes: dict[tuple[Any, int, int], tuple[sympy.Expr, list[sympy.Dummy]]] = {}
 
     def read(self, what: str, expression: Any, known: Mapping[Any, Node]) -> Node:
@@ -56,6 +57,45 @@ class Reader:
             self._slopes[key] = slope.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero), dummies
         slope, dummies = self._slopes[key]
         return _Reading(self, f"the derivative of {function.__name__}", dict(zip(dummies, arguments, strict=True)))(slope)
+
+
+    def compared(self, condition: Node) -> list[Node]:
+        """What a condition compares."""
+        if condition.kind == "logic":
+            return [operand for part in condition.content[1] for operand in self.compared(part)]
+        if condition.kind == "choice":
+            cases, otherwise = condition.content
+            parts = (*(node for case in cases for node in case), otherwise)
+            return [operand for part in parts for operand in self.compared(part)]
+        return list(condition.content[1:]) if condition.kind == "comparison" else []
+
+    def partial(self, node: Node) -> bool:
+        """Whether a node may be no number where its leaves are numbers: it has roots, quotients, logarithms and the like."""
+        if node not in self._partial:
+            self._partial[node] = self._is_partial(node)
+        return self._partial[node]
+
+    def _is_partial(self, node: Node) -> bool:
+        match node.kind:
+            case "sum":
+                return any(self.partial(term) for term, _ in node.content)
+            case "product":
+                return any(exponent < 0 or exponent != int(exponent) or self.partial(base) for base, exponent in node.content)
+            case "call":
+                function, arguments = node.content
+                return function not in TOTAL or any(map(self.partial, arguments))
+            case "choice":
+                cases, otherwise = node.content
+                return any(self.partial(value) for value in (*(value for _, value in cases), otherwise))
+            case "number":
+                return node.content[0] is UNDEFINED
+            case _:
+                return False
+
+
+def _exact(node: Node) -> sympy.Expr:
+    value = node.content[0]
+    return sympy.Float(value) if isinstance(value, float) else sympy.Rational(value.numerator, value.denominator)
 
 
 class _Reading:
@@ -86,6 +126,8 @@ class _Reading:
             return self._choice([(condition, value) for value, condition in e.args])
         if isinstance(e, sympy.ITE):
             return self._choice([(e.args[0], e.args[1]), (sympy.true, e.args[2])])
+        if isinstance(e, sympy.Max | sympy.Min):
+            return self._extreme(e)
         if type(e) in SIGNS:
             return self._graph.comparison(SIGNS[type(e)], *map(self, e.args))
         if type(e) in LOGIC:
@@ -116,27 +158,50 @@ class _Reading:
         return self._graph.call(sympy.Pow, base, exponent)
 
     def _call(self, e: Any) -> Node:
-        if not self._reader._computable(type(e)):
+        if not computable(type(e)):
             raise self.refusal(e, f"and {type(e).__name__} has no counterpart in C")
         arguments = [self(argument) for argument in e.args]
         if all(argument.kind == "number" for argument in arguments):
             return self._constant(e)
-        return self._graph.call(type(e), *arguments)
+        value = self._graph.call(type(e), *arguments)
+        if type(e) in WITHIN:
+            return self._choice([(WITHIN[type(e)](*e.args), value)])
+        return value
 
     def _constant(self, e: Any) -> Node:
+        """The number that an expression of numbers is; in derivatives of functions these have symbols in their places."""
+        if e.free_symbols:
+            e = e.func(*(_exact(self(part)) for part in e.args))
         value = e.evalf(20)
         if not value.is_Float and not value.is_Rational:
             raise self.refusal(e, "which is no real number")
         return self._number(value)
 
     def _choice(self, cases: list[tuple[Any, Any]]) -> Node:
-        read = []
+        read, otherwise = [], self._graph.number(UNDEFINED)
         for condition, value in cases:
             if condition == sympy.true:
-                return self._graph.choice(tuple(read), self(value)) if read else self(value)
+                otherwise = self(value)
+                break
             if condition != sympy.false:
-                read.append((self(condition), self(value)))
-        return self._graph.choice(tuple(read), self._graph.number(float("nan")))
+                read.append((self(condition), value if isinstance(value, Node) else self(value)))
+        return self._graph.choice((*self._without_value(read), *read), otherwise) if read else otherwise
+
+    def _without_value(self, cases: list[tuple[Node, Node]]) -> list[tuple[Node, Node]]:
+        """A case for conditions on what may be no number, of which all comparisons would be false."""
+        operands = dict.fromkeys(operand for condition, _ in cases for operand in self._reader.compared(condition))
+        wrong = [self._graph.comparison("!=", x, x) for x in operands if self._reader.partial(x)]
+        if not wrong:
+            return []
+        return [(self._graph.logic("or", *wrong) if len(wrong) > 1 else wrong[0], self._graph.number(UNDEFINED))]
+
+    def _extreme(self, e: Any) -> Node:
+        """Max and Min, which C's fmax and fmin take of the others where one is no number."""
+        best, *others = map(self, e.args)
+        for other in others:
+            case = self._graph.comparison(">" if isinstance(e, sympy.Max) else "<", best, other), best
+            best = self._graph.choice((*self._without_value([case]), case), other)
+        return best
 
     def _other(self, e: Any) -> Node:
         if e is sympy.S.ImaginaryUnit:
@@ -145,9 +210,13 @@ class _Reading:
             done = e.doit()
             if done != e:
                 return self(done)
-            raise self.refusal(e, "a derivative that is not the rate of a coordinate")
+            raise self.refusal(e, f"a derivative that is not the rate of a coordinate{self._namesake(e)}")
         if isinstance(e, AppliedUndef):
-            raise self.refusal(e, "a function that is neither a coordinate nor a speed: put its expression in its place")
+            missing = "a function that is neither a coordinate nor a speed: put its expression in its place"
+            raise self.refusal(e, self._namesake(e)[2:] or missing)
         if isinstance(e, sympy.Symbol):
-            raise self.refusal(e, "to which parameters gives no value")
+            raise self.refusal(e, self._namesake(e)[2:] or "to which parameters gives no value")
         raise self.refusal(e, f"and {type(e).__name__} has no counterpart in C")
+
+    def _namesake(self, e: Any) -> str:
+        return namesake(e, self._known)

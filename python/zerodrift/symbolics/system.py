@@ -150,13 +150,25 @@ def _compiled(source: str) -> Callable[..., None]:
 
 
 def _guarded(function: Callable[..., float]) -> Callable[..., float]:
-    """Not a number where Python raises an error and C does not."""
+    """What C has where Python raises an error: no number, or an infinite one."""
     def guarded(*arguments: float) -> float:
         try:
-            return function(*arguments)
+            return float(function(*arguments))
         except (ValueError, OverflowError, ZeroDivisionError):
-            return math.nan
+            return _as_in_c(function.__name__, arguments)
     return guarded
+
+
+# where NumPy calls them otherwise
+NUMPY = {"pow": np.power, "asin": np.arcsin, "acos": np.arccos, "acosh": np.arccosh, "atanh": np.arctanh}
+
+
+def _as_in_c(name: str, arguments: tuple[float, ...]) -> float:
+    function = NUMPY.get(name) or getattr(np, name, None)
+    if function is None:    # of the gamma functions, which Python raises errors for at poles, and where they overflow
+        return math.inf if name == "lgamma" or arguments[0] > 0 else math.nan
+    with np.errstate(all="ignore"):
+        return float(function(*arguments))
 
 
 class _Guards(type):

@@ -142,7 +142,8 @@ def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
     """Coordinates and velocities with their units; velocities that are rates of coordinates have the units of rates."""
     size = len(names) if are_rates else len(names) + len(rates)
     all_units = [""] * size if units is None else units
-    if isinstance(all_units, str) or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
+    listed = isinstance(all_units, Sequence) and not isinstance(all_units, str)
+    if not listed or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
         raise ValueError(f"units must be {size} strings, one for each coordinate"
                          f"{'' if are_rates else ' and each velocity'}, not {units!r}")
     rate_units = [f"{unit}/s" if unit else "" for unit in all_units] if are_rates else all_units[len(names):]
