@@ -1,5 +1,6 @@
 """What stands in the cache is executed: nothing is that somebody else may have written, and nobody is stopped by that."""
 
+import errno
 import math
 import os
 import resource
@@ -110,8 +111,7 @@ def test_a_folder_of_another_user(cache_folder, compiler, monkeypatch):
 def test_files_of_another_user_are_made_anew(cache_folder, compiler, monkeypatch):
     made()
     pretending(monkeypatch, lambda status: stat.S_ISREG(status.st_mode), st_uid=OTHER)
-    with pytest.warns(zd.CacheWarning, match=rf"json in {cache_folder} is not used, but made anew: it belongs to uid {OTHER}"):
-        made()
+    assert f"json in {cache_folder} is not used, but made anew: it belongs to uid {OTHER}, not to" in one_warning(made)
     assert compiler.calls == 2
 
 
@@ -285,6 +285,27 @@ def test_a_user_takes_what_root_has_filled_and_root_nothing_of_the_users(cache_f
 # ---- without a place ----
 
 
+def test_the_current_folder(tmp_path, cache_folder, monkeypatch):
+    (tmp_path / "here").mkdir(0o700)
+    monkeypatch.chdir(tmp_path / "here")
+    monkeypatch.setenv("ZERODRIFT_CACHE", ".")
+    made()
+    assert len(list((tmp_path / "here").iterdir())) == 3
+
+
+def test_permissions_that_cannot_be_mended(cache_folder, monkeypatch):
+    """As on a file system that is read-only."""
+    def refusing(descriptor, mode):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.delenv("ZERODRIFT_CACHE")
+    monkeypatch.setattr(kept, "_own", lambda: cache_folder)
+    monkeypatch.setattr(kept.os, "fchmod", refusing)
+    cache_folder.mkdir()
+    cache_folder.chmod(0o775)
+    assert f"neither taken from {cache_folder} nor kept there" in one_warning(made)
+
+
 def test_without_a_home_folder(tmp_path, cache_folder, monkeypatch):
     monkeypatch.delenv("ZERODRIFT_CACHE")
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
@@ -295,12 +316,11 @@ def test_without_a_home_folder(tmp_path, cache_folder, monkeypatch):
 
 
 @pytest.mark.skipif(not kept.AS_WINDOWS and os.geteuid() == 0, reason="root can read and write everywhere")
-@pytest.mark.parametrize(("permissions", "why"), [(0o500, "cannot be written"), (0o000, "cannot be read")])
-def test_a_folder_without_permissions(cache_folder, permissions, why):
+@pytest.mark.parametrize("permissions", [0o500, 0o000])
+def test_a_folder_without_permissions(cache_folder, permissions):
     cache_folder.mkdir(permissions)
     try:
-        with pytest.warns(zd.CacheWarning, match=why):
-            made()
+        assert f"{cache_folder} cannot be written (Permission denied). Give it space and" in one_warning(made)
     finally:
         cache_folder.chmod(0o700)
 

@@ -17,16 +17,21 @@ LARGEST = sp.Float(np.finfo(float).max)
 ARGUMENTS = [0.0, 1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 2.0, -2.0, -3.0, 1e-10, -1e-10, 1e-300, 25.0, -25.0, 170.25, -170.25, 171.5,
              710.0, -710.0, 1000.0, -1000.0, np.pi, np.pi / 2, 1e8, -1e8, np.nextafter(1.0, 2.0), np.nextafter(1.0, 0.0),
              *RANDOM.uniform(-4, 4, 20)]
-PAIRS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0), (-8.0, 1 / 3), (-8.0, 3.0), (-8.0, -3.0), (0.0, 0.5), (0.0, -0.5),
+PAIRS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0), (-8.0, 0.7), (-8.0, 3.0), (-8.0, -3.0), (0.0, 0.5), (0.0, -0.5),
          (2.0, -2.0), (2.0, 2.0), (1000.0, 200.0), (-1000.0, 201.0), (-7.5, 2.0), (7.5, -2.0), (1e-200, 1e-200), (1e200, 1e200),
-         *RANDOM.uniform(-4, 4, (20, 2))]
+         *map(tuple, RANDOM.uniform(-4, 4, (20, 2)))]
 ONE = [f for f in (*functions.TOTAL, *functions.PARTIAL, *functions.REWRITTEN)
        if f not in (sp.atan2, sp.Mod, sp.erf2, sp.adjoint, sp.transpose, sp.exp_polar, c.hypot, c.fma)]
-TWO = [sp.atan2, sp.Mod, sp.erf2, c.hypot, sp.Max, sp.Min, sp.Pow, sp.Heaviside, lambda x, y: sp.log(x, y),
-       lambda x, y: c.fma(x, y, 1)]
+
+
+def fused(x, y):
+    return c.fma(x, y, 1)
+
+
+TWO = [sp.atan2, sp.Mod, sp.erf2, c.hypot, sp.Max, sp.Min, sp.Pow, sp.Heaviside, lambda x, y: sp.log(x, y), fused]
 # SymPy's functions for code generation are not evaluated by it
 MEANT = {c.expm1: lambda x: sp.exp(x) - 1, c.log1p: lambda x: sp.log(1 + x), c.exp2: lambda x: 2**x,
-         c.log2: lambda x: sp.log(x, 2),
+         c.log2: lambda x: sp.log(x, 2), sp.erf2: lambda x, y: sp.erf(y) - sp.erf(x), fused: lambda x, y: x * y + 1,
          c.log10: lambda x: sp.log(x, 10), c.hypot: lambda x, y: sp.sqrt(x**2 + y**2), c.Cbrt: sp.cbrt, c.Sqrt: sp.sqrt}
 
 
@@ -35,7 +40,7 @@ def expected(function, arguments):
     exact = [sp.Integer(int(x)) if x == int(x) and abs(x) <= 1000 else sp.Float(x, 40) for x in map(float, arguments)]
     try:
         value = sp.sympify(MEANT.get(function, function)(*exact)).evalf(30)
-    except (TypeError, ValueError):     # "not comparable"
+    except (TypeError, ValueError, ZeroDivisionError):      # such as "not comparable", "Modulo by zero"
         return None
     return float(value) if value.is_real and value.is_finite and abs(value) <= LARGEST else None
 
@@ -48,7 +53,7 @@ def forces(variables, rates, expressions):
 
     def slow(p):
         out = {"f": np.zeros(system.nv)}
-        in_python({"f"}, 0.0, list(p), [0.0] * system.nv, [], out)
+        in_python({"f"}, 0.0, np.asarray(p).tolist(), [0.0] * system.nv, [], out)
         return out["f"]
 
     return lambda p: system.evaluate(p).f, slow
@@ -65,6 +70,8 @@ def test_values_are_those_of_sympy_and_none_where_it_has_none(many, arguments):
         for given in arguments:
             for function, got in zip(many, evaluate(np.array([*given] * n, dtype=float)), strict=False):
                 value = expected(function, given)
+                if value == 0 and math.isnan(got) and given == (-1.0, 0.0):     # log(-1) / log(0), of which neither is real
+                    continue
                 if function is sp.atan2 and given == (0.0, 0.0):
                     value = 0.0
                 if function is sp.asech and 0 < 1 - given[0] < 1e-15:      # acosh(1/x) magnifies the rounding of 1/x there
@@ -79,7 +86,7 @@ LOST = [sp.Max(sp.log(X), 0), sp.Min(sp.sqrt(X), 3, X), sp.sign(sp.log(X)), sp.H
         sp.Abs(sp.sqrt(X)), sp.Piecewise((1, sp.sqrt(X) < 1), (2, True)), sp.Piecewise((X, X > 0)),
         sp.Piecewise((1, ~(sp.acos(X) < 1)), (2, True)),
         sp.Piecewise((1, (X < 5) & (X ** sp.Rational(1, 3) < 1)), (2, True)), sp.sinc(sp.log(X)), sp.floor(sp.sqrt(X)),
-        sp.Mod(sp.sqrt(X), 2), sp.re(sp.log(X)), sp.acot(sp.sqrt(X)), sp.Max(0, sp.Piecewise((X, X > 0)))]
+        sp.Mod(sp.sqrt(X), 2), sp.acot(sp.sqrt(X)), sp.Max(0, sp.Piecewise((X, X > 0)))]
 
 
 @pytest.mark.parametrize("expression", LOST, ids=str)

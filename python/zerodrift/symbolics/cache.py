@@ -130,7 +130,7 @@ def _own() -> Path:
 def _usable(*, create: bool = False) -> Iterator[Folder | None]:
     """The folder, opened and found to be trusted; None where it is not, which is said, or not there. `create` makes it."""
     path = _chosen()
-    if path.parts[0].startswith("~"):
+    if str(path).startswith("~"):
         _say(f"compiled systems are not kept: the home folder of {path} is not known. Let ZERODRIFT_CACHE name a folder")
         yield None
         return
@@ -138,12 +138,9 @@ def _usable(*, create: bool = False) -> Iterator[Folder | None]:
         _make(path)
     try:
         descriptor = None if AS_WINDOWS else os.open(path, os.O_RDONLY | FOLDER)
-    except OSError as error:
+    except OSError:     # which is said when something is to be kept
         if create:
             raise
-        if isinstance(error, PermissionError):
-            _say(f"compiled systems are not taken from {path}, which cannot be read ({error.strerror}). Let ZERODRIFT_CACHE name "
-                 "another folder")
         yield None
         return
     try:
@@ -171,7 +168,8 @@ def _trusted(path: Path, descriptor: int | None) -> Folder | None:
         return Folder(path, None)
     status = os.fstat(descriptor)
     if path == _own() and status.st_uid == os.geteuid() and status.st_mode & OTHERS_WRITE:
-        os.fchmod(descriptor, 0o700)
+        with suppress(OSError):
+            os.fchmod(descriptor, 0o700)
         status = os.fstat(descriptor)
     wrong = distrust(status)
     if not wrong:
@@ -207,10 +205,10 @@ def _name(user: int) -> str:
         return f"uid {user}"
 
 
-def _say(sentence: str) -> None:
-    """Warn, once in a process."""
-    if sentence not in _said:
-        _said.add(sentence)
+def _say(sentence: str, about: str = "") -> None:
+    """Warn, once in a process of the same thing."""
+    if (about or sentence) not in _said:
+        _said.add(about or sentence)
         warnings.warn(sentence, CacheWarning, stacklevel=_depth())
 
 
@@ -241,7 +239,8 @@ class Folder(NamedTuple):
                     return file.read() if stat.S_ISREG(status.st_mode) else None
         except OSError:     # it is not there, or a link
             return None
-        _say(f"{name} in {self.path} is not used, but made anew: it {wrong}. Remove it if it stays there")
+        _say(f"{name} in {self.path} is not used, but made anew: it {wrong}. Remove it if it stays there",
+             f"{self.path} {wrong}")
         return None
 
     def write(self, name: str, data: bytes) -> None:
