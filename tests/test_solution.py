@@ -166,3 +166,25 @@ def test_repr_says_what_matters(bar):
                  "max |Phi| =", "max |Psi_E| ="):
         assert part in text
     assert "no stabilization" in repr(motion(bar, 1.0, 20, stabilization=None))
+
+
+def test_columns_are_found_by_their_names(system, tmp_path):
+    """Coordinates, velocities and multipliers, of the run and of what was saved of it."""
+    sol = motion(system, 0.1, 10)
+    for it in (sol, saved_and_loaded(sol, tmp_path)):
+        columns = np.hstack([it.p, it.v, it.multipliers]).T
+        names = [variable.name for variable in (*system.coordinates, *system.velocities, *system.constraints)]
+        assert it._ipython_key_completions_() == names
+        for name, column in zip(names, columns, strict=True):
+            assert np.array_equal(it[name], column)
+
+
+def test_names_that_say_nothing_or_too_much_are_refused():
+    system = zd.System(["x", "constraint0"], mass=np.eye(2), constraints=lambda p: p[1:], p0=[1.0, 0.0])
+    sol = zd.simulate(system, 0.1, step=0.1)
+    assert np.array_equal(sol["x"], sol.p[:, 0])
+    with pytest.raises(KeyError, match="'constraint0' is the name of 2 things in system"):
+        sol["constraint0"]
+    for nothing in ("z", 0, None):
+        with pytest.raises(KeyError, match="there are x, constraint0, x_dot, constraint0_dot, constraint0"):
+            sol[nothing]

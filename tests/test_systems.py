@@ -133,5 +133,12 @@ def test_parameters_may_be_changed(system):
     key, value = next((key, value) for key, value in system.parameters.items() if isinstance(value, float) and value > 0)
     changed = system.with_parameters(**{key: 1.01 * value})
     assert changed.parameters == system.parameters | {key: 1.01 * value}
+    assert system.with_parameters({key: 1.01 * value}).parameters == changed.parameters
     with pytest.raises(ValueError, match="parameter"):
         system.with_parameters(no_such_thing=1.0)
+    with pytest.raises(ValueError, match="parameter"):
+        system.with_parameters({"no.such thing": 1.0})
+    with pytest.raises(TypeError, match=f"parameter {key!r} is changed twice"):
+        system.with_parameters({key: value}, **{key: 1.01 * value})
+    with pytest.raises(TypeError, match="changes must be a dict"):
+        system.with_parameters([value])

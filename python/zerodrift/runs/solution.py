@@ -21,7 +21,8 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 class Solution:
     """A motion, how well it satisfies its constraints and its energy balance, and what it cost.
 
-    Time comes first in every array; arrays are read-only.
+    Time comes first in every array; arrays are read-only. ``sol["name"]`` is the column of the coordinate or velocity of that
+    name, or of the multiplier of the constraint of that name.
 
     Attributes
     ----------
@@ -126,6 +127,49 @@ class Solution:
         if self.energy_violation is not None:
             lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
         return "\n".join(lines)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A coordinate, a velocity, or the multiplier of a constraint, by its name, at every row.
+
+        Parameters
+        ----------
+        name : str
+            One of the names in ``system.coordinates``, ``system.velocities`` and ``system.constraints``.
+
+        Returns
+        -------
+        ndarray (k,)
+            In the unit of that coordinate or velocity; of a constraint, what `multipliers` has in its column.
+
+        Raises
+        ------
+        KeyError
+            If nothing has that name, or more than one thing has.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.pendulum(), 1.0, step=0.01)
+        >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
+        True
+        """
+        columns = [array[:, column] for array, variables in self._named() for column, variable in enumerate(variables)
+                   if variable.name == name]
+        if len(columns) == 1:
+            return columns[0]
+        if columns:
+            raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
+                           "take the column of p, v or multipliers")
+        known = ", ".join(variable.name for _, variables in self._named() for variable in variables)
+        raise KeyError(f"nothing in {self.system.name} is called {name!r}; there are {known}")
+
+    def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
+        """Arrays whose columns have names, with these."""
+        system = self.system
+        return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [variable.name for _, variables in self._named() for variable in variables]
 
     def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at any time between the first and the last row.

@@ -61,28 +61,31 @@ class SymbolicSystem(BaseSystem):
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides)
         self.constraints = tuple(Variable(row, "") for row in code.constraints)
-        nq, nv, _, _ = code.sizes
-        self.p0, self.v0 = (None if x is None else _check.vector(n, x, size) for n, x, size in (("p0", p0, nq), ("v0", v0, nv)))
-        for x in (self.p0, self.v0):
-            if x is not None:
-                x.flags.writeable = False
-        values = [_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters]
-        library = compiling.library(code.c_source, progress)
-        self.compiled = library is not None
-        self._core = self._native(library, values) if self.compiled else self._in_python(values)
+        self._set_start(p0, v0)
+        self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
+        self._library = compiling.library(code.c_source, progress)
+        self.compiled = self._library is not None
+        if not self.compiled:
+            warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
+                          f"some hundred times slower", NoCompilerWarning, stacklevel=3)
+        self._core = self._native() if self.compiled else self._in_python()
 
-    def _native(self, library: ctypes.CDLL, values: list[float]) -> _gateway.CoreSystem:
-        data = np.array([*values, *[0.0] * self._code.constants, 0.0])
-        library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
+    def _native(self) -> _gateway.NativeCore:
+        code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
+        return _gateway.NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
+                                   scratch=code.scratch, keep=self._library)
+
+    def _data(self) -> np.ndarray:
+        """What the compiled function receives: the parameters, and the constants that follow from them."""
+        data = np.zeros(len(self._values) + self._code.constants + 1)
+        data[:len(self._values)] = self._values
+        self._library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
         data.flags.writeable = False
-        return _gateway.NativeCore(self._code.sizes, self._code.provides, _gateway.address_of(library, "zd_symbolic_evaluate"),
-                                   data, (*self.coordinates, *self.velocities), scratch=self._code.scratch, keep=library)
+        return data
 
-    def _in_python(self, values: list[float]) -> _gateway.CoreSystem:
-        warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
-                      f"some hundred times slower", NoCompilerWarning, stacklevel=4)
-        return _gateway.PythonCore(self._code.sizes, self._code.provides, _InPython(self._code.python_source, values),
-                                   (*self.coordinates, *self.velocities))
+    def _in_python(self) -> _gateway.PythonCore:
+        code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
+        return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities))
 
     @property
     def c_source(self) -> str:
@@ -90,16 +93,31 @@ class SymbolicSystem(BaseSystem):
         return self._code.c_source
 
     def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
-        return self._copy_with(parameters=self.parameters | changed)
+        other = self._copied()
+        other.parameters, other._values = self.parameters | changed, self._values.copy()
+        for key, value in changed.items():
+            other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)
+        other._core = self._core.with_data(other._data()) if self.compiled else other._in_python()
+        return other
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
         """The same system with another start; what is left out stays."""
-        return self._copy_with(p0=self.p0 if p0 is None else p0, v0=self.v0 if v0 is None else v0)
+        other = self._copied()
+        other._set_start(self.p0 if p0 is None else p0, self.v0 if v0 is None else v0)
+        return other
 
-    def _copy_with(self, **changed: Any) -> SymbolicSystem:
-        given = {"code": self._code, "parameters": self.parameters, "units": self._units, "p0": self.p0, "v0": self.v0,
-                 "name": self.name}
-        return SymbolicSystem(**(given | changed))
+    def _set_start(self, p0: Any, v0: Any) -> None:
+        self.p0 = None if p0 is None else _check.vector("p0", p0, self._code.sizes[0])
+        self.v0 = None if v0 is None else _check.vector("v0", v0, self._code.sizes[1])
+        for x in (self.p0, self.v0):
+            if x is not None:
+                x.flags.writeable = False
+
+    def _copied(self) -> SymbolicSystem:
+        """Another object that shares everything: its library is not looked for again, as pickles have to."""
+        other = object.__new__(type(self))
+        vars(other).update(vars(self))
+        return other
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3), joined by lines where not NaN. None: there is no drawing."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -96,22 +96,37 @@ class BaseSystem:
             v = np.zeros(self.nv) if self.v0 is None else self.v0
         return p, _check.vector(v_name, v, self.nv)
 
-    def with_parameters(self, /, **changed: Any) -> Any:
+    def with_parameters(self, changes: Mapping[str, Any] | None = None, /, **changed: Any) -> Any:
         """The same system with some parameters changed; nothing is derived or compiled again.
 
-        Names that Python does not take as keywords can be handed over as ``**{"lambda": 1.0}``.
+        Parameters
+        ----------
+        changes : dict of str to value, optional
+            New values by name, for names that Python does not take as keywords.
+        **changed
+            New values by name.
 
         Raises
         ------
         ValueError
             If the system has no parameter of that name.
+        TypeError
+            If a parameter is changed twice, or its value is none that it can have.
 
         Examples
         --------
         >>> import zerodrift as zd
         >>> zd.systems.oscillator().with_parameters(mass=2.0)
         zd.systems.oscillator(mass=2.0)
+        >>> zd.systems.oscillator().with_parameters({"mass": 2.0}, stiffness=3.0)
+        zd.systems.oscillator(mass=2.0, stiffness=3.0)
         """
+        if changes is not None and not isinstance(changes, Mapping):
+            raise TypeError(f"changes must be a dict of values by the parameters' names, not {changes!r}")
+        for key in changes or ():
+            if key in changed:
+                raise TypeError(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}")
+        changed = {**(changes or {}), **changed}
         for key in changed:
             _check.choice("parameter", key, self.parameters)
         return self._with(changed)
