@@ -3,7 +3,7 @@
 
 #include "core.h"
 #include "linalg/small.h"
-#include "rank.h"
+#include "constraints/rank.h"
 
 enum { CLOCK_EVERY = 16, MOST_PARTS = 8 };     /* steps between looks at the clock; of a step that cannot be corrected */
 

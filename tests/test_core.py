@@ -97,11 +97,11 @@ def test_a_fresh_core_is_taken(tree):
 
 
 @pytest.mark.parametrize("change", [
-    lambda csrc: (csrc / "newton.c").write_text((csrc / "newton.c").read_text() + "\n"),
+    lambda csrc: (csrc / "linalg" / "newton.c").write_text((csrc / "linalg" / "newton.c").read_text() + "\n"),
     lambda csrc: (csrc / "zerodrift.h").write_text((csrc / "zerodrift.h").read_text() + "\n"),
     lambda csrc: (csrc / "integrators" / "new.c").touch(),
-    lambda csrc: (csrc / "newton.c").unlink(),
-    lambda csrc: (csrc / "newton.c").rename(csrc / "newtons.c"),
+    lambda csrc: (csrc / "linalg" / "newton.c").unlink(),
+    lambda csrc: (csrc / "linalg" / "newton.c").rename(csrc / "linalg" / "newtons.c"),
     lambda csrc: (csrc.parent / "python" / "build_core.py").write_text(
         (csrc.parent / "python" / "build_core.py").read_text().replace("-O3", "-O2")),
 ], ids=["source", "header", "new file", "no file", "renamed", "flags"])

@@ -21,5 +21,5 @@ CONVERGED = 1e-8            # motions with step 1e-3 over half a second: the fou
 REFERENCE = 1e-8            # against DOP853 at rtol 1e-12, for a run at step 1e-3
 
 # ---- physics ----
-START = 1e-10               # |Phi|, |Psi| that a start may have: START_TOLERANCE of csrc/run.c
+START = 1e-10               # |Phi|, |Psi| that a start may have: START_TOLERANCE of csrc/run/create.c
 KEYBOARD = 0.1              # s: from Ctrl-C to the partial solution, as promised

@@ -10,7 +10,7 @@
  */
 #include "../core.h"
 #include "../linalg/small.h"
-#include "../rank.h"
+#include "../constraints/rank.h"
 
 static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */

@@ -10,8 +10,8 @@
  */
 #include "../core.h"
 #include "../linalg/small.h"
-#include "../newton.h"
-#include "../rank.h"
+#include "../linalg/newton.h"
+#include "../constraints/rank.h"
 
 /* Newton's first iteration contracts so well where its start belongs to one solution and no other, after Kantorovich. */
 static const double TRUSTED = 0.25;

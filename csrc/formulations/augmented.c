@@ -10,7 +10,7 @@
 
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
-#include "../rank.h"
+#include "../constraints/rank.h"
 
 typedef struct augmented {
     int n, m;

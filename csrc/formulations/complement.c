@@ -3,7 +3,7 @@
 
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
-#include "../rank.h"
+#include "../constraints/rank.h"
 
 /* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
  * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */

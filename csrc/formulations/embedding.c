@@ -8,8 +8,8 @@
 #include "embedding.h"
 
 #include "../linalg/lu.h"
-#include "../newton.h"
-#include "../rank.h"
+#include "../linalg/newton.h"
+#include "../constraints/rank.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
 static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */

@@ -7,7 +7,7 @@
 #include "minimal.h"
 
 #include "../linalg/small.h"
-#include "../rank.h"
+#include "../constraints/rank.h"
 
 enum { MAX_TURNS = 12 };
 static const double SETTLED = 0x1p-46, NEARLY = 0x1p-30;    /* parts of the speed: that it still changes by; that are rounding at most */

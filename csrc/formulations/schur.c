@@ -18,7 +18,7 @@
 #include "dependent.h"
 
 #include "../linalg/small.h"
-#include "../rank.h"
+#include "../constraints/rank.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */

@@ -21,8 +21,8 @@
  */
 #include "../core.h"
 #include "../linalg/small.h"
-#include "../newton.h"
-#include "../rank.h"
+#include "../linalg/newton.h"
+#include "../constraints/rank.h"
 
 enum { MAX_ITERATIONS = 60 };
 static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */

@@ -8,7 +8,7 @@
  */
 #include "../core.h"
 #include "../linalg/lu.h"
-#include "../newton.h"
+#include "../linalg/newton.h"
 
 enum { MAX_ITERATIONS = 20 };
 static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */

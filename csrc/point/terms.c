@@ -1,7 +1,7 @@
 /* Which term of a system is not finite. Nobody looks while all goes well: once a run has failed, the step that failed is made again
  * and watched, so that systems pay nothing for being told what is wrong with them.
  */
-#include "core.h"
+#include "../core.h"
 
 static const double IMMENSE = 1e75;     /* the state itself is at fault beyond: terms have up to its fourth power */
 

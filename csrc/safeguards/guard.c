@@ -11,8 +11,8 @@
  * And it has to be short enough for the method: where the fastest part of the motion outgrows all others, as in an instability it
  * does, vdot1 - vdot0 = -omega^2 (p1 - p0) shows its omega. A look now and then is enough, and costs less: until there is suspicion.
  */
-#include "core.h"
-#include "linalg/small.h"
+#include "../core.h"
+#include "../linalg/small.h"
 
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* detours this small, in natural units, are rounding and tolerances */

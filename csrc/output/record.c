@@ -1,5 +1,5 @@
 /* What is kept of a run: one row of the caller's arrays for each saved instant. */
-#include "core.h"
+#include "../core.h"
 
 static void copy_row(double *table, long row, int width, const double *values)
 {

@@ -1,7 +1,7 @@
 /* The equations of motion of a run at its point: the rate of the integrated state, and the energy balance. */
-#include "core.h"
-#include "linalg/small.h"
-#include "rank.h"
+#include "../core.h"
+#include "../linalg/small.h"
+#include "../constraints/rank.h"
 
 int zd_has_energy(const zd_system *system)
 {

@@ -1,8 +1,8 @@
 /* What went wrong, in one sentence with its numbers. */
 #include <stdio.h>
 
-#include "core.h"
-#include "rank.h"
+#include "../core.h"
+#include "../constraints/rank.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 

@@ -1,8 +1,8 @@
 /* Values between steps: from where the step began, a shorter one of the same method is made to each time that is wanted, and
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
  */
-#include "core.h"
-#include "linalg/small.h"
+#include "../core.h"
+#include "../linalg/small.h"
 
 static size_t extra_bytes(const zd_run *run)
 {

@@ -7,7 +7,7 @@
  * would be rejected. Measured over four mechanisms, 0.8 takes a tenth fewer evaluations for the same error; a predictive
  * controller takes one percent fewer still, proportional-integral ones take more.
  */
-#include "core.h"
+#include "../core.h"
 
 enum { HELD = 10, FREE = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
 static const double AT_THE_LIMIT = 0.95;    /* of stability */

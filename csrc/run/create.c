@@ -1,10 +1,10 @@
 /* A run from its creation to its end: all its memory, and the checks of its start. */
 #include <stdio.h>
 
-#include "core.h"
-#include "linalg/small.h"
-#include "rank.h"
-#include "registry.h"
+#include "../core.h"
+#include "../linalg/small.h"
+#include "../constraints/rank.h"
+#include "../registry.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
 static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */

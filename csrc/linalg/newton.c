@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "zerodrift.h"
+#include "../zerodrift.h"
 
 enum { MOST_RETREATS = 10 };
 

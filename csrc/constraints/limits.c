@@ -21,8 +21,8 @@
  */
 #include "rank.h"
 
-#include "linalg/lu.h"
-#include "linalg/small.h"
+#include "../linalg/lu.h"
+#include "../linalg/small.h"
 
 enum { MAX_TURNS = 100, MOST_STALLS = 8 };     /* of an iteration from rest */
 

@@ -18,7 +18,7 @@
 
 #include <stdio.h>
 
-#include "linalg/small.h"
+#include "../linalg/small.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */

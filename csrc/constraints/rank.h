@@ -5,7 +5,7 @@
 #ifndef ZD_RANK_H
 #define ZD_RANK_H
 
-#include "core.h"
+#include "../core.h"
 
 /* Of lost rows: see branch.c. */
 typedef struct zd_branch {

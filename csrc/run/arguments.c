@@ -4,8 +4,8 @@
 #include <limits.h>
 #include <stdio.h>
 
-#include "core.h"
-#include "registry.h"
+#include "../core.h"
+#include "../registry.h"
 
 enum { LARGEST = 8192 };    /* coordinates and velocities: with more, the sizes of matrices would leave the range of int */
 

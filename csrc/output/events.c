@@ -4,8 +4,8 @@
  * shorter steps, as output.c makes them. Reported is that end of the bracket where the event has happened, so that a run which starts
  * there does not meet it again.
  */
-#include "bracket.h"
-#include "core.h"
+#include "../linalg/bracket.h"
+#include "../core.h"
 
 static const double RESOLUTION = 4 * 0x1p-52;   /* of the largest |t| of the step: the width of a bracket that is done */
 

@@ -9,11 +9,11 @@
  * Which of these it is, shorter steps tell: through a bifurcation the motion is continuous, so that one of them ends within the region
  * where branch.c knows it; otherwise it leaps however short they are.
  */
-#include "bracket.h"
-#include "core.h"
-#include "linalg/lu.h"
-#include "linalg/small.h"
-#include "rank.h"
+#include "../linalg/bracket.h"
+#include "../core.h"
+#include "../linalg/lu.h"
+#include "../linalg/small.h"
+#include "../constraints/rank.h"
 
 enum { MOST_LOOKS = 64 };
 static const double LONG = 1;       /* in natural units: a path so long is looked at in between, */

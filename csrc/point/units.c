@@ -7,8 +7,8 @@
  * row, whose ratio is a lever arm. A tolerance of 1e-12 on Phi in units of its size thus says that the error is as if coordinates
  * were off by 1e-12 rad, or by 1e-12 of the mechanism's length; multiplying Phi by a number changes nothing.
  */
-#include "core.h"
-#include "linalg/small.h"
+#include "../core.h"
+#include "../linalg/small.h"
 
 static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
 

@@ -3,9 +3,9 @@
  * recorded cost nothing where that stage needs them anyway. Comparing values instead of trusting flags keeps this right
  * whatever integrator or correction is plugged in.
  */
-#include "core.h"
-#include "linalg/small.h"
-#include "rank.h"
+#include "../core.h"
+#include "../linalg/small.h"
+#include "../constraints/rank.h"
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {

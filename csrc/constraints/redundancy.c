@@ -3,7 +3,7 @@
  */
 #include "rank.h"
 
-#include "linalg/small.h"
+#include "../linalg/small.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
 static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
