@@ -1,13 +1,19 @@
 /* What a run does, outside it: acceleration, projection, a single step. */
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-#include "core.h"
+#include "linalg/norms.h"
+#include "registry.h"
+#include "run/arguments.h"
+#include "run/create.h"
+#include "run/explain.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
 {
     if (status) status = zd_explain(run, status);
-    snprintf(message, (size_t)size, "%s", run->message);
+    snprintf(message, (size_t)size, "%s", run->outcome.message);
     zd_run_free(run);
     return status;
 }
@@ -20,11 +26,11 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     if (status) return status;
     zd_run *run = zd_run_open(system, &settings, t, p, v, &status, message, message_size);
     if (!run) return status;
-    if (!status) status = zd_run_place(run, t, p, v);
-    if (!status) status = zd_run_accelerate(run);
-    if (!status && !isfinite(zd_max_abs(system->nv, run->point->vdot))) status = ZD_NOT_FINITE;
-    memcpy(vdot, run->point->vdot, (size_t)system->nv * sizeof *vdot);
-    if (zd_constraints(system)) memcpy(multipliers, run->point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
+    if (!status) status = zd_stepper_place(&run->stepper, t, p, v);
+    if (!status) status = zd_motion_accelerate(&run->motion);
+    if (!status && !isfinite(zd_max_abs(system->nv, run->motion.point->vdot))) status = ZD_NOT_FINITE;
+    memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
+    if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
 }
 
@@ -37,11 +43,11 @@ static int project_stage(const zd_system *system, const zd_settings *settings, d
     still.provides &= ~ZD_XI;       /* nothing here is about accelerations */
     zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
     if (!run) return status;
-    run->violates = ZD_PHI | ZD_C;
-    if (!status) status = zd_run_correct(run);
-    memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
-    memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
-    if (iterations) *iterations = (int)run->statistics.position_iterations;
+    run->motion.drifts_from = ZD_PHI | ZD_C;
+    if (!status) status = zd_motion_correct(&run->motion, 0, 1);
+    memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
+    memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
+    if (iterations) *iterations = (int)run->motion.statistics.position_iterations;
     return finish(run, status, message, message_size);
 }
 
@@ -72,11 +78,11 @@ int zd_step(const zd_system *system, const zd_settings *settings, double *p, dou
     if (status) return status;
     zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
     if (!run) return status;
-    if (!status) status = zd_suits(system, settings->integrator) ? zd_run_place(run, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
-    if (!status) status = zd_run_start_energy(run);
-    if (!status) status = zd_run_integrate(run, settings->t1 - settings->t0);
-    if (!status) status = zd_run_land(run, settings->t1);
-    memcpy(p, run->point->p, (size_t)system->nq * sizeof *p);
-    memcpy(v, run->point->v, (size_t)system->nv * sizeof *v);
+    if (!status) status = zd_suits(system, settings->integrator) ? zd_stepper_place(&run->stepper, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
+    if (!status) status = zd_motion_start_energy(&run->motion);
+    if (!status) status = zd_stepper_integrate(&run->stepper, settings->t1 - settings->t0);
+    if (!status) status = zd_stepper_land(&run->stepper, settings->t1, 0, 1);
+    memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
+    memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
     return finish(run, status, message, message_size);
 }

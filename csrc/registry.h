@@ -2,7 +2,9 @@
 #ifndef ZD_REGISTRY_H
 #define ZD_REGISTRY_H
 
-#include "core.h"
+#include "formulations/formulation.h"
+#include "integrators/integrator.h"
+#include "motion/correction.h"
 
 const zd_formulation *zd_formulation_of(int row);
 const zd_integrator *zd_integrator_of(int row);

@@ -19,9 +19,13 @@
  *
  * Rates are differences over a short path, and all of the above is in natural units of it rather than of time.
  */
-#include "rank.h"
+#include "limits.h"
+
+#include <math.h>
+#include <string.h>
 
 #include "../linalg/lu.h"
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
 
 enum { MAX_TURNS = 100, MOST_STALLS = 8 };     /* of an iteration from rest */
@@ -33,10 +37,35 @@ static const double SETTLED = 0x1p-36;  /* parts of an acceleration: it is that 
 static const double FALLING = 0.99;     /* of the smallest change so far: more is a stall */
 static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
 
+zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
+{
+    size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    zd_limits self = {
+        .away = zd_take_doubles(arena, m),
+        .p = zd_take_doubles(arena, nq),
+        .v = zd_take_doubles(arena, n),
+        .pdot = zd_take_doubles(arena, nq),
+        .moved = zd_take_doubles(arena, nq),
+        .Cdot = zd_take_doubles(arena, m * n),
+        .xidot = zd_take_doubles(arena, m),
+        .T = zd_take_doubles(arena, m * m),
+        .K_rate = zd_take_doubles(arena, m * m),
+        .w = zd_take_doubles(arena, m * n),
+        .wdot = zd_take_doubles(arena, m * n),
+        .e = zd_take_doubles(arena, n),
+        .x = zd_take_doubles(arena, n),
+        .force = zd_take_doubles(arena, n),
+        .K = zd_take_doubles(arena, (n + m) * (n + m)),
+        .y = zd_take_doubles(arena, n + m),
+        .order = zd_take(arena, (n + m) * sizeof(int)),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
 /* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
 static int add_ahead(zd_point *point, double s, double weight)
 {
-    zd_branch *self = &point->rank->branch;
+    zd_limits *self = point->rank->limits;
     int n = point->rank->n, m = point->rank->m;
     for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
     zd_point_move(point, self->t + (self->rests ? 0 : s), self->moved, self->v);
@@ -50,7 +79,7 @@ static int add_ahead(zd_point *point, double s, double weight)
 /* Cdot, and the part of xidot that no acceleration makes; both for each unit of path. The point comes back to where it is. */
 static int differentiate(zd_point *point)
 {
-    zd_branch *self = &point->rank->branch;
+    zd_limits *self = point->rank->limits;
     const size_t nq = (size_t)point->system->nq, n = (size_t)point->rank->n, m = (size_t)point->rank->m;
     const int known = point->known;
     memcpy(self->p, point->p, nq * sizeof(double));
@@ -75,7 +104,7 @@ static double along_others(const zd_rank *self, const double *share, const doubl
 /* y_d - T y_r, of something that there is for every row */
 static double own_part(const zd_rank *self, int row, const double *y, int stride)
 {
-    return y[row * stride] - along_others(self, self->branch.T + row * self->m, y, stride);
+    return y[row * stride] - along_others(self, self->limits->T + row * self->m, y, stride);
 }
 
 /* x <- what x, of this row and in natural units, has besides those that count; share (independent,) <- theirs in the rest of it */
@@ -98,20 +127,20 @@ static void split(const zd_point *point, int row, double *x, double *share)
 static void set_rates(const zd_point *point)
 {
     zd_rank *self = point->rank;
-    const zd_branch *branch = &self->branch;
+    const zd_limits *limits = self->limits;
     int n = self->n, m = self->m;
     zd_rank_set_basis(point);
     for (int d = self->independent; d < m; d++) {
         int row = self->row[d];
-        double *w = branch->w + row * n, *wdot = branch->wdot + row * n;
+        double *w = limits->w + row * n, *wdot = limits->wdot + row * n;
         memset(wdot, 0, (size_t)n * sizeof(double));
         if (row < self->mh) {
             zd_copy(n, point->terms.C + row * n, w);
             zd_rank_scale(point, row, w);
-            split(point, row, w, branch->T + row * m);
-            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, branch->Cdot + i, n);
+            split(point, row, w, limits->T + row * m);
+            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, limits->Cdot + i, n);
             zd_rank_scale(point, row, wdot);
-            split(point, row, wdot, branch->K_rate + row * m);
+            split(point, row, wdot, limits->K_rate + row * m);
         }
         zd_copy(n, wdot, self->Q + d * n);
     }
@@ -144,7 +173,7 @@ static int choose_next(zd_rank *self, int chosen)
  * it is long enough to tell. */
 static double distance(const zd_rank *self, int row)
 {
-    const double *w = self->branch.w + row * self->n, *wdot = self->branch.wdot + row * self->n;
+    const double *w = self->limits->w + row * self->n, *wdot = self->limits->wdot + row * self->n;
     double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), whole = zd_dot(self->n, wdot, wdot);
     double aside = own - along / whole * along;
     int resolved = own > ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
@@ -154,7 +183,7 @@ static double distance(const zd_rank *self, int row)
 static double limit(const zd_point *point, int row, int i)
 {
     const zd_rank *self = point->rank;
-    return self->branch.wdot[row * self->n + i] * point->per_unit[i] * point->size[row];
+    return self->limits->wdot[row * self->n + i] * point->per_unit[i] * point->size[row];
 }
 
 static double of_limit(const zd_point *point, int row, const double *x)
@@ -175,7 +204,7 @@ static void insert(zd_point *point, int wanted)
         int row = self->place[before + j] = self->row[self->independent + j];
         for (int i = 0; i < n; i++) self->C[(before + j) * n + i] = limit(point, row, i);
     }
-    self->branch.lost = wanted;
+    self->lost = wanted;
     point->rows += wanted;
     point->holonomic += wanted;
 }
@@ -185,8 +214,8 @@ static int find_rates(zd_point *point, int wanted, int *found)
 {
     zd_rank *self = point->rank;
     *found = 0;
-    self->branch.speed = zd_max_scaled(point->system->nq, self->branch.pdot, point->per_unit_p);
-    if (!(self->branch.speed > 0 && self->branch.speed < INFINITY)) return ZD_DONE;
+    self->limits->speed = zd_max_scaled(point->system->nq, self->limits->pdot, point->per_unit_p);
+    if (!(self->limits->speed > 0 && self->limits->speed < INFINITY)) return ZD_DONE;
     int status = differentiate(point);
     if (status) return status;
     set_rates(point);
@@ -204,7 +233,7 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
 {
     zd_rank *self = point->rank;
     const int n = self->n, rows = self->independent + wanted, size = n + rows;
-    double *K = self->branch.K, *y = self->branch.y, largest = 0;
+    double *K = self->limits->K, *y = self->limits->y, largest = 0;
     memset(K, 0, (size_t)(size * size) * sizeof(double));
     for (int i = 0; i < n; i++) largest = fmax(largest, fabs(point->terms.M[i * n + i]) * point->unit[i] * point->unit[i]);
     for (int i = 0; i < n; i++) {
@@ -215,11 +244,11 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
         int row = self->row[a];
         for (int i = 0; i < n; i++)
             K[(n + a) * size + i] = K[i * size + n + a] = a < self->independent
-                ? point->terms.C[row * n + i] * point->unit[i] * point->per_size[row] : self->branch.wdot[row * n + i];
+                ? point->terms.C[row * n + i] * point->unit[i] * point->per_size[row] : self->limits->wdot[row * n + i];
         y[n + a] = rhs[a] * point->per_size[row];
     }
-    if (zd_lu_factor(size, K, self->branch.order) < size) return 0;
-    zd_lu_solve(size, K, self->branch.order, y);
+    if (zd_lu_factor(size, K, self->limits->order) < size) return 0;
+    zd_lu_solve(size, K, self->limits->order, y);
     for (int i = 0; i < n; i++) x[i] = y[i] * point->unit[i];
     return 1;
 }
@@ -230,11 +259,11 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
     zd_rank *self = point->rank;
     int status = zd_point_need(point, ZD_XI), rank = self->independent;
     for (int j = 0; j < wanted; j++) c[j] = own_part(self, self->row[rank + j], point->terms.xi, 1);
-    memcpy(self->branch.v, point->v, (size_t)self->n * sizeof(double));
+    memcpy(self->limits->v, point->v, (size_t)self->n * sizeof(double));
     zd_point_move_velocity(point, e);
     if (!status) status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < wanted; j++) c[j] = (c[j] - own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->branch.speed;
-    zd_point_move_velocity(point, self->branch.v);
+    for (int j = 0; j < wanted; j++) c[j] = (c[j] - own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->limits->speed;
+    zd_point_move_velocity(point, self->limits->v);
     return status;
 }
 
@@ -244,25 +273,25 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
 static int find_from_rest(zd_point *point, int wanted, int *found)
 {
     zd_rank *self = point->rank;
-    double *e = self->branch.e, *x = self->branch.x, *rhs = self->rhs, *limits = rhs + self->independent;
+    double *e = self->limits->e, *x = self->limits->x, *rhs = self->rhs, *limits = rhs + self->independent;
     int n = self->n, status = zd_point_need(point, ZD_M | ZD_BIAS | ZD_FORCE | ZD_XI | ZD_PHI_T);
     *found = 0;
     if (status || (point->terms.Phi_t && zd_max_abs(self->m, point->terms.Phi_t) > 0)) return status;
-    zd_point_force(point, self->branch.force);
+    zd_point_force(point, self->limits->force);
     for (int a = 0; a < self->independent; a++) rhs[a] = point->terms.xi[self->row[a]];
-    if (!solve(point, 0, self->branch.force, rhs, e)) return ZD_DONE;
+    if (!solve(point, 0, self->limits->force, rhs, e)) return ZD_DONE;
     double best = INFINITY;
     for (int i = 0, stalls = 0; i < MAX_TURNS && stalls < MOST_STALLS; i++) {
-        zd_point_rate(point, e, self->branch.pdot);
+        zd_point_rate(point, e, self->limits->pdot);
         status = find_rates(point, wanted, found);
         if (status || !*found) return status;
         *found = 0;
         status = find_curvature(point, wanted, e, limits);
         if (status) return status;
         for (int j = 0; j < wanted; j++) limits[j] = of_limit(point, self->row[self->independent + j], e) - limits[j] / 2;
-        if (!solve(point, wanted, self->branch.force, rhs, x)) return ZD_DONE;
+        if (!solve(point, wanted, self->limits->force, rhs, x)) return ZD_DONE;
         zd_subtract(n, x, e, e);
-        double change = zd_max_scaled(n, e, point->per_unit) / self->branch.speed;
+        double change = zd_max_scaled(n, e, point->per_unit) / self->limits->speed;
         *found = change <= SETTLED;
         if (*found) return ZD_DONE;
         stalls += change > FALLING * best;
@@ -274,20 +303,20 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
 
 /* ---- what takes the place of the rows ---- */
 
-int zd_branch_find(zd_point *point)
+int zd_limits_find(zd_point *point)
 {
     zd_rank *self = point->rank;
     int wanted = self->limit - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
-    zd_point_rate(point, point->v, self->branch.pdot);
-    self->branch.rests = zd_max_abs(point->system->nq, self->branch.pdot) == 0;
-    status = self->branch.rests ? find_from_rest(point, wanted, &found) : find_rates(point, wanted, &found);
+    zd_point_rate(point, point->v, self->limits->pdot);
+    self->limits->rests = zd_max_abs(point->system->nq, self->limits->pdot) == 0;
+    status = self->limits->rests ? find_from_rest(point, wanted, &found) : find_rates(point, wanted, &found);
     if (status || !found) return status;
     for (int j = 0; j < wanted; j++) {
-        self->branch.away[j] = distance(self, self->row[self->independent + j]);
-        if (!(fabs(self->branch.away[j]) < INFINITY)) return ZD_DONE;
+        self->limits->away[j] = distance(self, self->row[self->independent + j]);
+        if (!(fabs(self->limits->away[j]) < INFINITY)) return ZD_DONE;
     }
     insert(point, wanted);
     return ZD_DONE;
@@ -296,16 +325,16 @@ int zd_branch_find(zd_point *point)
 /* Where wdot x is so much and C_r x = rhs: (wdot - K C_r) x */
 static double besides_others(const zd_rank *self, int row, double so_much, const double *rhs)
 {
-    return so_much - along_others(self, self->branch.K_rate + row * self->m, rhs, 1);
+    return so_much - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
 }
 
 /* Of Phi or Psi: the row's, for each unit of the path that is left; or from c(v). */
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
     const zd_rank *self = point->rank;
-    if (fabs(self->branch.away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->branch.away[j];
+    if (fabs(self->limits->away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->limits->away[j];
     if (what == ZD_LIMIT_PHI) return 0;
-    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->branch.speed / 2, rhs);
+    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
 }
 
 /* What the point's velocity makes of the limit, less its violation. rhs has -Phi_t. */
@@ -317,21 +346,15 @@ static double enforced(const zd_point *point, int j, int row, const double *limi
     return zd_dot(n, limit, point->v) - violation(point, j, row, ZD_LIMIT_PSI, Psi);
 }
 
-int zd_branch_replace(zd_point *point, enum zd_limit what, double *rhs)
+int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs)
 {
     const zd_rank *self = point->rank;
-    int first = point->holonomic - self->branch.lost, status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < self->branch.lost && !status; j++) {
+    int first = point->holonomic - self->lost, status = zd_point_need(point, ZD_XI);
+    for (int j = 0; j < self->lost && !status; j++) {
         int row = self->place[first + j];
-        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->branch.xidot, 1) / 3, rhs)
+        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->limits->xidot, 1) / 3, rhs)
                  : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)
                  : violation(point, j, row, what, rhs);
     }
     return status;
-}
-
-int zd_branch_turn(zd_point *point)
-{
-    point->known &= ~(ZD_RANKED | ZD_FACTORED | ZD_COMPLEMENTED | ZD_ACCELERATED);
-    return zd_rank_find(point);
 }

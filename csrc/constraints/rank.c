@@ -16,16 +16,18 @@
  */
 #include "rank.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
 
-static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
 {
-    size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_rank self = {
         .n = (int)n,
         .m = (int)m,
@@ -46,27 +48,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .L = zd_take_doubles(arena, n * n),
         .rhs = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
-        .sample = zd_take_doubles(arena, 2 * n + m * m + m),
         .R = zd_take_doubles(arena, m * m),
-        .branch = {
-            .away = zd_take_doubles(arena, m),
-            .p = zd_take_doubles(arena, nq),
-            .v = zd_take_doubles(arena, n),
-            .pdot = zd_take_doubles(arena, nq),
-            .moved = zd_take_doubles(arena, nq),
-            .Cdot = zd_take_doubles(arena, m * n),
-            .xidot = zd_take_doubles(arena, m),
-            .T = zd_take_doubles(arena, m * m),
-            .K_rate = zd_take_doubles(arena, m * m),
-            .w = zd_take_doubles(arena, m * n),
-            .wdot = zd_take_doubles(arena, m * n),
-            .e = zd_take_doubles(arena, n),
-            .x = zd_take_doubles(arena, n),
-            .force = zd_take_doubles(arena, n),
-            .K = zd_take_doubles(arena, (n + m) * (n + m)),
-            .y = zd_take_doubles(arena, n + m),
-            .order = zd_take(arena, (n + m) * sizeof(int)),
-        },
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -191,12 +173,12 @@ static void set_shares(zd_rank *self, int rank)
     zd_cholesky(rank, self->K, self->K);
 }
 
-static void use_all(zd_point *point)
+void zd_rank_use_all(zd_point *point)
 {
     point->rows = point->rank->m;
     point->holonomic = point->rank->mh;
     point->C = point->terms.C;
-    point->rank->branch.lost = 0;
+    point->rank->lost = 0;
 }
 
 static void use_chosen(zd_point *point, int rank)
@@ -210,74 +192,19 @@ static void use_chosen(zd_point *point, int rank)
         zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
     }
     self->independent = point->rows = rank;
-    self->branch.lost = 0;
+    self->lost = 0;
     point->C = self->C;
     point->holonomic = 0;
     while (point->holonomic < rank && self->row[point->holonomic] < self->mh) point->holonomic++;
 }
 
-static void use(zd_point *point, double tolerance)
+void zd_rank_choose(zd_point *point, double tolerance)
 {
     zd_rank *self = point->rank;
     self->tolerance = tolerance;
     int rank = rank_of(self, point->terms.C, point->terms.M);
     if (rank < self->m) use_chosen(point, rank);
-    else use_all(point);
-}
-
-static int reduce(zd_point *point)
-{
-    static const double region = ZD_BRANCH_REGION * ZD_BRANCH_REGION;
-    zd_rank *self = point->rank;
-    self->near = 1;
-    int status = zd_point_need(point, ZD_M);
-    if (status) return status;
-    if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
-    int by_limits = self->begun && self->may_drop;
-    use(point, by_limits ? region : SQUARED);
-    if (by_limits && point->rows < self->limit) {
-        status = zd_branch_find(point);
-        if (!status && !self->branch.lost) use(point, SQUARED);
-    }
-    int dropped = self->branch.lost || point->rows < self->limit;
-    self->dropped |= dropped;
-    if (dropped && !self->may_drop) return ZD_BIFURCATION;
-    if (!status) point->known |= ZD_RANKED;
-    return status;
-}
-
-/* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
-ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
-{
-    int m = self->m;
-    double *whole = self->whole, *left = self->left;
-    for (int k = 0; k < m; k++) {
-        whole[k] = zd_dot(n, C + k * n, C + k * n);
-        if (!(whole[k] > DOUBTFUL * self->length[k])) return 1;
-    }
-    if (m < 2) return 0;
-    double along = zd_dot(n, C, C + n);
-    if (m == 2) return !((1 - DOUBTFUL) * whole[0] * whole[1] > along * along);     /* without the divisions of what follows */
-    for (int k = 0; k < m; k++) {
-        double *q = self->Q + k * n;
-        zd_copy(n, C + k * n, q);
-        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
-        left[k] = zd_dot(n, q, q);
-        if (!(left[k] > DOUBTFUL * whole[k])) return 1;
-    }
-    return 0;
-}
-
-int zd_rank_find(zd_point *point)
-{
-    zd_rank *self = point->rank;
-    if (point->known & ZD_RANKED) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C);
-    if (status) return status;
-    if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
-    use_all(point);
-    point->known |= ZD_RANKED;
-    return ZD_DONE;
+    else zd_rank_use_all(point);
 }
 
 /* ---- in natural units ---- */
@@ -307,29 +234,17 @@ void zd_rank_set_basis(const zd_point *point)
     }
 }
 
-/* ---- solving with fewer rows ---- */
+/* ---- multipliers of all rows ---- */
 
-/* lambda of all rows, the smallest, from that of those that count */
-static void share_out(zd_rank *self, int rank, double *lambda)
+void zd_rank_share_out(zd_rank *self, double *lambda)
 {
+    const int rank = self->independent;
     double *y = self->lambda;
     zd_forward(rank, self->K, y, y);
     zd_backward(rank, self->K, y, y);
     for (int a = 0; a < rank; a++) lambda[self->row[a]] = self->weight[self->row[a]] * y[a];
     for (int d = rank; d < self->m; d++)
         lambda[self->row[d]] = self->weight[self->row[d]] * zd_dot(rank, self->G + self->row[d] * self->m, y);
-}
-
-void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
-                           const double *rhs, double *x, double *lambda)
-{
-    zd_rank *self = point->rank;
-    int holonomic = point->holonomic - self->branch.lost, others = self->independent - holonomic;
-    for (int a = 0; a < point->rows; a++) self->rhs[a] = rhs[self->place[a]];
-    formulation->solve(solver, force, self->rhs, x, lambda ? self->lambda : NULL);
-    if (!lambda) return;
-    memmove(self->lambda + holonomic, self->lambda + point->holonomic, (size_t)others * sizeof(double));
-    share_out(self, self->independent, lambda);
 }
 
 int zd_rank_redundant(const zd_rank *self, int *rows)

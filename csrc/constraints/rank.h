@@ -5,23 +5,9 @@
 #ifndef ZD_RANK_H
 #define ZD_RANK_H
 
-#include "../core.h"
+#include "../point/point.h"
 
-/* Of lost rows: see branch.c. */
-typedef struct zd_branch {
-    int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C */
-    double *away;       /* (lost,): of path, in natural units, from the bifurcation */
-    double speed;       /* in natural units, by which rates are taken */
-    double t, *p, *v;   /* (nq,), (n,): where that is */
-    double *pdot, *moved;       /* (nq,), (nq,) */
-    double *Cdot, *xidot;       /* (m, n), (m,) */
-    double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along the rows that count */
-    double *w, *wdot;           /* (m, n): and what besides, in natural units */
-    int rests;                  /* whether the point does */
-    double *e, *x, *force;      /* (n,) each: from rest, its acceleration, the next one, f - d */
-    double *K, *y;              /* (n + m, n + m), (n + m,) */
-    int *order;                 /* (n + m,) */
-} zd_branch;
+typedef struct zd_limits zd_limits;     /* limits.h */
 
 struct zd_rank {
     int n, m, mh;
@@ -44,9 +30,9 @@ struct zd_rank {
     double *K;          /* (rows, rows): factored; see share_out() */
     double *L;          /* (n, n): of M */
     double *rhs, *lambda;   /* (rows,) */
-    double *sample;     /* (2 n + m m + m,): for the start */
     double *R;          /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
-    zd_branch branch;
+    int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C */
+    zd_limits *limits;  /* NULL where fewer rows are never taken as they come */
 };
 
 /* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
@@ -59,11 +45,10 @@ struct zd_rank {
 #define ZD_DOUBTFUL 0x1p-10
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
-/* Finds the rank at the start, and from (6) whether rows that follow from others contradict them, do so wherever the system goes (they
- * are redundant), or only here (a bifurcation). A system without (6) is not asked. */
-int zd_rank_start(zd_point *point, const zd_settings *settings);
-/* Which rows count at the point, into point->rows, point->C. */
-int zd_rank_find(zd_point *point);
+/* Chooses the rows that count at the point, with so much of their length left; C and M are known there. */
+void zd_rank_choose(zd_point *point, double tolerance);
+/* All rows count at the point. */
+void zd_rank_use_all(zd_point *point);
 /* Whether all rows count as they are. */
 static inline int zd_rank_is_full(const zd_point *point)
 {
@@ -78,30 +63,11 @@ static inline int zd_rank_row(const zd_point *point, int k)
 void zd_rank_scale(const zd_point *point, int row, double *x);
 /* Q <- an orthonormal basis of the independent rows in natural units. */
 void zd_rank_set_basis(const zd_point *point);
-/* The formulation's solve, with right sides and multipliers of all rows. */
-void zd_rank_solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
-                           const double *rhs, double *x, double *lambda);
-static inline void zd_rank_solve(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
-                                 const double *rhs, double *x, double *lambda)
-{
-    if (zd_rank_is_full(point)) formulation->solve(solver, force, rhs, x, lambda);
-    else zd_rank_solve_reduced(point, formulation, solver, force, rhs, x, lambda);
-}
+/* lambda of all rows, the smallest, from those of the rows that count, which self->lambda has without those of limits */
+void zd_rank_share_out(zd_rank *self, double *lambda);
 /* The rows that are redundant, increasing; their number. */
 int zd_rank_redundant(const zd_rank *self, int *rows);
 /* "row 2 follows", "rows 0 and 2 follow": those that do not count, at the point */
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
-
-/* branch.c: puts limits for the rows that are lost at the point among those that count, if there are such limits. */
-int zd_branch_find(zd_point *point);
-/* The same again, as the velocity is another. */
-int zd_branch_turn(zd_point *point);
-/* What stands for the lost rows in a right side (m,) for all rows: of xi, of Phi, of Psi, or of -Phi_t. */
-enum zd_limit { ZD_LIMIT_XI, ZD_LIMIT_PHI, ZD_LIMIT_PSI, ZD_LIMIT_ENFORCED };
-int zd_branch_replace(zd_point *point, enum zd_limit what, double *rhs);
-static inline int zd_rank_replace(zd_point *point, enum zd_limit what, double *rhs)
-{
-    return point->rank->branch.lost ? zd_branch_replace(point, what, rhs) : ZD_DONE;
-}
 
 #endif

@@ -1,9 +1,13 @@
 /* What becomes of dependent rows at the start: whether they are redundant, dependent only there, or contradict the others. Then
- * comes which rows count anywhere, in rank.c.
+ * comes which rows count anywhere, in rows.c.
  */
-#include "rank.h"
+#include "redundancy.h"
 
+#include <math.h>
+
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "rows.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
 static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
@@ -65,15 +69,15 @@ static int curvature(const zd_point *point, double *w)
 
 /* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
  * as soon as the system moves. Returns how many of the first `others` do; -1 if that could not be evaluated. */
-static int count_curved(zd_point *point, int others)
+static int count_curved(zd_point *point, int others, double *sample)
 {
     zd_rank *self = point->rank;
     int n = self->n, curved = 0, status = ZD_DONE;
-    double *v0 = self->sample, *v = v0 + n, *basis = v + n;
+    double *v0 = sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
     zd_copy(n, point->v, v0);
     zd_rank_set_basis(point);
-    for (int sample = 0; sample < n && curved < others && !status; sample++) {
+    for (int i = 0; i < n && curved < others && !status; i++) {
         double *w = basis + curved * others;
         vary(point, &seed, v0, v);
         zd_point_move_velocity(point, v);
@@ -84,24 +88,23 @@ static int count_curved(zd_point *point, int others)
         for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
         double left = zd_dot(others, w, w);
         if (!(left > SQUARED * whole)) continue;
-        for (int i = 0; i < others; i++) w[i] /= sqrt(left);
+        for (int b = 0; b < others; b++) w[b] /= sqrt(left);
         curved++;
     }
     zd_point_move_velocity(point, v0);
     return status ? -1 : curved;
 }
 
-static int tell_redundant(zd_point *point)
+static int tell_redundant(zd_point *point, double *sample)
 {
     zd_rank *self = point->rank;
-    double *w = self->sample;
     int status = zd_point_need(point, ZD_XI);
     if (status) return status;
-    int first = curvature(point, w);
+    int first = curvature(point, sample);
     point->culprit = self->row[first < self->m ? first : 0];
     if (first < self->m) return ZD_CONTRADICTION;       /* there is no vdot */
     int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
-    int curved = count_curved(point, others), curved_holonomic = curved > 0 ? count_curved(point, holonomic) : 0;
+    int curved = count_curved(point, others, sample), curved_holonomic = curved > 0 ? count_curved(point, holonomic, sample) : 0;
     if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
     self->limit = point->rows + curved;
     self->holonomic_limit = point->holonomic + curved_holonomic;
@@ -110,7 +113,17 @@ static int tell_redundant(zd_point *point)
     return ZD_DONE;
 }
 
-int zd_rank_start(zd_point *point, const zd_settings *settings)
+/* The memory for it is only taken where rows are dependent, and given back at once. */
+static int tell_redundant_rows(zd_point *point)
+{
+    size_t n = (size_t)point->rank->n, m = (size_t)point->rank->m;
+    double *sample = zd_allocate((2 * n + m * m + m) * sizeof(double));
+    int status = sample ? tell_redundant(point, sample) : ZD_NO_MEMORY;
+    zd_release(sample);
+    return status;
+}
+
+int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
 {
     zd_rank *self = point->rank;
     if (!self->m) return ZD_DONE;
@@ -118,13 +131,13 @@ int zd_rank_start(zd_point *point, const zd_settings *settings)
     if (status) return status;
     self->may_drop = 1;
     measure(point);
-    status = zd_rank_find(point);
-    self->may_drop = settings->on_singular == ZD_CONTINUE;
+    status = zd_rows_find(point);
+    self->may_drop = on_singular == ZD_CONTINUE;
     self->begun = 1;
     if (status || point->rows == self->m) return status;
-    status = point->system->provides & ZD_XI ? tell_redundant(point) : ZD_DONE;
+    status = point->system->provides & ZD_XI ? tell_redundant_rows(point) : ZD_DONE;
     if (status) return status;
     self->dropped = point->rows < self->limit;
     if (self->dropped && !self->may_drop) return ZD_BIFURCATION;
-    return self->dropped ? zd_branch_turn(point) : ZD_DONE;
+    return self->dropped ? zd_rows_find_again(point) : ZD_DONE;
 }

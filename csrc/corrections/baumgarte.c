@@ -1,29 +1,30 @@
 /* Baumgarte's stabilization: the violations are fed back into the right side of (6), and so, if asked for, is the time integral
  * of the position violation, as the paper's reference [16] proposes. The integral is part of the integrated state.
  */
-#include "../core.h"
+#include "../motion/motion.h"
 
 typedef struct baumgarte {
+    zd_baumgarte gain;
     double *Psi;        /* (m,) */
 } baumgarte;
 
-static int enabled(const zd_settings *settings)
+static int every(const zd_settings *settings)
 {
-    return settings->baumgarte.on;
+    return settings->baumgarte.on != 0;
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
 {
-    (void)settings;
-    baumgarte self = {zd_take_doubles(arena, (size_t)zd_constraints(system))};
+    baumgarte self = {settings->baumgarte, zd_take_doubles(arena, (size_t)zd_constraints(system))};
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void stabilize(void *memory, const zd_settings *settings, const zd_point *point, const double *integral, double *rhs)
+static void stabilize(void *memory, const zd_point *point, const double *integral, double *rhs)
 {
-    const zd_baumgarte *gain = &settings->baumgarte;
+    const baumgarte *self = memory;
+    const zd_baumgarte *gain = &self->gain;
     const zd_system *system = point->system;
-    double *Psi = ((baumgarte *)memory)->Psi;
+    double *Psi = self->Psi;
     zd_point_velocity_violation(point, Psi);
     for (int k = 0; k < zd_constraints(system); k++) rhs[k] -= gain->alpha * Psi[k];            /* (23) */
     for (int k = 0; k < system->mh; k++) rhs[k] -= gain->beta * point->terms.Phi[k];            /* (23) */
@@ -43,7 +44,7 @@ static void extra_rate(const zd_point *point, double *rate)
 
 const zd_correction zd_baumgarte_row = {
     .card = {"baumgarte", "Violations are fed back into the acceleration constraints, with gains alpha, beta and integral.", "(23)", 0},
-    .enabled = enabled,
+    .every = every,
     .needs = ZD_PHI | ZD_C | ZD_PHI_T,
     .take = take,
     .stabilize = stabilize,

@@ -8,9 +8,11 @@
  * Where T is small (a turning point) no bounded factor removes the error: such a step is left alone, counted, and told from the
  * others in the record.
  */
-#include "../core.h"
+#include <math.h>
+
+#include "../constraints/limits.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
+#include "../motion/motion.h"
 
 static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */
@@ -20,9 +22,9 @@ typedef struct energy {
     double *scaled;         /* (nv,) */
 } energy;
 
-static int enabled(const zd_settings *settings)
+static int every(const zd_settings *settings)
 {
-    return settings->energy.every > 0;
+    return settings->energy.every;
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
@@ -33,53 +35,52 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
 }
 
 /* vn, and the kinetic energy of v - vn from that of v */
-static int split(energy *self, zd_run *run, double *kinetic)
+static int split(energy *self, zd_motion *motion, double *kinetic)
 {
-    zd_point *point = run->point;
-    int n = run->system.nv, status = zd_point_need(point, ZD_PHI_T);
+    zd_point *point = motion->point;
+    int n = motion->system.nv, status = zd_point_need(point, ZD_PHI_T);
     if (status || !point->terms.Phi_t) return status;
-    status = zd_run_factor(run);
+    status = zd_motion_factor(motion);
     if (status) return status;
-    for (int k = 0; k < zd_constraints(&run->system); k++) point->rhs[k] = -point->terms.Phi_t[k];
-    status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, point->rhs);
+    for (int k = 0; k < zd_constraints(&motion->system); k++) point->rhs[k] = -point->terms.Phi_t[k];
+    status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, point->rhs);
     if (status) return status;
-    zd_run_solve(run, NULL, point->rhs, self->enforced, NULL);
+    zd_motion_solve(motion, NULL, point->rhs, self->enforced, NULL);
     for (int i = 0; i < n; i++) *kinetic -= 0.5 * self->enforced[i] * zd_dot(n, point->terms.M + i * n, self->enforced);
     return ZD_DONE;
 }
 
-static void count_skipped(zd_run *run)
+static void count_skipped(zd_motion *motion)
 {
-    run->statistics.energy_skipped++;
-    run->energy_skipped++;
+    motion->statistics.energy_skipped++;
+    motion->tally->energy_skipped++;
 }
 
-static int after_step(void *memory, zd_run *run)
+static int after_step(void *memory, zd_motion *motion)
 {
     energy *self = memory;
     double violation, kinetic, *scaled = self->scaled;
-    if (!zd_run_is_due(run, run->settings.energy.every)) return ZD_DONE;
-    int status = zd_run_energy_violation(run, &violation, &kinetic);
-    double rounding = ROUNDING * (kinetic + fabs(zd_point_potential(run->point)) + fabs(run->energy0));
-    if (!status) status = split(self, run, &kinetic);
+    int status = zd_motion_energy_violation(motion, &violation, &kinetic);
+    double rounding = ROUNDING * (kinetic + fabs(zd_point_potential(motion->point)) + fabs(motion->balance.initial));
+    if (!status) status = split(self, motion, &kinetic);
     if (status) return status;
     if (!(fabs(violation) <= LARGEST_SHARE * kinetic)) {
-        if (!(fabs(violation) <= rounding)) count_skipped(run);
+        if (!(fabs(violation) <= rounding)) count_skipped(motion);
         return ZD_DONE;
     }
     if (violation == 0) return ZD_DONE;
     double factor = sqrt(1 - violation / kinetic);
-    for (int i = 0; i < run->system.nv; i++)
-        scaled[i] = self->enforced[i] + factor * (run->point->v[i] - self->enforced[i]);    /* (29) */
-    zd_point_move_velocity(run->point, scaled);
-    run->statistics.energy_corrections++;
-    run->statistics.energy_corrected = fmax(run->statistics.energy_corrected, fabs(violation));
+    for (int i = 0; i < motion->system.nv; i++)
+        scaled[i] = self->enforced[i] + factor * (motion->point->v[i] - self->enforced[i]);    /* (29) */
+    zd_point_move_velocity(motion->point, scaled);
+    motion->statistics.energy_corrections++;
+    motion->statistics.energy_corrected = fmax(motion->statistics.energy_corrected, fabs(violation));
     return ZD_DONE;
 }
 
 const zd_correction zd_energy_row = {
     .card = {"energy", "Velocities are scaled so that the energy balance holds.", "(28), (29)", 0},
-    .enabled = enabled,
+    .every = every,
     .take = take,
     .after_step = after_step,
 };

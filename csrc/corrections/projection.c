@@ -8,15 +8,21 @@
  *
  * Where the iteration does not converge it is tried once more from its start, with steps shortened until each one helps.
  */
-#include "../core.h"
-#include "../linalg/small.h"
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/limits.h"
+#include "../constraints/rows.h"
 #include "../linalg/newton.h"
-#include "../constraints/rank.h"
+#include "../linalg/small.h"
+#include "../motion/motion.h"
+#include "../point/units.h"
 
 /* Newton's first iteration contracts so well where its start belongs to one solution and no other, after Kantorovich. */
 static const double TRUSTED = 0.25;
 
 typedef struct projection {
+    zd_projection settings;
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
     double *landed;     /* (nq,): p before its correction */
     double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far */
@@ -29,13 +35,13 @@ extern const zd_formulation zd_schur;
 
 typedef struct position_problem {   /* what Newton's loop is handed */
     projection *self;
-    zd_run *run;
+    zd_motion *motion;
     int begun;              /* whether p has been moved */
 } position_problem;
 
-static int enabled(const zd_settings *settings)
+static int every(const zd_settings *settings)
 {
-    return settings->projection.every > 0;
+    return settings->projection.every;
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
@@ -43,6 +49,7 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
     int identity = settings->projection.metric == ZD_IDENTITY_METRIC;
     projection self = {
+        .settings = settings->projection,
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .landed = zd_take_doubles(arena, nq),
@@ -60,34 +67,34 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
 /* M and C are wanted at this point in any case, here or for the velocities: so they come with Phi in one evaluation. */
 static int position_residual(void *context, double *size)
 {
-    zd_point *point = ((position_problem *)context)->run->point;
+    zd_point *point = ((position_problem *)context)->motion->point;
     int status = zd_point_need(point, ZD_PHI | ZD_M | ZD_C);
     if (!status) *size = zd_point_violation(point);
     return status;
 }
 
-static int solve_with_identity(projection *self, zd_run *run, enum zd_limit what, double *x)
+static int solve_with_identity(projection *self, zd_motion *motion, enum zd_limit what, double *x)
 {
-    int status = zd_rank_find(run->point);
-    if (!status) status = zd_rank_replace(run->point, what, self->rhs);
+    int status = zd_rows_find(motion->point);
+    if (!status) status = zd_limits_replace(motion->point, what, self->rhs);
     if (status) return status;
-    zd_point unit = *run->point;
+    zd_point unit = *motion->point;
     unit.terms.M = self->identity;
-    run->statistics.factorizations++;
+    motion->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
-    run->point->culprit = unit.culprit;
-    if (!status) zd_rank_solve(&unit, &zd_schur, self->plain, NULL, self->rhs, x, NULL);
+    motion->point->culprit = unit.culprit;
+    if (!status) zd_solve_with(&unit, &zd_schur, self->plain, NULL, self->rhs, x, NULL);
     return status;
 }
 
 /* x with C x = rhs, that of Phi or of Psi, orthogonal to the manifold in the chosen metric */
-static int solve(projection *self, zd_run *run, enum zd_limit what, double *x)
+static int solve(projection *self, zd_motion *motion, enum zd_limit what, double *x)
 {
-    run->statistics.solves++;
-    if (self->plain) return solve_with_identity(self, run, what, x);
-    int status = zd_run_factor(run);
-    if (!status) status = zd_rank_replace(run->point, what, self->rhs);
-    if (!status) zd_run_solve(run, NULL, self->rhs, x, NULL);
+    motion->statistics.solves++;
+    if (self->plain) return solve_with_identity(self, motion, what, x);
+    int status = zd_motion_factor(motion);
+    if (!status) status = zd_limits_replace(motion->point, what, self->rhs);
+    if (!status) zd_motion_solve(motion, NULL, self->rhs, x, NULL);
     return status;
 }
 
@@ -95,14 +102,14 @@ static int improve_position(void *context)
 {
     position_problem *problem = context;
     projection *self = problem->self;
-    zd_point *point = problem->run->point;
+    zd_point *point = problem->motion->point;
     const zd_system *system = point->system;
     int status = zd_point_need(point, ZD_PHI | ZD_A);
     if (status) return status;
     if (!problem->begun) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
     problem->begun = 1;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
-    status = solve(self, problem->run, ZD_LIMIT_PHI, self->x);
+    status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);
     if (status) return status;
     zd_point_rate(point, self->x, self->p);
     ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
@@ -114,7 +121,7 @@ static int improve_and_remember(void *context)
 {
     position_problem *problem = context;
     projection *self = problem->self;
-    const zd_point *point = problem->run->point;
+    const zd_point *point = problem->motion->point;
     memcpy(self->from, point->p, (size_t)point->system->nq * sizeof(double));
     int status = improve_position(context);
     ZD_SIZED(zd_subtract, point->system->nq, point->p, self->from, self->change);
@@ -125,7 +132,7 @@ static int retreat(void *context)
 {
     position_problem *problem = context;
     projection *self = problem->self;
-    zd_point *point = problem->run->point;
+    zd_point *point = problem->motion->point;
     for (int i = 0; i < point->system->nq; i++) {
         self->change[i] *= 0.5;
         self->p[i] = self->from[i] + self->change[i];
@@ -136,64 +143,64 @@ static int retreat(void *context)
 
 static int iterate(const zd_newton *newton, position_problem *problem)
 {
-    zd_run *run = problem->run;
-    zd_statistics *statistics = &run->statistics;
+    zd_motion *motion = problem->motion;
+    zd_statistics *statistics = &motion->statistics;
     int iterations;
-    int status = zd_newton_solve(newton, problem, &iterations, &run->point->defect);
+    int status = zd_newton_solve(newton, problem, &iterations, &motion->point->defect);
     statistics->position_iterations += iterations;
     if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
-    if (iterations > run->iterations) run->iterations = iterations;
+    if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
     return status;
 }
 
-static int correct_positions(projection *self, zd_run *run)
+static int correct_positions(projection *self, zd_motion *motion)
 {
-    const zd_projection *settings = &run->settings.projection;
+    const zd_projection *settings = &self->settings;
     zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations,
-                        run->guard.kept ? TRUSTED : 0, NULL};
-    position_problem problem = {self, run, 0};
+                        motion->in_run ? TRUSTED : 0, NULL};
+    position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
     /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
-    if (!status && run->point->rank->near && run->point->rank->limit == run->point->rank->m) return improve_position(&problem);
+    if (!status && motion->point->rank->near && motion->point->rank->limit == motion->point->rank->m) return improve_position(&problem);
     if (!status || status == ZD_CALLBACK || !problem.begun) return status;
     newton.improve = improve_and_remember;
     newton.contraction = 0;
     newton.retreat = retreat;
-    zd_point_move(run->point, run->point->t, self->landed, run->point->v);
+    zd_point_move(motion->point, motion->point->t, self->landed, motion->point->v);
     status = iterate(&newton, &problem);
-    if (!status) run->statistics.damped++;
+    if (!status) motion->statistics.damped++;
     return status;
 }
 
-static int correct_velocities(projection *self, zd_run *run)
+static int correct_velocities(projection *self, zd_motion *motion)
 {
-    zd_point *point = run->point;
+    zd_point *point = motion->point;
     int status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
     if (status) return status;
     zd_point_velocity_violation(point, self->rhs);
-    status = solve(self, run, ZD_LIMIT_PSI, self->x);
+    status = solve(self, motion, ZD_LIMIT_PSI, self->x);
     if (status) return status;
     ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
     zd_point_move_velocity(point, self->v);
-    run->statistics.velocity_corrections++;
+    motion->statistics.velocity_corrections++;
     return ZD_DONE;
 }
 
-static int after_step(void *memory, zd_run *run)
+static int after_step(void *memory, zd_motion *motion)
 {
-    const zd_projection *settings = &run->settings.projection;
+    projection *self = memory;
+    const zd_projection *settings = &self->settings;
     int status = ZD_DONE;
-    if (!zd_run_is_due(run, settings->every)) return ZD_DONE;
-    if (settings->positions && (run->violates & ZD_PHI) && run->system.mh) status = correct_positions(memory, run);
-    if (status || !zd_constraints(&run->system)) return status;
-    if (run->violates & ZD_C) return settings->velocities ? correct_velocities(memory, run) : ZD_DONE;
-    return run->formulation->settle ? run->formulation->settle(run->solver, run->point) : ZD_DONE;
+    if (settings->positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
+    if (status || !zd_constraints(&motion->system)) return status;
+    if (motion->drifts_from & ZD_C) return settings->velocities ? correct_velocities(self, motion) : ZD_DONE;
+    return motion->formulation->settle ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {
     .card = {"projection", "Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.",
              "(25), (26), (27)", 0},
-    .enabled = enabled,
+    .every = every,
     .take = take,
     .after_step = after_step,
 };

@@ -8,9 +8,13 @@
  */
 #include "dependent.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/rows.h"
 #include "../linalg/lu.h"
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
 
 typedef struct augmented {
     int n, m;
@@ -60,7 +64,7 @@ static void fill(augmented *self, const double *M, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
-    int status = zd_rank_find(point), size = self->n + point->rows;
+    int status = zd_rows_find(point), size = self->n + point->rows;
     if (status) return status;
     self->m = point->rows;
     set_scales(self, point->terms.M, point->C);

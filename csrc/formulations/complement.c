@@ -1,9 +1,13 @@
 /* Variable partitioning (16), or a system's own complement, behind one interface. */
 #include "complement.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/limits.h"
+#include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
 
 /* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
  * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
@@ -122,7 +126,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
 {
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, self->brought ? ZD_C | ZD_COMPLEMENT : ZD_C);
-    if (!status) status = zd_rank_find(point);
+    if (!status) status = zd_rows_find(point);
     if (!status) count_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
@@ -169,10 +173,10 @@ static int enforce(const zd_complement *self, zd_point *point, double *x)
 {
     const double *Phi_t = point->terms.Phi_t;
     memset(x, 0, (size_t)self->n * sizeof *x);
-    if (!Phi_t && !point->rank->branch.lost) return ZD_DONE;
+    if (!Phi_t && !point->rank->lost) return ZD_DONE;
     double *all = point->rank->rhs, *rhs = point->rhs;
     for (int k = 0; k < zd_constraints(point->system); k++) all[k] = Phi_t ? -Phi_t[k] : 0;
-    int status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, all);
+    int status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, all);
     for (int k = 0; k < self->m; k++) rhs[k] = all[zd_rank_row(point, k)];
     if (!status) zd_complement_particular(self, rhs, x);
     return status;

@@ -9,7 +9,7 @@
 #ifndef ZD_COMPLEMENT_H
 #define ZD_COMPLEMENT_H
 
-#include "../core.h"
+#include "../point/point.h"
 
 typedef struct zd_complement {
     int n, m, r;

@@ -2,7 +2,7 @@
 #ifndef ZD_DEPENDENT_H
 #define ZD_DEPENDENT_H
 
-#include "../core.h"
+#include "formulation.h"
 
 int zd_dependent_state_size(const zd_system *system);
 int zd_dependent_enter(void *self, zd_point *point, double t, const double *y);
@@ -10,7 +10,7 @@ int zd_dependent_leave(void *self, zd_point *point, double *y);
 int zd_dependent_rate(void *self, zd_point *point, double *ydot);
 
 #define ZD_DEPENDENT_STATE                         \
-    .violates = ZD_PHI | ZD_C,                     \
+    .drifts_from = ZD_PHI | ZD_C,                     \
     .state_size = zd_dependent_state_size,         \
     .enter = zd_dependent_enter,                   \
     .leave = zd_dependent_leave,                   \

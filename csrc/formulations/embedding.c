@@ -7,9 +7,14 @@
  */
 #include "embedding.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/newton.h"
-#include "../constraints/rank.h"
+#include "../linalg/norms.h"
+#include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
 static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
@@ -45,7 +50,7 @@ static int need_rows(const zd_embedding *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_A);
     if (status || !self->mh) return status;
-    status = zd_rank_find(point);
+    status = zd_rows_find(point);
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
 
@@ -81,8 +86,8 @@ static int find_resolution(const zd_embedding *self, zd_point *point, double *re
 {
     *resolution = self->rounding;
     if (!point->rank->near) return ZD_DONE;
-    int status = zd_rank_find(point);
-    if (!status && point->rank->branch.lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
+    int status = zd_rows_find(point);
+    if (!status && point->rank->lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
     return status;
 }
 
@@ -109,7 +114,7 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->branch.lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
+    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);

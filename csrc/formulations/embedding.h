@@ -2,7 +2,7 @@
 #ifndef ZD_EMBEDDING_H
 #define ZD_EMBEDDING_H
 
-#include "../core.h"
+#include "../point/point.h"
 
 typedef struct zd_embedding {
     int nq, nv, mh, k;      /* mh: holonomic rows that count */

@@ -3,6 +3,7 @@
  * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22).
  */
 #include "embedding.h"
+#include "formulation.h"
 #include "minimal.h"
 
 typedef struct independent {
@@ -29,7 +30,7 @@ static int state_size(const zd_system *system)
 static int enter(void *memory, zd_point *point, double t, const double *y)
 {
     independent *self = memory;
-    zd_minimal_leave_behind(&self->minimal, point, t);
+    zd_minimal_note_lead_time(&self->minimal, point, t);
     int status = zd_embedding_place(&self->embedding, point, t, y);
     return status ? status : zd_minimal_enter(&self->minimal, point, y + self->embedding.k);
 }
@@ -62,7 +63,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
 
 const zd_formulation zd_independent = {
     .card = {"independent", "Independent coordinates and velocities: no constraint can be violated.", "(19), (22)", 0},
-    .violates = 0,
+    .drifts_from = 0,
     .state_size = state_size,
     .take = take,
     .factor = zd_minimal_factor,

@@ -6,8 +6,12 @@
  */
 #include "minimal.h"
 
+#include <math.h>
+
+#include "../constraints/limits.h"
+#include "../constraints/rows.h"
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
 
 enum { MAX_TURNS = 12 };
 static const double SETTLED = 0x1p-46, NEARLY = 0x1p-30;    /* parts of the speed: that it still changes by; that are rounding at most */
@@ -78,20 +82,20 @@ static int turn(zd_minimal *self, zd_point *point, double *change)
 }
 
 /* At a bifurcation u tells the velocities of a branch from each other, but not the branches: the one is taken which is next to what
- * the acceleration before has led to. Limits depend on the velocity: this is Newton's iteration for c(v) = 0 of branch.c. */
+ * the acceleration before has led to. Limits depend on the velocity: this is Newton's iteration for c(v) = 0 of limits.c. */
 static int settle_on_branch(zd_minimal *self, zd_point *point)
 {
     zd_copy(self->complement.n, point->v, self->b);
-    zd_add_scaled(self->complement.n, self->b, self->since, point->vdot);
+    zd_add_scaled(self->complement.n, self->b, self->lead_time, point->vdot);
     zd_point_move_velocity(point, self->b);
-    self->since = 0;
+    self->lead_time = 0;
     double change = INFINITY, before;
     for (int i = 0; i < MAX_TURNS; i++) {
         before = change;
-        int status = i ? zd_branch_turn(point) : ZD_DONE;
+        int status = i ? zd_rows_find_again(point) : ZD_DONE;
         if (!status) status = turn(self, point, &change);
         if (status) return status;
-        if (change <= SETTLED * point->rank->branch.speed || (change <= NEARLY * point->rank->branch.speed && change >= before / 2)) return ZD_DONE;
+        if (change <= SETTLED * point->rank->limits->speed || (change <= NEARLY * point->rank->limits->speed && change >= before / 2)) return ZD_DONE;
     }
     return ZD_BIFURCATION;
 }
@@ -100,16 +104,16 @@ int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
     int status = zd_complement_at(&self->complement, point);
-    if (!status && point->rank->branch.lost) return settle_on_branch(self, point);
+    if (!status && point->rank->lost) return settle_on_branch(self, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) zd_point_move_velocity(point, self->b);
     return status;
 }
 
-void zd_minimal_leave_behind(zd_minimal *self, const zd_point *point, double t)
+void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t)
 {
-    self->since = point->known & ZD_ACCELERATED ? t - point->t : 0;
+    self->lead_time = point->known & ZD_ACCELERATED ? t - point->t : 0;
 }
 
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
@@ -125,6 +129,6 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
     if (!status) status = zd_point_need(point, ZD_PHI_T);
     if (!status) status = zd_complement_speeds(&self->complement, point, self->u);
     for (int j = 0; j < self->size && !status; j++) u[j] = self->u[j];
-    self->since = 0;
+    self->lead_time = 0;
     return status;
 }

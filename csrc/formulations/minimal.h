@@ -12,14 +12,14 @@ typedef struct zd_minimal {
     double *u;          /* (size,): that */
     double *b;          /* (n,) */
     double *du;         /* (n,) */
-    double since;       /* s: what the point's acceleration was computed before, if it still stands for where it came from */
+    double lead_time;   /* s: from where the point's acceleration was computed to where it is wanted; 0: it is not known */
 } zd_minimal;
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
-/* What the point's acceleration leads to at time t is wanted, should u not be enough there: before the point moves. */
-void zd_minimal_leave_behind(zd_minimal *self, const zd_point *point, double t);
+/* Notes, before the point moves to time t, how far ahead of its acceleration that is: this serves where u alone does not determine v. */
+void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t);
 /* Remembers u, and gives the point the v that belongs to it. */
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
 /* The point's u, in terms of independent velocities that are reviewed first. */

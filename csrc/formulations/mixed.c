@@ -1,4 +1,7 @@
 /* (17): dependent coordinates p and independent velocities u. The velocities satisfy (5) by v = D u; only (3) is violated. */
+#include <string.h>
+
+#include "formulation.h"
 #include "minimal.h"
 
 static void *take(zd_arena *arena, const zd_system *system)
@@ -14,7 +17,7 @@ static int state_size(const zd_system *system)
 
 static int enter(void *self, zd_point *point, double t, const double *y)
 {
-    zd_minimal_leave_behind(self, point, t);
+    zd_minimal_note_lead_time(self, point, t);
     zd_point_move(point, t, y, point->v);
     return zd_minimal_enter(self, point, y + point->system->nq);
 }
@@ -36,7 +39,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
 
 const zd_formulation zd_mixed = {
     .card = {"mixed", "Dependent coordinates and independent velocities: only position constraints can be violated.", "(17)", 0},
-    .violates = ZD_PHI,
+    .drifts_from = ZD_PHI,
     .state_size = state_size,
     .take = take,
     .factor = zd_minimal_factor,

@@ -6,10 +6,13 @@
  * The multipliers follow from C^T lambda = f - d - M vdot: D^T of that is zero, so that [0; lambda] is what solves
  * H^T [.; lambda] = f - d - M vdot.
  */
-#include "dependent.h"
-#include "complement.h"
+#include <math.h>
+#include <string.h>
 
 #include "../linalg/lu.h"
+#include "../linalg/norms.h"
+#include "complement.h"
+#include "dependent.h"
 
 typedef struct nullspace {
     zd_complement complement;

@@ -17,8 +17,8 @@
  */
 #include "dependent.h"
 
+#include "../constraints/rows.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
@@ -84,7 +84,7 @@ static int factor(void *memory, zd_point *point)
     schur *self = memory;
     point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
     if (point->culprit < self->n) return ZD_NOT_DEFINITE;
-    int status = zd_rank_find(point);
+    int status = zd_rows_find(point);
     if (status) return status;
     self->m = point->rows;
     self->C = point->C;

@@ -19,10 +19,14 @@
  * and H, the identity at first, learns from what each change did to x what that matrix leaves out: C. G. Broyden, Math. Comp. 19
  * (1965) 577.
  */
-#include "../core.h"
-#include "../linalg/small.h"
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/limits.h"
 #include "../linalg/newton.h"
-#include "../constraints/rank.h"
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "integrator.h"
 
 enum { MAX_ITERATIONS = 60 };
 static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
@@ -40,7 +44,8 @@ typedef struct rattle {
     double *F, *Mdot;       /* (n,), (n, n) */
     double *rhs;            /* (m,) */
     double *rate0, *rate1;  /* (size,): for what is integrated along */
-    zd_run *run;            /* of the step being solved, as are the next three */
+    zd_motion *motion;      /* of the step being solved, as are the next four */
+    double *state;          /* (size,) */
     double t0, t1, h;
     double before;          /* the last iteration's change */
 } rattle;
@@ -121,20 +126,20 @@ static int find_force(rattle *self, double t, const double *p)
 static int residual(void *context, double *size)
 {
     rattle *self = context;
-    zd_run *run = self->run;
+    zd_motion *motion = self->motion;
     int n = self->n, status = find_force(self, self->t0, self->p0);
     for (int i = 0; i < n; i++) self->p[i] = self->p0[i] + self->h * self->w[i];
     zd_point_move(self->probe, self->t1, self->p, self->w);
     if (!status) status = zd_point_need(self->probe, ZD_PHI | (self->varies ? ZD_M : 0));
     if (status) return status;
-    multiply(n, self->varies ? 0.5 : 1, run->point->terms.M, self->w, 0, self->mean);
+    multiply(n, self->varies ? 0.5 : 1, motion->point->terms.M, self->w, 0, self->mean);
     if (self->varies) multiply(n, 0.5, self->probe->terms.M, self->w, 1, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->start[i] + self->h / 2 * self->F[i] - self->mean[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = -self->probe->terms.Phi[k] / self->h;
-    status = zd_rank_replace(run->point, ZD_LIMIT_PHI, self->rhs);
+    status = zd_limits_replace(motion->point, ZD_LIMIT_PHI, self->rhs);
     if (status) return status;
-    run->statistics.solves++;
-    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
+    motion->statistics.solves++;
+    zd_motion_solve(motion, self->F, self->rhs, self->x, NULL);
 
     double change = zd_max_abs(n, self->x), whole = zd_max_abs(n, self->w);
     int rounding = change >= self->before / 2 && change <= SMALL * (whole + zd_max_abs(n, self->p) / fabs(self->h));
@@ -171,17 +176,17 @@ static int improve(void *context)
 static int find_positions(rattle *self)
 {
     const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
-    zd_run *run = self->run;
-    int iterations, status = zd_run_accelerate(run);    /* what is recorded there, and needed for a first w */
+    zd_motion *motion = self->motion;
+    int iterations, status = zd_motion_accelerate(motion);    /* what is recorded there, and needed for a first w */
     double left;
     if (status) return status;
-    multiply(self->n, 1, run->point->terms.M, self->v0, 0, self->start);
-    for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * run->point->vdot[i];
+    multiply(self->n, 1, motion->point->terms.M, self->v0, 0, self->start);
+    for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
     self->before = INFINITY;
     for (int i = 0; i < self->n * self->n; i++) self->H[i] = i % (self->n + 1) == 0;
     memset(self->s, 0, (size_t)self->n * sizeof(double));      /* no change yet to learn from */
     status = zd_newton_solve(&newton, self, &iterations, &left);
-    run->statistics.implicit_iterations += iterations;
+    motion->statistics.implicit_iterations += iterations;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_STEP : status;
 }
 
@@ -189,22 +194,22 @@ static int find_positions(rattle *self)
 
 static int find_velocities(rattle *self)
 {
-    zd_run *run = self->run;
-    zd_point *point = run->point;
+    zd_motion *motion = self->motion;
+    zd_point *point = motion->point;
     int n = self->n, status = find_force(self, self->t1, self->p);
     zd_point_move(point, self->t1, self->p, self->w);
-    if (!status) status = zd_run_factor(run);
+    if (!status) status = zd_motion_factor(motion);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
     if (status) return status;
     if (!self->varies) multiply(n, 1, point->terms.M, self->w, 0, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->mean[i] + self->h / 2 * self->F[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = point->terms.Phi_t ? -point->terms.Phi_t[k] : 0;
-    status = zd_rank_replace(point, ZD_LIMIT_ENFORCED, self->rhs);
+    status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, self->rhs);
     if (status) return status;
-    run->statistics.solves++;
-    zd_run_solve(run, self->F, self->rhs, self->x, NULL);
+    motion->statistics.solves++;
+    zd_motion_solve(motion, self->F, self->rhs, self->x, NULL);
     zd_point_move_velocity(point, self->x);
-    return run->formulation->leave(run->solver, point, run->y);
+    return motion->formulation->leave(motion->solver, point, self->state);
 }
 
 /* A system may also have its Mdot v in f and no d: then M shows it. */
@@ -212,7 +217,7 @@ static int notice_variation(rattle *self, int *varies)
 {
     zd_point_move(self->probe, self->t1, self->p, self->w);
     int status = zd_point_need(self->probe, ZD_M);
-    *varies = memcmp(self->probe->terms.M, self->run->point->terms.M, (size_t)(self->n * self->n) * sizeof(double)) != 0;
+    *varies = memcmp(self->probe->terms.M, self->motion->point->terms.M, (size_t)(self->n * self->n) * sizeof(double)) != 0;
     return status;
 }
 
@@ -227,26 +232,27 @@ static int solve_step(rattle *self)
 }
 
 /* What corrections and (28) integrate along follows by the trapezoidal rule. */
-static int step_of_run(void *memory, zd_run *run, double h)
+static int step_of_motion(void *memory, zd_motion *motion, double t, double h, double *y)
 {
     rattle *self = memory;
-    int status, own = run->own_size, along = run->rate.size - own;
-    self->run = run;
+    int status, own = motion->formulation_size, along = motion->rate.size - own;
+    self->motion = motion;
+    self->state = y;
     self->h = h;
-    self->t0 = run->t;
-    self->t1 = run->t + h;
-    self->probe->statistics = &run->statistics;
+    self->t0 = t;
+    self->t1 = t + h;
+    self->probe->statistics = &motion->statistics;
     self->probe->known = 0;     /* the step may be one made again, to be watched */
-    run->state = run->y;
-    status = run->formulation->enter(run->solver, run->point, run->t, run->y);
-    if (!status && along) status = zd_run_rate(run, run->t, run->y, self->rate0);
+    motion->state = y;
+    status = motion->formulation->enter(motion->solver, motion->point, t, y);
+    if (!status && along) status = zd_motion_rate(motion, t, y, self->rate0);
     if (status) return status;
-    memcpy(self->p0, run->point->p, (size_t)self->n * sizeof(double));
-    memcpy(self->v0, run->point->v, (size_t)self->n * sizeof(double));
+    memcpy(self->p0, motion->point->p, (size_t)self->n * sizeof(double));
+    memcpy(self->v0, motion->point->v, (size_t)self->n * sizeof(double));
     status = solve_step(self);
     if (status || !along) return status;
-    status = zd_run_rate(run, self->t1, run->y, self->rate1);
-    for (int i = own; i < run->rate.size; i++) run->y[i] += h / 2 * (self->rate0[i] + self->rate1[i]);
+    status = zd_motion_rate(motion, self->t1, y, self->rate1);
+    for (int i = own; i < motion->rate.size; i++) y[i] += h / 2 * (self->rate0[i] + self->rate1[i]);
     return status;
 }
 
@@ -255,5 +261,5 @@ const zd_integrator zd_rattle = {
              "Andersen, 1983; Marsden and West, 2001", 2, 0, 2},
     .suits = suits,
     .take = take,
-    .step_of_run = step_of_run,
+    .step_of_motion = step_of_motion,
 };

@@ -4,6 +4,8 @@
  */
 #include "runge_kutta.h"
 
+#include <math.h>
+
 #include "../linalg/small.h"
 
 enum { LOOK_EVERY = 32 };    /* steps between looks at stiffness, where these cost an evaluation */

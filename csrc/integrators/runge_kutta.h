@@ -2,7 +2,7 @@
 #ifndef ZD_RUNGE_KUTTA_H
 #define ZD_RUNGE_KUTTA_H
 
-#include "../core.h"
+#include "integrator.h"
 
 /* Butcher's table, a strictly lower triangular (stages, stages):   c | a
  *                                                                    | b

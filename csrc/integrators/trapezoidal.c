@@ -6,9 +6,13 @@
  * iteration with the matrix I - h/2 df/dy. That matrix comes from differences and is kept from step to step as long as
  * the iteration contracts well with it.
  */
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
 #include "../linalg/lu.h"
 #include "../linalg/newton.h"
+#include "../linalg/norms.h"
+#include "integrator.h"
 
 enum { MAX_ITERATIONS = 20 };
 static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */

@@ -1,75 +1,63 @@
 /* Values between steps: from where the step began, a shorter one of the same method is made to each time that is wanted, and
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
  */
-#include "../core.h"
-#include "../linalg/small.h"
+#include "between.h"
 
-static size_t extra_bytes(const zd_run *run)
-{
-    return (size_t)(run->rate.size - run->own_size) * sizeof(double);
-}
+#include <math.h>
 
-void zd_place_keep(const zd_run *run, zd_place *place)
-{
-    place->t = run->t;
-    ZD_SIZED(zd_copy, run->system.nq, run->point->p, place->p);
-    ZD_SIZED(zd_copy, run->system.nv, run->point->v, place->v);
-    if (extra_bytes(run)) memcpy(place->extra, run->y + run->own_size, extra_bytes(run));
-}
+#include "record.h"
 
-int zd_place_return(zd_run *run, const zd_place *place)
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper)
 {
-    run->state = run->y;
-    memcpy(run->y + run->own_size, place->extra, extra_bytes(run));
-    return zd_run_place(run, place->t, place->p, place->v);
-}
-
-void zd_output_before(zd_run *run)
-{
-    zd_place_keep(run, &run->output.before);
-}
-
-void zd_output_keep_end(zd_run *run)
-{
-    zd_place_keep(run, &run->output.after);
-}
-
-int zd_output_move(zd_run *run, double t)
-{
-    const zd_place *before = &run->output.before;
-    if (t == run->output.after.t) return zd_place_return(run, &run->output.after);
-    int status = zd_place_return(run, before);
-    run->output.between = 1;
-    if (!status) status = zd_run_integrate(run, t - before->t);
-    if (!status) status = zd_run_land(run, t);
-    run->output.between = 0;
-    run->statistics.output_steps++;
-    return status;
-}
-
-static int is_wanted(const zd_run *run, double until)
-{
-    return !zd_output_is_complete(run) && run->settings.t_eval[run->output.next] <= until;
-}
-
-int zd_output_after(zd_run *run, zd_record *record)
-{
-    double t1 = run->t;
-    int status = ZD_DONE, away = 0;
-    if (is_wanted(run, t1)) zd_output_keep_end(run);
-    while (!status && is_wanted(run, nextafter(t1, -INFINITY))) {
-        away = 1;
-        status = zd_output_move(run, run->settings.t_eval[run->output.next++]);
-        if (!status) status = zd_record_row(run, record);
+    zd_output self = {.stepper = stepper, .t_eval = settings->t_eval, .t_evals = settings->t_evals};
+    if (settings->t_eval || settings->events) {
+        self.before = zd_place_take(arena, stepper->motion);
+        self.after = zd_place_take(arena, stepper->motion);
     }
-    if (!status && away) status = zd_output_move(run, t1);
-    int here = is_wanted(run, t1);
-    if (status || !(here || run->watch.ended)) return status;
-    run->output.next += here;
-    return zd_record_row(run, record);
+    return self;
 }
 
-int zd_output_is_complete(const zd_run *run)
+void zd_output_keep_beginning(zd_output *self)
 {
-    return run->output.next == run->settings.t_evals;
+    zd_stepper_keep_place(self->stepper, &self->before);
+}
+
+void zd_output_keep_end(zd_output *self)
+{
+    zd_stepper_keep_place(self->stepper, &self->after);
+}
+
+int zd_output_move(zd_output *self, double t)
+{
+    if (t == self->after.t) return zd_stepper_return_to(self->stepper, &self->after);
+    int status = zd_stepper_return_to(self->stepper, &self->before);
+    return status ? status : zd_stepper_make_substep(self->stepper, t);
+}
+
+static int is_wanted(const zd_output *self, double until)
+{
+    return !zd_output_is_complete(self) && self->t_eval[self->next] <= until;
+}
+
+int zd_output_after(zd_output *self, zd_record *record, int is_end)
+{
+    double t1 = self->stepper->t;
+    zd_motion *motion = self->stepper->motion;
+    int status = ZD_DONE, away = 0;
+    if (is_wanted(self, t1)) zd_output_keep_end(self);
+    while (!status && is_wanted(self, nextafter(t1, -INFINITY))) {
+        away = 1;
+        status = zd_output_move(self, self->t_eval[self->next++]);
+        if (!status) status = zd_record_row(motion, record);
+    }
+    if (!status && away) status = zd_output_move(self, t1);
+    int here = is_wanted(self, t1);
+    if (status || !(here || is_end)) return status;
+    self->next += here;
+    return zd_record_row(motion, record);
+}
+
+int zd_output_is_complete(const zd_output *self)
+{
+    return self->next == self->t_evals;
 }

@@ -1,14 +1,15 @@
-/* What is kept of a run: one row of the caller's arrays for each saved instant. */
-#include "../core.h"
+#include "record.h"
+
+#include <string.h>
 
 static void copy_row(double *table, long row, int width, const double *values)
 {
     if (width) memcpy(table + row * width, values, (size_t)width * sizeof *values);
 }
 
-static int record_constraints(zd_run *run, zd_record *record, long row)
+static int record_constraints(zd_motion *motion, zd_record *record, long row)
 {
-    zd_point *point = run->point;
+    zd_point *point = motion->point;
     int m = zd_constraints(point->system);
     if (!m) return ZD_DONE;
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
@@ -19,37 +20,37 @@ static int record_constraints(zd_run *run, zd_record *record, long row)
     return ZD_DONE;
 }
 
-static int record_energy(zd_run *run, zd_record *record, long row)
+static int record_energy(zd_motion *motion, zd_record *record, long row)
 {
     double violation, kinetic;
-    if (!zd_has_energy(&run->system)) {
-        int status = zd_point_need(run->point, ZD_M);
-        record->kinetic[row] = status ? 0 : zd_point_kinetic(run->point);
+    if (!zd_has_energy(&motion->system)) {
+        int status = zd_point_need(motion->point, ZD_M);
+        record->kinetic[row] = status ? 0 : zd_point_kinetic(motion->point);
         return status;
     }
-    int status = zd_run_energy_violation(run, &violation, &kinetic);
+    int status = zd_motion_energy_violation(motion, &violation, &kinetic);
     if (status) return status;
     record->kinetic[row] = kinetic;
-    record->potential[row] = zd_point_potential(run->point);
-    record->input[row] = *run->input;
+    record->potential[row] = zd_point_potential(motion->point);
+    record->input[row] = zd_motion_input(motion);
     record->energy_violation[row] = violation;                                           /* (28) */
     return ZD_DONE;
 }
 
-int zd_record_row(zd_run *run, zd_record *record)
+int zd_record_row(zd_motion *motion, zd_record *record)
 {
     long row = record->rows;
-    zd_point *point = run->point;
-    int status = zd_run_accelerate(run);
-    if (!status) status = record_constraints(run, record, row);
-    if (!status) status = record_energy(run, record, row);
+    zd_point *point = motion->point;
+    int status = zd_motion_accelerate(motion);
+    if (!status) status = record_constraints(motion, record, row);
+    if (!status) status = record_energy(motion, record, row);
     if (status) return status;
     record->t[row] = point->t;
     copy_row(record->p, row, point->system->nq, point->p);
     copy_row(record->v, row, point->system->nv, point->v);
-    record->iterations[row] = run->iterations;
-    record->energy_skipped[row] = run->energy_skipped;
-    run->iterations = run->energy_skipped = 0;
+    record->iterations[row] = motion->tally->iterations;
+    record->energy_skipped[row] = motion->tally->energy_skipped;
+    motion->tally->iterations = motion->tally->energy_skipped = 0;
     record->rows = row + 1;
     return ZD_DONE;
 }

@@ -3,9 +3,12 @@
  * recorded cost nothing where that stage needs them anyway. Comparing values instead of trusting flags keeps this right
  * whatever integrator or correction is plugged in.
  */
-#include "../core.h"
+#include "point.h"
+
+#include <string.h>
+
+#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
@@ -36,7 +39,6 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .lambda = zd_take_doubles(arena, m),
         .force = zd_take_doubles(arena, nv),
         .rhs = zd_take_doubles(arena, m),
-        .rank = zd_rank_take(arena, system),
         .unit = zd_take_doubles(arena, nv),
         .per_unit = zd_take_doubles(arena, nv),
         .per_unit_p = zd_take_doubles(arena, nq),
@@ -131,9 +133,4 @@ double zd_point_potential(const zd_point *point)
 int zd_point_is_finite(const zd_point *point)
 {
     return isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
-}
-
-double zd_max_abs(int n, const double *x)
-{
-    return ZD_SIZED(zd_largest, n, x);
 }

@@ -7,8 +7,11 @@
  * row, whose ratio is a lever arm. A tolerance of 1e-12 on Phi in units of its size thus says that the error is as if coordinates
  * were off by 1e-12 rad, or by 1e-12 of the mechanism's length; multiplying Phi by a number changes nothing.
  */
-#include "../core.h"
-#include "../linalg/small.h"
+#include "units.h"
+
+#include <math.h>
+
+#include "../linalg/norms.h"
 
 static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
 
@@ -67,23 +70,6 @@ int zd_point_measure(zd_point *point)
     settle_sizes(zd_constraints(system), point->size, point->per_size);
     point->measured = 1;
     return ZD_DONE;
-}
-
-ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
-{
-    double largest = 0;
-    int broken = 0;
-    for (int i = 0; i < n; i++) {
-        double size = fabs(x[i]) * scale[i];
-        largest = size > largest ? size : largest;
-        broken |= isnan(size);
-    }
-    return broken ? INFINITY : largest;
-}
-
-double zd_max_scaled(int n, const double *x, const double *scale)
-{
-    return ZD_SIZED(largest_scaled, n, x, scale);
 }
 
 double zd_point_violation(const zd_point *point)

@@ -1,10 +1,12 @@
 /* What the core refuses before it starts. People's arguments are checked in Python, by name; here it is made sure that nothing a
  * caller of zerodrift.h hands in makes the core crash or run for ever.
  */
+#include "arguments.h"
+
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 
-#include "../core.h"
 #include "../registry.h"
 
 enum { LARGEST = 8192 };    /* coordinates and velocities: with more, the sizes of matrices would leave the range of int */

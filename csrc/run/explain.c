@@ -1,8 +1,11 @@
 /* What went wrong, in one sentence with its numbers. */
-#include <stdio.h>
+#include "explain.h"
 
-#include "../core.h"
+#include <stdio.h>
+#include <string.h>
+
 #include "../constraints/rank.h"
+#include "blame.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 
@@ -17,11 +20,11 @@ static const char *name_of(int term)
 /* What the mass matrix or the constraints have; returns whether it was that. */
 static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
-    int culprit = run->point->culprit;
+    int culprit = run->motion.point->culprit;
     switch (status) {
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
-                 run->formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
+                 run->motion.formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
                                                   "hold what has no mass"
                                                 : "");
         break;
@@ -43,7 +46,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
                  "velocity)", rows, culprit);
         break;
     case ZD_SINGULAR:
-        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->formulation->card.name, culprit);
+        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name, culprit);
         break;
     default: return 0;
     }
@@ -52,54 +55,66 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
 
 static void describe_divergence(const zd_run *run, char *to, size_t size)
 {
-    double limit = run->integrator->card.stability;
+    double limit = run->stepper.integrator->card.stability;
     int length = snprintf(to, size, "the state left the range of doubles");
-    if (run->statistics.too_long && limit > 0)
+    if (run->motion.statistics.too_long && limit > 0)
         snprintf(to + length, size - (size_t)length, ": the step is too long for '%s' to be stable (omega h = %.3g, stable below %.3g); "
-                 "try a smaller step, or an implicit method", run->integrator->card.name, zd_run_omega_h(run), limit);
+                 "try a smaller step, or an implicit method", run->stepper.integrator->card.name, zd_run_omega_h(run), limit);
     else snprintf(to + length, size - (size_t)length, "; try a smaller step or another stabilization");
 }
 
-static void describe(const zd_run *run, int status, char *to, size_t size)
+/* What the method cannot do with this system, or with the error asked for; returns whether it was that. */
+static int describe_method(const zd_run *run, int status, char *to, size_t size)
 {
-    const zd_point *point = run->point;
-    const char *failure = run->system.failure;
-    char rows[64] = "";
-    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
-    if (describe_matrices(run, status, rows, to, size)) return;
+    const zd_system *system = &run->motion.system;
+    const char *formulation = run->motion.formulation->card.name, *integrator = run->stepper.integrator->card.name;
     switch (status) {
-    case ZD_NOT_FINITE: describe_divergence(run, to, size); break;
-    case ZD_NO_CONVERGENCE:
-        snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
-                 "(tolerance %.3g)%s%s%s", point->defect, run->settings.projection.max_iterations,
-                 run->settings.projection.tolerance, *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
-        break;
-    case ZD_BRANCH:
-        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");
-        break;
     case ZD_NO_STEP:
-        snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", run->integrator->card.name);
+        snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", integrator);
         break;
     case ZD_UNSUITED:
-        snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", run->formulation->card.name,
-                 run->system.nq, run->system.nv);
+        snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", formulation, system->nq, system->nv);
         break;
     case ZD_UNSUITED_INTEGRATOR:
-        snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s",
-                 run->integrator->card.name, run->system.mn ? "are nonholonomic constraints" : "is a kinematic matrix");
+        snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,
+                 system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;
     case ZD_TINY_STEP:
         snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
                  run->settings.atol);
         break;
+    default: return 0;
+    }
+    return 1;
+}
+
+static void describe_correction(const zd_run *run, const char *rows, char *to, size_t size)
+{
+    const zd_projection *projection = &run->settings.projection;
+    snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
+             "(tolerance %.3g)%s%s%s", run->motion.point->defect, projection->max_iterations, projection->tolerance,
+             *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
+}
+
+static void describe(const zd_run *run, int status, char *to, size_t size)
+{
+    const zd_point *point = run->motion.point;
+    const char *failure = run->watch.failed ? "the evaluation of an event failed" : run->motion.system.failure;
+    char rows[64] = "";
+    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
+    if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;
+    switch (status) {
+    case ZD_NOT_FINITE: describe_divergence(run, to, size); break;
+    case ZD_NO_CONVERGENCE: describe_correction(run, rows, to, size); break;
+    case ZD_BRANCH:
+        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");
+        break;
     case ZD_NO_EMBEDDING:
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
                  point->defect);
         break;
-    case ZD_CALLBACK:
-        if (run->watch.failed) failure = "the evaluation of an event failed";
-        snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed");
-        break;
+    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
+    case ZD_NO_MEMORY: snprintf(to, size, "there is no memory for this"); break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(point->culprit)); break;
     default: snprintf(to, size, "status %d", status); break;
@@ -109,7 +124,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 /* Numbers that are no numbers surface first in some factorization: the cause is named, not the place. */
 static int cause_of(zd_run *run, int status, double *t)
 {
-    zd_point *point = run->point;
+    zd_point *point = run->motion.point;
     *t = point->t;
     if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
     int finite = zd_point_is_finite(point);
@@ -121,14 +136,14 @@ static int cause_of(zd_run *run, int status, double *t)
 int zd_explain(zd_run *run, int status)
 {
     char what[ZD_MESSAGE - 64];
-    if (run->message[0]) return status;
+    if (run->outcome.message[0]) return status;
     double t;
     status = cause_of(run, status, &t);
     describe(run, status, what, sizeof what);
     char of_steps[32] = "";
-    if (run->steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->steps);
-    snprintf(run->message, sizeof run->message, "at t = %.9g (step %ld%s): %s", t, run->step, of_steps, what);
-    if (run->parts && status != ZD_BIFURCATION && strlen(run->message) < sizeof run->message - 48)
-        strcat(run->message, ", also when it is made in parts");
+    if (run->course.steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->course.steps);
+    snprintf(run->outcome.message, sizeof run->outcome.message, "at t = %.9g (step %ld%s): %s", t, run->course.step, of_steps, what);
+    if (run->course.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
+        strcat(run->outcome.message, ", also when it is made in parts");
     return status;
 }

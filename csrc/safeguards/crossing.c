@@ -9,23 +9,28 @@
  * Which of these it is, shorter steps tell: through a bifurcation the motion is continuous, so that one of them ends within the region
  * where branch.c knows it; otherwise it leaps however short they are.
  */
-#include "../linalg/bracket.h"
-#include "../core.h"
+#include "crossing.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
-#include "../constraints/rank.h"
+#include "../point/units.h"
 
 enum { MOST_LOOKS = 64 };
 static const double LONG = 1;       /* in natural units: a path so long is looked at in between, */
 static const double NEAR = 0.5;     /* and every so often */
 static const double NEARBY = 1e-3;  /* in natural units: from the constraints */
-static const double SHORT = 0.25 * ZD_BRANCH_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
-static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
 
-zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
+zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
+    const zd_system *system = &motion->system;
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv;
     return (zd_crossing){
+        .motion = motion,
+        .last = last,
         .C = zd_take_doubles(arena, m * n),
         .before = zd_take_doubles(arena, m * n),
         .p = zd_take_doubles(arena, (size_t)system->nq),
@@ -36,9 +41,9 @@ zd_crossing zd_crossing_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-static int is_at_one(const zd_point *point)
+int zd_crossing_is_at_one(const zd_point *point)
 {
-    return point->rank->branch.lost || point->rows < point->rank->limit;
+    return point->rank->lost || point->rows < point->rank->limit;
 }
 
 ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)
@@ -68,33 +73,31 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
 }
 
 /* Where the cubic that has the positions and rates of the step's ends is at this share of it. */
-static void interpolate(const zd_run *run, double h, double s)
+static void interpolate(const zd_crossing *self, double h, double s)
 {
-    const zd_crossing *self = &run->crossing;
-    for (int i = 0; i < run->system.nq; i++) {
-        double p0 = run->last.p[i], moved = self->p1[i] - p0, m0 = h * run->guard.pdot[i] - moved, m1 = moved - h * run->guard.rate[i];
+    for (int i = 0; i < self->motion->system.nq; i++) {
+        double p0 = self->last->p[i], moved = self->p1[i] - p0, m0 = h * self->rate0[i] - moved, m1 = moved - h * self->rate1[i];
         self->p[i] = p0 + s * (moved + (1 - s) * ((1 - s) * m0 + s * m1));
     }
 }
 
 /* Whether the orientation is kept from one look to the next, on a path too long to tell from its ends. */
-static int follow(zd_run *run, double h, int looks, int *kept)
+static int follow(zd_crossing *self, double h, int looks, int *kept)
 {
-    zd_crossing *self = &run->crossing;
-    zd_point *point = run->point;
+    zd_point *point = self->motion->point;
     const int m = point->rank->m, n = point->rank->n;
     const double t1 = point->t;
-    memcpy(self->p1, point->p, (size_t)run->system.nq * sizeof(double));
+    memcpy(self->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
     memcpy(self->v1, point->v, (size_t)n * sizeof(double));
     memcpy(self->before, self->C, (size_t)(m * n) * sizeof(double));
     int status = ZD_DONE;
     *kept = 1;
     for (int look = 1; look <= looks && *kept && !status; look++) {
-        interpolate(run, h, (double)look / looks);
+        interpolate(self, h, (double)look / looks);
         zd_point_move(point, look == looks ? t1 : t1 - h * (looks - look) / looks, look == looks ? self->p1 : self->p, self->v1);
         status = zd_point_need(point, ZD_C);
-        if (!status) status = zd_rank_find(point);
-        *kept = status == ZD_DONE && !is_at_one(point) && determinant(self, point, self->before) > 0;
+        if (!status) status = zd_rows_find(point);
+        *kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->before) > 0;
         ZD_SIZED(keep_rows, n, point, self->before);
     }
     zd_point_move(point, t1, self->p1, self->v1);
@@ -102,90 +105,43 @@ static int follow(zd_run *run, double h, int looks, int *kept)
 }
 
 /* A turned orientation; far off the constraints, where nothing holds a run, it means nothing. */
-static int judge(zd_run *run)
+static int judge(const zd_crossing *self)
 {
-    int status = zd_point_need(run->point, ZD_PHI | ZD_C);
+    zd_point *point = self->motion->point;
+    int status = zd_point_need(point, ZD_PHI | ZD_C);
     if (status) return status;
-    return run->guard.branch || !run->system.mh || zd_point_violation(run->point) <= NEARBY ? ZD_PASSED : ZD_DONE;
+    return self->holds || !point->system->mh || zd_point_violation(point) <= NEARBY ? ZD_PASSED : ZD_DONE;
 }
 
-int zd_crossing_begin(zd_run *run)
+int zd_crossing_begin(zd_crossing *self)
 {
-    run->crossing.kept = 0;
-    return zd_crossing_step(run, 0, 0);
+    self->kept = 0;
+    return zd_crossing_step(self, 0, 0);
 }
 
-int zd_crossing_step(zd_run *run, double h, double moved)
+double zd_crossing_orientation(const zd_crossing *self)
 {
-    zd_crossing *self = &run->crossing;
-    zd_point *point = run->point;
+    return determinant(self, self->motion->point, self->C);
+}
+
+int zd_crossing_step(zd_crossing *self, double h, double moved)
+{
+    zd_point *point = self->motion->point;
     if (!point->rank->m) return ZD_DONE;
-    int kept = 1, status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, run->acceleration_needs);   /* the next step's, at once */
-    if (!status && !(point->known & ZD_RANKED)) status = zd_rank_find(point);
+    int kept = 1, status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, self->motion->acceleration_needs);   /* the next step's, at once */
+    if (!status && !(point->known & ZD_RANKED)) status = zd_rows_find(point);
     if (status) return status;
-    if (is_at_one(point)) {
+    if (zd_crossing_is_at_one(point)) {
         self->kept = 0;
         return ZD_DONE;
     }
     if (self->kept && !self->passes) {
         if (moved <= LONG * LONG) kept = determinant(self, point, self->C) > 0;
-        else status = follow(run, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_LOOKS), &kept);
+        else status = follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_LOOKS), &kept);
     }
-    if (!status && !kept) status = judge(run);
+    if (!status && !kept) status = judge(self);
     if (status) return status;
     ZD_SIZED(keep_rows, point->rank->n, point, self->C);
     self->kept = 1;
     return ZD_DONE;
-}
-
-/* ---- what it was ---- */
-
-/* A step to t from where the last one began, corrected and compared with nothing. */
-static int move(zd_run *run, double t)
-{
-    int status = zd_run_return(run);
-    run->output.between = 1;
-    if (!status) status = zd_run_integrate(run, t - run->t);
-    if (!status) status = zd_run_land(run, t);
-    run->output.between = 0;
-    run->statistics.output_steps++;
-    return status;
-}
-
-/* Whether the motion is continuous where the sign changes: it is seen to be at the bifurcation itself. */
-static int find(zd_run *run, double t1, int *found)
-{
-    zd_point *point = run->point;
-    double t0 = run->last.t, resolution = fmin(SHORT / sqrt(run->guard.speed), (t1 - t0) / 2);
-    resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
-    *found = 0;
-    int status = zd_rank_find(point);
-    if (status || is_at_one(point)) return status;
-    zd_bracket it = zd_bracket_of(t0, t1, 1, determinant(&run->crossing, point, run->crossing.C), resolution);
-    if (!(it.gb <= 0)) return ZD_DONE;  /* it changes more than once: they are taken one by one */
-    status = zd_run_return(run);
-    if (!status) status = zd_rank_find(point);
-    it.ga = status ? 1 : determinant(&run->crossing, point, run->crossing.C);
-    while (!status && it.b - it.a > it.resolution) {
-        double t = zd_bracket_choose(&it);
-        status = move(run, t);
-        if (!status) status = zd_rank_find(point);
-        *found = !status && is_at_one(point);
-        if (*found) return ZD_DONE;
-        if (!status) zd_bracket_narrow(&it, t, determinant(&run->crossing, point, run->crossing.C));
-    }
-    return status;
-}
-
-int zd_crossing_pass(zd_run *run, double h, double t1)
-{
-    if (run->settings.on_singular == ZD_STOP) return ZD_PASSED;
-    int found, status = find(run, t1, &found);
-    if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
-    run->crossing.passes = 1;
-    status = zd_run_return(run);
-    if (!status) status = zd_run_integrate(run, h);
-    if (!status) status = zd_run_land(run, t1);
-    run->crossing.passes = 0;
-    return status;
 }

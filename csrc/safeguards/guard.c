@@ -11,7 +11,11 @@
  * And it has to be short enough for the method: where the fastest part of the motion outgrows all others, as in an instability it
  * does, vdot1 - vdot0 = -omega^2 (p1 - p0) shows its omega. A look now and then is enough, and costs less: until there is suspicion.
  */
-#include "../core.h"
+#include "guard.h"
+
+#include <math.h>
+#include <string.h>
+
 #include "../linalg/small.h"
 
 static const double ASTRAY = 0.5;
@@ -23,22 +27,23 @@ enum {
     LOOK_EVERY = 8,
 };
 
-zd_guard zd_guard_take(const zd_run *run, zd_arena *arena)
+zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last)
 {
-    const zd_system *system = &run->system;
-    const zd_settings *settings = &run->settings;
+    const zd_system *system = &motion->system;
     const zd_projection *projection = &settings->projection;
-    int held = !(run->violates & ZD_PHI) || (projection->every && projection->positions);
+    int holds = !(motion->drifts_from & ZD_PHI) || (projection->every && projection->positions);
     int own = (system->provides & ZD_A) != 0;
-    double least = NEARBY + 4 * projection->tolerance, limit = run->integrator->card.stability;
+    double least = NEARBY + 4 * projection->tolerance;
     return (zd_guard){
-        .branch = system->mh && held,
+        .motion = motion,
+        .last = last,
+        .branch = system->mh && holds,
         .stability = settings->step > 0,
         .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
         .nearby = least * least,
-        .limit = pow(limit > 0 ? limit : RESOLVED, 4),
-        .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : run->last.v,
-        .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : run->point ? run->point->v : NULL,
+        .limit = pow(stability > 0 ? stability : RESOLVED, 4),
+        .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
+        .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .C = zd_take_doubles(arena, (size_t)(system->mh * system->nv)),
@@ -46,13 +51,9 @@ zd_guard zd_guard_take(const zd_run *run, zd_arena *arena)
     };
 }
 
-typedef struct sums {       /* of squares, in natural units */
-    double moved, detour, speed;
-} sums;
-
-ZD_INLINE sums compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *per_unit)
+ZD_INLINE zd_detour compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *per_unit)
 {
-    sums sum = {0, 0, 0};
+    zd_detour sum = {0, 0, 0};
     for (int i = 0; i < n; i++) {
         double moved = (p[i] - p0[i]) * per_unit[i], rate = guard->rate[i] * per_unit[i];
         double detour = moved - 0.5 * h * (guard->pdot[i] * per_unit[i] + rate);
@@ -64,13 +65,13 @@ ZD_INLINE sums compare(const int n, const zd_guard *guard, const double *p0, con
 }
 
 /* The squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, at the nearest s of 0 ... 1 */
-static double least_detour(const zd_run *run, double h)
+static double least_detour(const zd_guard *guard, double h)
 {
-    const zd_guard *guard = &run->guard;
-    const double *per_unit = run->point->per_unit_p;
+    const zd_point *point = guard->motion->point;
+    const double *per_unit = point->per_unit_p;
     double rest = 0, along = 0, turn = 0;
-    for (int i = 0; i < run->system.nq; i++) {
-        double a = (run->point->p[i] - run->last.p[i] - h * guard->pdot[i]) * per_unit[i];
+    for (int i = 0; i < point->system->nq; i++) {
+        double a = (point->p[i] - guard->last->p[i] - h * guard->pdot[i]) * per_unit[i];
         double b = h * (guard->rate[i] - guard->pdot[i]) * per_unit[i];
         rest += a * a, along += a * b, turn += b * b;
     }
@@ -78,28 +79,32 @@ static double least_detour(const zd_run *run, double h)
     return rest - 2 * s * along + s * s * turn;
 }
 
-/* Whether a row of C, in natural units, has turned by more than 60 degrees or so. Only asked of long steps: it moves the point. */
-static int is_unresolved(zd_run *run, int *status)
+/* Whether this row of C, in natural units, is turned by more than 60 degrees or so from the one kept of the end. */
+static int is_turned(const zd_guard *guard, const zd_point *point, int row)
 {
-    zd_point *point = run->point;
-    zd_guard *guard = &run->guard;
-    int nq = run->system.nq, nv = run->system.nv, unresolved = 0;
+    int nv = point->system->nv;
+    double turned = 0, before = 0, after = 0;
+    for (int i = 0; i < nv; i++) {
+        double a = point->terms.C[row * nv + i] * point->unit[i], b = guard->C[row * nv + i] * point->unit[i];
+        turned += (b - a) * (b - a), before += a * a, after += b * b;
+    }
+    return !(turned <= fmax(before, after));
+}
+
+/* Whether any row of C has turned by so much in the step. Only asked of long steps: it moves the point. */
+static int is_unresolved(zd_guard *guard, int *status)
+{
+    zd_point *point = guard->motion->point;
+    int nq = point->system->nq, nv = point->system->nv, mh = point->system->mh, unresolved = 0;
     const double t = point->t;
     memcpy(guard->p, point->p, (size_t)nq * sizeof(double));
     memcpy(guard->v, point->v, (size_t)nv * sizeof(double));
     *status = zd_point_need(point, ZD_C);
     if (*status) return 0;
-    memcpy(guard->C, point->terms.C, (size_t)(run->system.mh * nv) * sizeof(double));
-    zd_point_move(point, run->last.t, run->last.p, run->last.v);
+    memcpy(guard->C, point->terms.C, (size_t)(mh * nv) * sizeof(double));
+    zd_point_move(point, guard->last->t, guard->last->p, guard->last->v);
     *status = zd_point_need(point, ZD_C);
-    for (int k = 0; !*status && k < run->system.mh; k++) {
-        double turned = 0, before = 0, after = 0;
-        for (int i = 0; i < nv; i++) {
-            double a = point->terms.C[k * nv + i] * point->unit[i], b = guard->C[k * nv + i] * point->unit[i];
-            turned += (b - a) * (b - a), before += a * a, after += b * b;
-        }
-        unresolved |= !(turned <= fmax(before, after));
-    }
+    for (int k = 0; !*status && k < mh; k++) unresolved |= is_turned(guard, point, k);
     zd_point_move(point, t, guard->p, guard->v);
     return unresolved;
 }
@@ -111,86 +116,86 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
     return sum;
 }
 
-static void see_energy(zd_run *run)
+static void see_energy(zd_guard *guard)
 {
-    double kinetic = (run->point->known & ZD_M) ? zd_point_kinetic(run->point) : 0;
-    run->guard.kinetic = fmax(run->guard.kinetic, kinetic);
+    const zd_point *point = guard->motion->point;
+    double kinetic = (point->known & ZD_M) ? zd_point_kinetic(point) : 0;
+    guard->kinetic = fmax(guard->kinetic, kinetic);
 }
 
-ZD_INLINE void estimate_omega(zd_run *run, double moved, double h)
+static void estimate_omega(zd_guard *guard, double moved, double h)
 {
-    zd_guard *guard = &run->guard;
-    const zd_point *point = run->point;
-    double changed = ZD_SIZED(squared_difference, run->system.nv, point->vdot, guard->vdot, point->per_unit);
+    const zd_point *point = guard->motion->point;
+    double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->per_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
     if (!(moved > 0)) return;
     if (power > guard->fourth * moved && power < INFINITY) guard->fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
-    if (guard->streak >= STREAK) run->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
+    if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
-static int is_looked_at(const zd_run *run, long step)
+static int is_looked_at(const zd_guard *guard, long step)
 {
-    return run->guard.stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || run->guard.streak);
+    return guard->stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak);
 }
 
-ZD_INLINE int look(zd_run *run)
+ZD_INLINE int look(zd_guard *guard, long next_step)
 {
-    int status = zd_point_need(run->point, ZD_A);
-    if (!status && (run->guard.looking || is_looked_at(run, run->step + 1))) status = zd_run_accelerate(run);   /* the next step begins with it */
-    if (!status && run->point->terms.A) zd_point_rate(run->point, run->point->v, run->guard.rate);
+    zd_motion *motion = guard->motion;
+    zd_point *point = motion->point;
+    int status = zd_point_need(point, ZD_A);
+    if (!status && (guard->looking || is_looked_at(guard, next_step))) status = zd_motion_accelerate(motion);   /* the next step begins with it */
+    if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;
 }
 
-ZD_INLINE void keep(zd_run *run, double speed)
+ZD_INLINE void keep(zd_guard *guard, double speed, long next_step)
 {
-    zd_guard *guard = &run->guard;
-    if (run->point->terms.A) zd_copy(run->system.nq, guard->rate, guard->pdot);
-    guard->looking = is_looked_at(run, run->step + 1);
-    if (guard->looking) ZD_SIZED(zd_copy, run->system.nv, run->point->vdot, guard->vdot);
+    const zd_point *point = guard->motion->point;
+    if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
+    guard->looking = is_looked_at(guard, next_step);
+    if (guard->looking) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
     guard->speed = speed;
     guard->kept = 1;
 }
 
-int zd_guard_begin(zd_run *run)
+int zd_guard_begin(zd_guard *guard, long step)
 {
-    int status = look(run);
+    const zd_point *point = guard->motion->point;
+    int status = look(guard, step);
     if (status) return status;
-    keep(run, ZD_SIZED(compare, run->system.nq, &run->guard, run->last.p, run->point->p, 0, run->point->per_unit_p).speed);
-    return zd_crossing_begin(run);
-}
-
-int zd_guard_step(zd_run *run, double h)
-{
-    const zd_guard *guard = &run->guard;
-    if (!guard->kept || run->output.between) return ZD_DONE;
-    int status = look(run);
-    if (status) return status;
-    const sums sum = ZD_SIZED(compare, run->system.nq, guard, run->last.p, run->point->p, h, run->point->per_unit_p);
-    double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
-    if (guard->branch && !(sum.detour <= allowed) && !(least_detour(run, h) <= allowed)) return ZD_BRANCH;
-    if (guard->branch && !(sum.moved <= LONG * LONG)) {
-        int unresolved = is_unresolved(run, &status);
-        if (status || unresolved) return status ? status : ZD_BRANCH;
-        status = look(run);
-        if (status) return status;
-    }
-    status = zd_crossing_step(run, h, sum.moved);
-    if (status) return status;
-    if (guard->looking && !run->parts) {        /* parts may be given up yet */
-        estimate_omega(run, sum.moved, h);
-        if (zd_has_energy(&run->system)) see_energy(run);
-    }
-    keep(run, sum.speed);
+    keep(guard, ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, 0, point->per_unit_p).speed, step);
     return ZD_DONE;
 }
 
-double zd_run_omega_h(const zd_run *run)
+int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found)
 {
-    return sqrt(sqrt(run->guard.fourth));
+    const zd_point *point = guard->motion->point;
+    int status = look(guard, next_step);
+    if (status) return status;
+    const zd_detour sum = *found = ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, h, point->per_unit_p);
+    double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
+    if (!guard->branch) return ZD_DONE;
+    if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
+    if (sum.moved <= LONG * LONG) return ZD_DONE;
+    int unresolved = is_unresolved(guard, &status);
+    if (status || unresolved) return status ? status : ZD_BRANCH;
+    return look(guard, next_step);
 }
 
-double zd_run_kinetic(const zd_run *run)
+void zd_guard_watch_stability(zd_guard *guard, const zd_detour *found, double h)
 {
-    return run->guard.kinetic;
+    if (!guard->looking) return;
+    estimate_omega(guard, found->moved, h);
+    if (zd_has_energy(&guard->motion->system)) see_energy(guard);
+}
+
+void zd_guard_keep(zd_guard *guard, const zd_detour *found, long next_step)
+{
+    keep(guard, found->speed, next_step);
+}
+
+double zd_guard_omega_h(const zd_guard *guard)
+{
+    return sqrt(sqrt(guard->fourth));
 }

@@ -2,7 +2,10 @@
 #ifndef ZD_FOUR_BAR_H
 #define ZD_FOUR_BAR_H
 
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 
 enum { ZD_FOUR_BAR_N = 3, ZD_FOUR_BAR_SCRATCH = 2 * ZD_FOUR_BAR_N };
 

@@ -3,6 +3,10 @@
  */
 #include "held.h"
 
+#include <string.h>
+
+#include "../point/point.h"
+
 static int count(const int *hold, int n)
 {
     int held = 0;

@@ -2,7 +2,7 @@
 #ifndef ZD_HELD_H
 #define ZD_HELD_H
 
-#include "../core.h"
+#include "../include/zerodrift/system.h"
 
 typedef struct zd_held {
     const zd_system *inner;

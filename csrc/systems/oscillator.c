@@ -1,5 +1,7 @@
 /* The paper's example 2: a mass on a spring, m xddot + k x = 0. One degree of freedom, no constraint. */
-#include "../core.h"
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 
 typedef struct given {      /* the parameters, and what evaluate() needs of them */
     double m;               /* kg */

@@ -9,7 +9,10 @@
  * Divided by 2 L, Phi is to first order the distance from the circle in m and C a unit vector: C M^-1 C^T = 1 / m at any length,
  * and lambda is the tension of the rod in N.
  */
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 
 enum { X, Y, N = 2 };
 

@@ -18,7 +18,10 @@
  *
  * Where the disc lies flat, yaw and spin are the same turn: there, and only there, (1) is singular.
  */
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 #include "disc.h"
 
 enum { X, Y, Z, YAW, LEAN, SPIN, N };

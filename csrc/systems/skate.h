@@ -2,7 +2,10 @@
 #ifndef ZD_SKATE_H
 #define ZD_SKATE_H
 
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 
 enum { ZD_SKATE_X, ZD_SKATE_Y, ZD_SKATE_PHI, ZD_SKATE_N };
 

@@ -11,7 +11,10 @@
  *     T = (J1 qdot^2 + m xdot^2 + J2 phidot^2) / 2
  *     V = k (l - l0)^2 / 2 - F (x + b cos phi),       Edot = -c ldot^2
  */
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 #include "../linalg/small.h"
 
 enum { Q, X, ANGLE, N = 3 };

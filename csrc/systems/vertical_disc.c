@@ -8,7 +8,10 @@
  * nothing keeps upright (rolling_disc) leans as soon as it turns. Nothing pulls it: V = 0 is declared so that its energy can
  * be watched.
  */
-#include "../core.h"
+#include <math.h>
+#include <string.h>
+
+#include "../include/zerodrift/system.h"
 #include "disc.h"
 
 enum { X, Y, PHI, THETA, N };

@@ -1,0 +1,78 @@
+#include "rows.h"
+
+#include <math.h>
+
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "limits.h"
+
+static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
+
+zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_drop)
+{
+    zd_limits *limits = may_drop ? zd_limits_take(arena, system) : NULL;
+    zd_rank *self = zd_rank_take(arena, system);
+    if (self) self->limits = limits;
+    return self;
+}
+
+static int reduce(zd_point *point)
+{
+    static const double region = ZD_BRANCH_REGION * ZD_BRANCH_REGION;
+    zd_rank *self = point->rank;
+    self->near = 1;
+    int status = zd_point_need(point, ZD_M);
+    if (status) return status;
+    if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
+    int by_limits = self->begun && self->limits;
+    zd_rank_choose(point, by_limits ? region : SQUARED);
+    if (by_limits && point->rows < self->limit) {
+        status = zd_limits_find(point);
+        if (!status && !self->lost) zd_rank_choose(point, SQUARED);
+    }
+    int dropped = self->lost || point->rows < self->limit;
+    self->dropped |= dropped;
+    if (dropped && !self->may_drop) return ZD_BIFURCATION;
+    if (!status) point->known |= ZD_RANKED;
+    return status;
+}
+
+/* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
+ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
+{
+    int m = self->m;
+    double *whole = self->whole, *left = self->left;
+    for (int k = 0; k < m; k++) {
+        whole[k] = zd_dot(n, C + k * n, C + k * n);
+        if (!(whole[k] > DOUBTFUL * self->length[k])) return 1;
+    }
+    if (m < 2) return 0;
+    double along = zd_dot(n, C, C + n);
+    if (m == 2) return !((1 - DOUBTFUL) * whole[0] * whole[1] > along * along);     /* without the divisions of what follows */
+    for (int k = 0; k < m; k++) {
+        double *q = self->Q + k * n;
+        zd_copy(n, C + k * n, q);
+        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
+        left[k] = zd_dot(n, q, q);
+        if (!(left[k] > DOUBTFUL * whole[k])) return 1;
+    }
+    return 0;
+}
+
+int zd_rows_find(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    if (point->known & ZD_RANKED) return ZD_DONE;
+    int status = zd_point_need(point, ZD_C);
+    if (status) return status;
+    if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
+    zd_rank_use_all(point);
+    point->known |= ZD_RANKED;
+    return ZD_DONE;
+}
+
+int zd_rows_find_again(zd_point *point)
+{
+    point->known &= ~(ZD_RANKED | ZD_FACTORED | ZD_COMPLEMENTED | ZD_ACCELERATED);
+    return zd_rows_find(point);
+}

@@ -1,0 +1,25 @@
+/* A row of the table of formulations: a leading matrix and its solve, and the state that is integrated. */
+#ifndef ZD_FORMULATION_H
+#define ZD_FORMULATION_H
+
+#include "../point/point.h"
+
+typedef struct zd_formulation {
+    zd_card card;
+    int drifts_from;        /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
+    int inverts_mass;       /* whether M has to be definite; else M is only where the constraints leave the velocities free */
+    /* Both are told of as many constraints as are independent. */
+    int (*state_size)(const zd_system *system);
+    void *(*take)(zd_arena *arena, const zd_system *system);
+    /* The leading matrix at the point, from M and the rows of C that count. */
+    int (*factor)(void *self, zd_point *point);
+    /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */
+    void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
+    int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
+    int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
+    /* Gives the point the v that follows from its p and the state; NULL where v is part of the state. */
+    int (*settle)(void *self, zd_point *point);
+    int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
+} zd_formulation;
+
+#endif

@@ -1,0 +1,22 @@
+/* A row of the table of integrators: one step in time. Most know nothing but the rate of an opaque state. */
+#ifndef ZD_INTEGRATOR_H
+#define ZD_INTEGRATOR_H
+
+#include "../motion/motion.h"
+
+typedef struct zd_integrator {
+    zd_card card;
+    const void *table;      /* coefficients, for methods that share a stepper */
+    int (*suits)(const zd_system *system);      /* NULL: it takes any */
+    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size);
+    int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
+    /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
+    int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);
+    double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
+    /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
+     * there, 0: not known; NULL where card.error_order is 0. */
+    int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                 double *lambda_h);
+} zd_integrator;
+
+#endif

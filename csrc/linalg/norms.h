@@ -1,0 +1,8 @@
+/* The largest of some numbers, by which sizes, errors and tolerances are compared. */
+#ifndef ZD_NORMS_H
+#define ZD_NORMS_H
+
+double zd_max_abs(int n, const double *x);      /* of |x_i|; infinite if any is not a number */
+double zd_max_scaled(int n, const double *x, const double *scale);      /* of |x_i| scale_i, likewise */
+
+#endif

@@ -1,0 +1,12 @@
+#include "motion.h"
+
+int zd_motion_correct(zd_motion *motion, long step, int forced)
+{
+    for (int i = 0; i < motion->corrections; i++) {
+        const zd_active *active = &motion->active[i];
+        if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
+        int status = active->row->after_step(active->self, motion);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}

@@ -1,0 +1,92 @@
+/* The motion of a system: its equations in one formulation, with the corrections that are on. It is all that integrators and
+ * corrections see.
+ */
+#ifndef ZD_MOTION_H
+#define ZD_MOTION_H
+
+#include "../formulations/formulation.h"
+#include "correction.h"
+
+enum { ZD_CORRECTIONS_MAX = 8 };
+
+/* A correction that is on. */
+typedef struct zd_active {
+    const zd_correction *row;
+    void *self;
+    int every;              /* how many steps it is made */
+    int extra;              /* where in the state that stands which it integrates along */
+    int extra_size;
+} zd_active;
+
+/* The rate of the integrated state, of which integrators know nothing else. */
+typedef struct zd_rate {
+    int (*evaluate)(void *context, double t, const double *y, double *ydot);
+    void *context;
+    int size;               /* of the state */
+} zd_rate;
+
+/* What has happened since the last saved row. */
+typedef struct zd_tally {
+    int iterations;         /* most position iterations of a step */
+    int energy_skipped;     /* energy corrections left out */
+    int begun;              /* whether the row of the start has been saved, if it is wanted */
+} zd_tally;
+
+/* (28): what the energy is compared with. */
+typedef struct zd_balance {
+    double initial;         /* E0, J */
+    const double *input;    /* J, integrated along as the last number of the state; NULL where none comes in */
+} zd_balance;
+
+struct zd_motion {
+    zd_system system;
+    zd_statistics statistics;
+    zd_tally *tally;        /* of the run */
+    zd_point *point;        /* where the motion is */
+    const zd_formulation *formulation;
+    void *solver;           /* the formulation's memory */
+    int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
+    int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
+    zd_active active[ZD_CORRECTIONS_MAX];
+    int corrections;        /* how many are on */
+    zd_rate rate;
+    const double *state;    /* the point's: that of the step's end, or a stage of the integrator */
+    int formulation_size;   /* of the state's first part: the formulation's. Corrections' and the energy input (28) follow */
+    int corrections_size;   /* of what corrections integrate along */
+    zd_balance balance;
+    int in_run;             /* whether steps begin where the constraints are known to hold */
+};
+
+/* take.c: lays out the motion in place. `independent` has the system's sizes with as many constraints as count. */
+void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
+                    const zd_formulation *formulation, enum zd_on_singular on_singular);
+/* Adds a correction, if the settings have it on. */
+void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *settings, const zd_correction *correction);
+/* Gives the motion the state (rate.size,), whose sizes are known once all corrections are. */
+void zd_motion_attach(zd_motion *motion, double *state);
+
+/* solve.c */
+int zd_motion_factor(zd_motion *motion);            /* the leading matrix at the point */
+void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda); /* with what was factored */
+/* The formulation's solve, with right sides and multipliers of all rows, whichever of them count at the point. */
+void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,
+                   double *x, double *lambda);
+
+/* accelerate.c */
+int zd_motion_accelerate(zd_motion *motion);        /* vdot, lambda at the point */
+int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
+
+/* correct.c: those that are due in this step, in their order; `forced`: all */
+int zd_motion_correct(zd_motion *motion, long step, int forced);
+/* Whether a step is one of every so many. One of every 1 is not worth a division, the slowest of instructions. */
+static inline int zd_is_one_of(long every, long step) { return every == 1 || step % every == 0; }
+
+/* balance.c */
+int zd_has_energy(const zd_system *system);
+int zd_has_input(const zd_system *system);          /* of energy, besides V: then it is integrated along */
+double zd_motion_input(const zd_motion *motion);    /* J */
+double zd_motion_power(const zd_motion *motion);    /* W, at the point, whose acceleration is known */
+int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
+int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
+
+#endif

@@ -1,0 +1,39 @@
+#include "motion.h"
+
+#include "../constraints/rows.h"
+
+void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
+                    const zd_formulation *formulation, enum zd_on_singular on_singular)
+{
+    *motion = (zd_motion){
+        .system = *system,
+        .formulation = formulation,
+        .drifts_from = formulation->drifts_from,
+        .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
+        .formulation_size = formulation->state_size(independent),
+        .solver = formulation->take(arena, independent),
+    };
+    motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
+    zd_rank *rank = zd_rows_take(arena, system, on_singular == ZD_CONTINUE);
+    if (motion->point) motion->point->rank = rank;
+    motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system)};
+}
+
+void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *settings, const zd_correction *correction)
+{
+    int every = correction->every(settings);
+    if (every <= 0) return;
+    int at = motion->formulation_size + motion->corrections_size;
+    int size = correction->extra_size ? correction->extra_size(&motion->system, settings) : 0;
+    void *self = correction->take(arena, &motion->system, settings);
+    motion->active[motion->corrections++] = (zd_active){correction, self, every, at, size};
+    motion->acceleration_needs |= correction->needs;
+    motion->corrections_size += size;
+    motion->rate.size += size;
+}
+
+void zd_motion_attach(zd_motion *motion, double *state)
+{
+    motion->state = state;
+    motion->balance.input = zd_has_input(&motion->system) ? state + motion->rate.size - 1 : NULL;
+}

@@ -1,0 +1,23 @@
+/* Values between steps. */
+#ifndef ZD_BETWEEN_H
+#define ZD_BETWEEN_H
+
+#include "../stepping/step.h"
+
+typedef struct zd_output {
+    zd_stepper *stepper;
+    const double *t_eval;   /* (t_evals,) times that are wanted; NULL: none */
+    long t_evals;
+    long next;              /* of them */
+    zd_place before, after; /* the step: where it began and where it has ended */
+} zd_output;
+
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper);
+void zd_output_keep_beginning(zd_output *self);
+void zd_output_keep_end(zd_output *self);
+int zd_output_move(zd_output *self, double t);      /* to any time of the step, once its end is kept */
+/* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. */
+int zd_output_after(zd_output *self, zd_record *record, int is_end);
+int zd_output_is_complete(const zd_output *self);
+
+#endif

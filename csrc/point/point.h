@@ -1,0 +1,58 @@
+/* A point of the motion: all that is known at one (t, p, v), computed when it is first wanted and never twice. */
+#ifndef ZD_POINT_H
+#define ZD_POINT_H
+
+#include "../workspace.h"
+#include "../zerodrift.h"
+
+enum {                                  /* known beside the system's own terms */
+    ZD_FACTORED = 1 << 16,              /* the formulation's leading matrix, at this (t, p) */
+    ZD_ACCELERATED = 1 << 17,           /* vdot and lambda, at this (t, p, v) */
+    ZD_COMPLEMENTED = 1 << 18,          /* the complement D and what goes with it, at this (t, p) */
+    ZD_RANKED = 1 << 19,                /* which rows of C count, at this (t, p) */
+    ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_GAMMA | ZD_ACCELERATED
+};
+
+typedef struct zd_rank zd_rank;         /* constraints/rank.h */
+
+typedef struct zd_point {
+    const zd_system *system;
+    zd_statistics *statistics;
+    int known;              /* what of all this is valid now */
+    double t, *p, *v;
+    zd_terms terms;
+    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *force, *rhs;    /* (nv,), (m,): right sides being put together */
+    zd_rank *rank;          /* NULL where the point only serves to evaluate terms */
+    int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
+    const double *C;        /* (rows, nv): those that count */
+    double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see units.c; and 1 / unit */
+    double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
+    double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
+    double *per_size;       /* (m,): 1 / size */
+    int measured;           /* whether these are known */
+    int culprit;            /* the coordinate or row that a failed factorization names */
+    double defect;          /* what a failed iteration was left with */
+} zd_point;
+
+static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
+
+zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
+void zd_point_move(zd_point *point, double t, const double *p, const double *v);
+void zd_point_move_velocity(zd_point *point, const double *v);
+int zd_point_need_missing(zd_point *point, int missing);
+void zd_point_force(const zd_point *point, double *force);          /* f - d */
+void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); needs C, Phi_t */
+void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
+double zd_point_kinetic(const zd_point *point);     /* needs M */
+double zd_point_potential(const zd_point *point);   /* needs V */
+int zd_point_is_finite(const zd_point *point);      /* its p and v */
+
+/* Has the terms in `want` computed, those that the system has and that are not known yet. */
+static inline int zd_point_need(zd_point *point, int want)
+{
+    int missing = want & point->system->provides & ~point->known;
+    return missing ? zd_point_need_missing(point, missing) : ZD_DONE;
+}
+
+#endif

@@ -1,0 +1,17 @@
+/* What a run tells of itself. */
+#include "run.h"
+
+#include "../constraints/rank.h"
+
+double zd_run_progress(const zd_run *run)
+{
+    double span = run->course.end - run->settings.t0;
+    return span > 0 ? (run->stepper.t - run->settings.t0) / span : 1;
+}
+
+const char *zd_run_message(const zd_run *run) { return run->outcome.message; }
+const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->motion.statistics; }
+int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->motion.point->rank, rows); }
+const double *zd_run_sizes(const zd_run *run) { return run->motion.point->size; }
+double zd_run_kinetic(const zd_run *run) { return run->safeguards.guard.kinetic; }
+double zd_run_omega_h(const zd_run *run) { return zd_guard_omega_h(&run->safeguards.guard); }

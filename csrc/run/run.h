@@ -1,0 +1,31 @@
+/* What a run owns. */
+#ifndef ZD_RUN_H
+#define ZD_RUN_H
+
+#include "../motion/motion.h"
+#include "../output/between.h"
+#include "../output/events.h"
+#include "../safeguards/safeguards.h"
+#include "../stepping/course.h"
+#include "../stepping/step.h"
+
+enum { ZD_MESSAGE = 400 };
+
+typedef struct zd_outcome { /* how the run has ended, if it has */
+    int status;
+    char message[ZD_MESSAGE];
+} zd_outcome;
+
+struct zd_run {
+    zd_settings settings;
+    zd_motion motion;
+    zd_stepper stepper;
+    zd_safeguards safeguards;
+    zd_course course;
+    zd_output output;       /* where something between steps is wanted */
+    zd_watch watch;
+    zd_tally tally;
+    zd_outcome outcome;
+};
+
+#endif

@@ -1,0 +1,191 @@
+/* Whether a run may begin: its start satisfies the constraints, its system and its tolerance are ones that something can be done with.
+ * What only this needs is freed after it.
+ */
+#include "start.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "../constraints/rows.h"
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "../point/units.h"
+#include "../registry.h"
+#include "../stepping/adaptive.h"
+
+static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
+static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
+static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
+
+typedef struct workspace {
+    double *Psi;        /* (m,) */
+    double *factor;     /* (nv, nv): of M, to see whether it is positive definite */
+    double *states;     /* (3, size): for the choice of the first step */
+} workspace;
+
+/* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
+static double velocity_violation(const zd_run *run, const double *Psi)
+{
+    const zd_point *point = run->motion.point;
+    double speed = zd_max_scaled(run->motion.system.nv, point->v, point->per_unit) + 1 / (run->course.end - run->settings.t0);
+    double largest = 0;
+    for (int k = 0; k < zd_constraints(&run->motion.system); k++) {
+        double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
+        largest = fmax(largest, fabs(Psi[k]) / size);
+    }
+    return largest;
+}
+
+/* Refuses a violation of the constraints beyond the tolerance. */
+static int check_constraints(zd_run *run, double *Psi)
+{
+    zd_point *point = run->motion.point;
+    int mh = run->motion.system.mh, m = zd_constraints(&run->motion.system);
+    double allowed = fmax(run->settings.projection.tolerance, START_TOLERANCE);
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
+    if (status || !m) return status;
+    zd_point_velocity_violation(point, Psi);
+    double position = mh ? zd_point_violation(point) : 0, velocity = velocity_violation(run, Psi);
+    if (position <= allowed && velocity <= allowed) return ZD_DONE;
+    if (zd_first_not_finite(&run->motion.system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
+    snprintf(run->outcome.message, sizeof run->outcome.message,
+             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g); "
+             "zd.assemble finds a consistent start nearby", position, velocity, allowed);
+    return ZD_BAD_START;
+}
+
+/* Refuses a tolerance that the rounding of p alone keeps Phi from reaching. */
+static int check_tolerance(zd_run *run)
+{
+    const zd_projection *projection = &run->settings.projection;
+    const zd_point *point = run->motion.point;
+    int n = run->motion.system.nq < run->motion.system.nv ? run->motion.system.nq : run->motion.system.nv;
+    if (!projection->every || !projection->positions || !run->motion.system.mh) return ZD_DONE;
+    double reachable = 0;
+    for (int k = 0; k < run->motion.system.mh; k++) {
+        double rounding = 0;
+        for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->motion.system.nv + i] * point->p[i]);
+        reachable = fmax(reachable, rounding * point->per_size[k]);
+    }
+    if (projection->tolerance > reachable) return ZD_DONE;
+    snprintf(run->outcome.message, sizeof run->outcome.message,
+             "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g of its size",
+             projection->tolerance, reachable);
+    return ZD_UNREACHABLE;
+}
+
+static int check_symmetry(zd_point *point)
+{
+    int n = point->system->nv;
+    const double *M = point->terms.M;
+    double largest = zd_max_abs(n * n, M);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            point->culprit = i;
+            if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
+        }
+    return ZD_DONE;
+}
+
+static double unit(int n, const double *M, int i)
+{
+    return M[i * n + i] > 0 ? sqrt(M[i * n + i]) : 1;
+}
+
+/* factor <- M in units that make its diagonal one where there is any mass, + the sum of `rows` rows of C in these units, each of length
+ * one, times itself */
+static void weigh(const zd_run *run, int rows, double *factor)
+{
+    int n = run->motion.system.nv;
+    const double *M = run->motion.point->terms.M;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) factor[i * n + j] = M[i * n + j] / (unit(n, M, i) * unit(n, M, j));
+    for (int k = 0; k < rows; k++) {
+        const double *c = run->motion.point->C + k * n;
+        double length = 0;
+        for (int i = 0; i < n; i++) length += c[i] * c[i] / (unit(n, M, i) * unit(n, M, i));
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++) factor[i * n + j] += c[i] * c[j] / (unit(n, M, i) * unit(n, M, j) * length);
+    }
+}
+
+/* M may be singular where constraints hold what has no mass: x^T M x > 0 for all other x that C x = 0 allows, and never negative. */
+static int check_mass(zd_run *run, double *factor)
+{
+    zd_point *point = run->motion.point;
+    int n = run->motion.system.nv, status = zd_point_need(point, ZD_M);
+    if (!status) status = check_symmetry(point);
+    if (status) return status;
+    point->culprit = zd_cholesky(n, point->terms.M, factor);
+    if (point->culprit == n) return ZD_DONE;
+    if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
+    status = zd_rows_find(point);
+    if (status) return status;
+    weigh(run, 0, factor);
+    for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
+    point->culprit = zd_cholesky(n, factor, factor);
+    if (point->culprit < n) return ZD_NOT_DEFINITE;
+    weigh(run, point->rows, factor);
+    int free = zd_cholesky(n, factor, factor);
+    if (free == n) return ZD_DONE;
+    snprintf(run->outcome.message, sizeof run->outcome.message, "the mass matrix is singular, and no constraint holds what has no mass "
+             "(first seen at velocity %d)", free);
+    return ZD_NOT_DEFINITE;
+}
+
+/* The first step, where steps are chosen. */
+static int choose_step(zd_run *run, double *states, const double *p0, const double *v0)
+{
+    if (run->settings.step > 0) return ZD_DONE;
+    int status = zd_adaptive_start(&run->course, states);
+    return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* wherever that has looked */
+}
+
+static int check(zd_run *run, const workspace *work, const double *p0, const double *v0)
+{
+    zd_motion *motion = &run->motion;
+    int status = !zd_suits(&motion->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
+               : zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+    if (!status) status = check_mass(run, work->factor);
+    if (!status) status = zd_motion_accelerate(motion);
+    if (!status) status = check_tolerance(run);
+    if (!status) status = zd_motion_start_energy(motion);
+    if (!status && run->settings.events) status = zd_watch_start(&run->watch);
+    if (!status) status = choose_step(run, work->states, p0, v0);
+    return status;
+}
+
+static workspace lay_out(zd_arena *arena, const zd_motion *motion)
+{
+    size_t n = (size_t)motion->system.nv;
+    return (workspace){
+        .Psi = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
+        .factor = zd_take_doubles(arena, n * n),
+        .states = zd_take_doubles(arena, 3 * (size_t)motion->rate.size),
+    };
+}
+
+static int start(zd_run *run, int status, const workspace *work, const double *p0, const double *v0)
+{
+    if (status == ZD_BIFURCATION || status == ZD_CONTRADICTION) {       /* of a start that is none */
+        int violated = check_constraints(run, work->Psi);
+        return violated ? violated : status;
+    }
+    if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
+    if (!status) status = check(run, work, p0, v0);
+    if (!status) status = zd_safeguards_begin(&run->safeguards, 1);
+    run->motion.in_run = 1;
+    return status;
+}
+
+int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)
+{
+    zd_arena arena = {NULL, 0};
+    lay_out(&arena, &run->motion);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) return ZD_NO_MEMORY;
+    const workspace work = lay_out(&arena, &run->motion);
+    status = start(run, status, &work, p0, v0);
+    zd_release(arena.base);
+    return status;
+}

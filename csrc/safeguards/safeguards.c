@@ -1,0 +1,29 @@
+#include "safeguards.h"
+
+void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability,
+                        const zd_last *last)
+{
+    self->guard = zd_guard_take(arena, motion, settings, stability, last);
+    self->crossing = zd_crossing_take(arena, motion, last);
+    self->crossing.rate0 = self->guard.pdot;
+    self->crossing.rate1 = self->guard.rate;
+    self->crossing.holds = self->guard.branch;
+}
+
+int zd_safeguards_begin(zd_safeguards *self, long step)
+{
+    int status = zd_guard_begin(&self->guard, step);
+    return status ? status : zd_crossing_begin(&self->crossing);
+}
+
+int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_part)
+{
+    zd_detour found;
+    if (!self->guard.kept) return ZD_DONE;
+    int status = zd_guard_compare(&self->guard, h, next_step, &found);
+    if (!status) status = zd_crossing_step(&self->crossing, h, found.moved);
+    if (status) return status;
+    if (!is_part) zd_guard_watch_stability(&self->guard, &found, h);
+    zd_guard_keep(&self->guard, &found, next_step);
+    return ZD_DONE;
+}

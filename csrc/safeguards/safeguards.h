@@ -1,0 +1,20 @@
+/* Whether a step can be believed: detection only, whatever is done about it. */
+#ifndef ZD_SAFEGUARDS_H
+#define ZD_SAFEGUARDS_H
+
+#include "crossing.h"
+#include "guard.h"
+
+typedef struct zd_safeguards {
+    zd_guard guard;
+    zd_crossing crossing;
+} zd_safeguards;
+
+void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability,
+                        const zd_last *last);
+/* Keeps where the motion is; `step` is the one that begins there. */
+int zd_safeguards_begin(zd_safeguards *self, long step);
+/* Compares that with where a step of size h has led, and keeps it. Parts of a step may be given up yet: they count for nothing. */
+int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_part);
+
+#endif

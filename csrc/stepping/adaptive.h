@@ -1,0 +1,12 @@
+/* Steps of the size that the error asked for allows. */
+#ifndef ZD_ADAPTIVE_H
+#define ZD_ADAPTIVE_H
+
+#include "course.h"
+
+zd_control zd_adaptive_take(zd_arena *arena, const zd_motion *motion);
+/* Chooses the first step; work (3, size). */
+int zd_adaptive_start(zd_course *course, double *work);
+int zd_adaptive_step(zd_course *course);
+
+#endif

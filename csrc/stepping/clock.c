@@ -1,0 +1,25 @@
+#include "clock.h"
+
+#include <math.h>
+#include <time.h>
+
+#include "../zerodrift.h"
+
+double zd_count_steps(double t0, double t1, double step)
+{
+    if (!(step > 0)) return 0;
+    double ratio = (t1 - t0) / step, whole = round(ratio);
+    return fabs(ratio - whole) <= 1e-9 * whole ? whole : ceil(ratio);
+}
+
+double zd_time_of_step(double t0, double size, long step, long steps, double end)
+{
+    return step == steps ? end : t0 + (double)step * size;
+}
+
+double zd_seconds_now(void)
+{
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}

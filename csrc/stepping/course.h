@@ -1,0 +1,35 @@
+/* The course of a run: where it has got to, and what its next step is made with. */
+#ifndef ZD_COURSE_H
+#define ZD_COURSE_H
+
+#include "../safeguards/safeguards.h"
+#include "step.h"
+
+typedef struct zd_control { /* where steps are chosen */
+    double h;               /* the next step */
+    double *scale;          /* (size,): what the error is measured in */
+    int held, free;         /* steps that were as long as stability allows; not so, in succession */
+} zd_control;
+
+typedef struct zd_course {
+    const zd_settings *settings;
+    zd_motion *motion;
+    zd_stepper *stepper;
+    zd_safeguards *safeguards;
+    double end;             /* s: t1 of the settings, or where an event has ended the run */
+    long step, steps;       /* begun; to do, where they are of fixed size */
+    zd_place undivided;     /* where the step that is made in parts began */
+    int parts;              /* of the step being made, if more than one: each is corrected */
+    zd_control control;
+} zd_course;
+
+/* Whether the step is one of every so many, or the last, or made in parts. */
+static inline int zd_course_is_due(const zd_course *course, long every)
+{
+    return zd_is_one_of(every, course->step) || course->stepper->t == course->end || course->parts;
+}
+
+/* take_step.c: the next step, of fixed size or as the error asked for allows. */
+int zd_course_take_step(zd_course *course);
+
+#endif

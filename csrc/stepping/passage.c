@@ -1,0 +1,75 @@
+/* A step within which a bifurcation lies, or so it seems: shorter steps tell whether the motion passes through it. */
+#include "passage.h"
+
+#include <math.h>
+
+#include "../constraints/rows.h"
+#include "../linalg/bracket.h"
+
+static const double SHORT = 0.25 * ZD_BRANCH_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
+static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
+
+static int land_and_judge(zd_course *course, double t1)
+{
+    zd_stepper *stepper = course->stepper;
+    double h = t1 - stepper->t;
+    int status = zd_stepper_land(stepper, t1, course->step, t1 == course->end || course->parts);
+    return status ? status : zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts);
+}
+
+/* A step to t from where the last one began, corrected and compared with nothing. */
+static int move(zd_stepper *stepper, double t)
+{
+    int status = zd_stepper_return(stepper);
+    return status ? status : zd_stepper_make_substep(stepper, t);
+}
+
+/* Whether the motion is continuous where the sign changes: it is seen to be at the bifurcation itself. */
+static int find(zd_course *course, double t1, int *found)
+{
+    zd_stepper *stepper = course->stepper;
+    zd_point *point = course->motion->point;
+    const zd_safeguards *safeguards = course->safeguards;
+    double t0 = stepper->last.t, resolution = fmin(SHORT / sqrt(safeguards->guard.speed), (t1 - t0) / 2);
+    resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
+    *found = 0;
+    int status = zd_rows_find(point);
+    if (status || zd_crossing_is_at_one(point)) return status;
+    zd_bracket it = zd_bracket_of(t0, t1, 1, zd_crossing_orientation(&safeguards->crossing), resolution);
+    if (!(it.gb <= 0)) return ZD_DONE;  /* it changes more than once: they are taken one by one */
+    status = zd_stepper_return(stepper);
+    if (!status) status = zd_rows_find(point);
+    it.ga = status ? 1 : zd_crossing_orientation(&safeguards->crossing);
+    while (!status && it.b - it.a > it.resolution) {
+        double t = zd_bracket_choose(&it);
+        status = move(stepper, t);
+        if (!status) status = zd_rows_find(point);
+        *found = !status && zd_crossing_is_at_one(point);
+        if (*found) return ZD_DONE;
+        if (!status) zd_bracket_narrow(&it, t, zd_crossing_orientation(&safeguards->crossing));
+    }
+    return status;
+}
+
+/* The step again, through the bifurcation, if that is wanted and the motion leads there. */
+static int pass(zd_course *course, double t1, double h)
+{
+    zd_stepper *stepper = course->stepper;
+    zd_crossing *crossing = &course->safeguards->crossing;
+    if (course->settings->on_singular == ZD_STOP) return ZD_PASSED;
+    int found, status = find(course, t1, &found);
+    if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
+    crossing->passes = 1;
+    status = zd_stepper_return(stepper);
+    if (!status) status = zd_stepper_integrate(stepper, h);
+    if (!status) status = land_and_judge(course, t1);
+    crossing->passes = 0;
+    return status;
+}
+
+int zd_passage_land(zd_course *course, double t1)
+{
+    double h = course->stepper->last.h;
+    int status = land_and_judge(course, t1);
+    return status == ZD_PASSED ? pass(course, t1, h) : status;
+}

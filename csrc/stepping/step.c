@@ -1,0 +1,130 @@
+#include "step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "../point/units.h"
+
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator)
+{
+    const zd_system *system = &motion->system;
+    size_t size = (size_t)motion->rate.size;
+    *self = (zd_stepper){
+        .motion = motion,
+        .integrator = integrator,
+        .memory = integrator->take(arena, integrator->table, system, (int)size),
+        .y = zd_take_doubles(arena, size),
+        .last = {
+            .y = zd_take_doubles(arena, size),
+            .p = zd_take_doubles(arena, (size_t)system->nq),
+            .v = zd_take_doubles(arena, (size_t)system->nv),
+        },
+    };
+    zd_motion_attach(motion, self->y);
+}
+
+/* ---- a step ---- */
+
+static void remember(zd_stepper *self, double h)
+{
+    const zd_point *point = self->motion->point;
+    self->last.t = self->t;
+    self->last.h = h;
+    zd_copy(self->motion->rate.size, self->y, self->last.y);
+    ZD_SIZED(zd_copy, point->system->nq, point->p, self->last.p);
+    ZD_SIZED(zd_copy, point->system->nv, point->v, self->last.v);
+}
+
+int zd_stepper_make(zd_stepper *self, double h)
+{
+    const zd_integrator *integrator = self->integrator;
+    zd_motion *motion = self->motion;
+    return integrator->step_of_motion ? integrator->step_of_motion(self->memory, motion, self->t, h, self->y)
+         : integrator->step(self->memory, &motion->rate, self->t, h, self->y, &motion->statistics);
+}
+
+int zd_stepper_integrate(zd_stepper *self, double h)
+{
+    remember(self, h);
+    int status = zd_stepper_make(self, h);
+    if (status) return status;
+    return isfinite(zd_max_abs(self->motion->rate.size, self->y)) ? ZD_DONE : ZD_NOT_FINITE;
+}
+
+int zd_stepper_land(zd_stepper *self, double t1, long step, int forced)
+{
+    zd_motion *motion = self->motion;
+    const zd_formulation *formulation = motion->formulation;
+    self->t = t1;
+    motion->state = self->y;
+    if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
+    int status = formulation->enter(motion->solver, motion->point, t1, self->y);
+    if (!status) status = zd_motion_correct(motion, step, forced);
+    if (!status) status = formulation->leave(motion->solver, motion->point, self->y);
+    /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
+    if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
+    return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
+}
+
+int zd_stepper_make_substep(zd_stepper *self, double t)
+{
+    int status = zd_stepper_integrate(self, t - self->t);
+    if (!status) status = zd_stepper_land(self, t, 0, 1);
+    self->motion->statistics.output_steps++;
+    return status;
+}
+
+int zd_stepper_return(zd_stepper *self)
+{
+    zd_motion *motion = self->motion;
+    self->t = self->last.t;
+    motion->state = self->y;
+    zd_copy(motion->rate.size, self->last.y, self->y);
+    zd_point_move(motion->point, self->last.t, self->last.p, self->last.v);
+    /* The variables that the state has may be chosen anew. */
+    return motion->formulation->settle ? motion->formulation->leave(motion->solver, motion->point, self->y) : ZD_DONE;
+}
+
+/* ---- places ---- */
+
+int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v)
+{
+    zd_motion *motion = self->motion;
+    self->t = t;
+    motion->state = self->y;
+    zd_point_move(motion->point, t, p, v);
+    int status = zd_point_measure(motion->point);
+    return status ? status : motion->formulation->leave(motion->solver, motion->point, self->y);
+}
+
+static size_t extras(const zd_motion *motion)
+{
+    return (size_t)(motion->rate.size - motion->formulation_size);
+}
+
+zd_place zd_place_take(zd_arena *arena, const zd_motion *motion)
+{
+    return (zd_place){
+        .p = zd_take_doubles(arena, (size_t)motion->system.nq),
+        .v = zd_take_doubles(arena, (size_t)motion->system.nv),
+        .extra = zd_take_doubles(arena, extras(motion)),
+    };
+}
+
+void zd_stepper_keep_place(const zd_stepper *self, zd_place *place)
+{
+    const zd_motion *motion = self->motion;
+    place->t = self->t;
+    ZD_SIZED(zd_copy, motion->system.nq, motion->point->p, place->p);
+    ZD_SIZED(zd_copy, motion->system.nv, motion->point->v, place->v);
+    if (extras(motion)) memcpy(place->extra, self->y + motion->formulation_size, extras(motion) * sizeof(double));
+}
+
+int zd_stepper_return_to(zd_stepper *self, const zd_place *place)
+{
+    const zd_motion *motion = self->motion;
+    memcpy(self->y + motion->formulation_size, place->extra, extras(motion) * sizeof(double));
+    return zd_stepper_place(self, place->t, place->p, place->v);
+}

@@ -1,0 +1,37 @@
+/* One step: integrated, landed at its end and corrected there, or taken back. */
+#ifndef ZD_STEP_H
+#define ZD_STEP_H
+
+#include "../integrators/integrator.h"
+#include "../motion/motion.h"
+#include "../motion/place.h"
+
+typedef struct zd_stepper {
+    zd_motion *motion;
+    const zd_integrator *integrator;
+    void *memory;           /* the integrator's */
+    double *y;              /* the integrated state: the formulation's, what corrections add, the energy input (28) */
+    double t;               /* where the motion has got to */
+    zd_last last;           /* the step being made */
+} zd_stepper;
+
+/* Lays out the stepper in place, and gives the motion its state. */
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator);
+/* From t to t + h as the integrator does it, and no more. */
+int zd_stepper_make(zd_stepper *self, double h);
+/* y from t to t + h, where the step began being remembered. */
+int zd_stepper_integrate(zd_stepper *self, double h);
+/* The point at t1, with the corrections that are due in this step, or with all if it is `forced`; and y to match. */
+int zd_stepper_land(zd_stepper *self, double t1, long step, int forced);
+/* A shorter step to a time between steps, at which all corrections are made. */
+int zd_stepper_make_substep(zd_stepper *self, double t);
+/* Point and y to where the step began. */
+int zd_stepper_return(zd_stepper *self);
+
+/* Point and y to (t, p, v). */
+int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v);
+zd_place zd_place_take(zd_arena *arena, const zd_motion *motion);
+void zd_stepper_keep_place(const zd_stepper *self, zd_place *place);
+int zd_stepper_return_to(zd_stepper *self, const zd_place *place);
+
+#endif

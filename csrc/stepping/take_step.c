@@ -1,0 +1,17 @@
+#include "course.h"
+
+#include "../constraints/rank.h"
+#include "adaptive.h"
+#include "fixed.h"
+
+int zd_course_take_step(zd_course *course)
+{
+    zd_motion *motion = course->motion;
+    zd_rank *rank = motion->point->rank;
+    course->step++;
+    int status = course->settings->step > 0 ? zd_fixed_step(course) : zd_adaptive_step(course);
+    if (rank->dropped) motion->statistics.rank_drops++;
+    rank->dropped = rank->near = 0;
+    if (!status) motion->statistics.steps++;
+    return status;
+}

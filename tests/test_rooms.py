@@ -1,0 +1,110 @@
+"""The core's files and folders depend on each other one way: from the story in simulate.c down to the kernels in linalg/."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+CSRC = ROOT / "csrc"
+CC = os.environ.get("CC", "cc")
+LONGEST = 40        # lines of a function
+
+
+def unit_of(path):
+    """A source file and its header are one: what each includes or calls, both do."""
+    return path.relative_to(CSRC).with_suffix("").as_posix()
+
+
+def includes():
+    """Who includes whom, as pairs of files without their endings."""
+    pairs = set()
+    for path in CSRC.rglob("*.[ch]"):
+        for name in re.findall(r'^#include "(.+)"', path.read_text(), re.MULTILINE):
+            beside = path.parent / name
+            found = beside if beside.exists() else CSRC / name
+            assert found.exists(), f"{path} includes {name}"
+            pairs.add((unit_of(path), unit_of(found.resolve())))
+    return pairs
+
+
+def symbols(objects):
+    """Who uses a function or table that another file defines, as pairs; and who defines each."""
+    defined, used = {}, defaultdict(set)
+    for unit, path in objects.items():
+        for line in subprocess.run(["nm", path], check=True, capture_output=True, text=True).stdout.splitlines():
+            *_, kind, name = line.split()
+            if kind == "U":
+                used[unit].add(name)
+            elif kind.isupper():
+                assert name not in defined, f"{unit} and {defined[name]} both define {name}"
+                defined[name] = unit
+    return {(unit, defined[name]) for unit, names in used.items() for name in names & defined.keys()}
+
+
+def folder_of(unit):
+    """The room; a file at the top stands for itself. What all may include, the public interface, has its own."""
+    return unit.rpartition("/")[0] or unit
+
+
+def circles(pairs):
+    """The sets of more than one node that can reach each other."""
+    reached = defaultdict(set)
+    for a, b in pairs:
+        if a != b:
+            reached[a].add(b)
+    for middle in sorted({node for pair in pairs for node in pair}):
+        for node in list(reached):
+            if middle in reached[node]:
+                reached[node] |= reached[middle]
+    return {frozenset(b for b in reached[a] if a in reached[b]) for a in list(reached) if a in reached[a]}
+
+
+@pytest.fixture(scope="module")
+def uses(tmp_path_factory):
+    """The pairs of files of which one includes the other, or uses a symbol that the other defines."""
+    if sys.platform != "linux" or not shutil.which(CC) or not shutil.which("nm"):
+        pytest.skip("needs Linux, a compiler and nm")
+    folder, objects = tmp_path_factory.mktemp("objects"), {}
+    for path in sorted(CSRC.rglob("*.c")):
+        objects[unit_of(path)] = folder / (unit_of(path).replace("/", "-") + ".o")
+        subprocess.run([CC, "-c", "-O0", "-std=c11", "-o", objects[unit_of(path)], path], check=True)
+    return includes() | symbols(objects)
+
+
+def test_a_circle_is_found():
+    assert circles({("a", "b"), ("b", "c"), ("c", "d")}) == set()
+    assert circles({("a", "b"), ("b", "c"), ("c", "b"), ("c", "d")}) == {frozenset("bc")}
+
+
+def test_there_are_no_circles_of_files(uses):
+    assert circles(uses) == set()
+
+
+def test_there_are_no_circles_of_folders(uses):
+    assert circles({(folder_of(a), folder_of(b)) for a, b in uses}) == set()
+
+
+@pytest.mark.parametrize("room", ["integrators", "corrections"])
+def test_integrators_and_corrections_see_the_motion_and_no_run(uses, room):
+    """Of what is above them they see nothing; below the motion they may use whatever it is made of."""
+    below = {"motion", "formulations", "constraints", "point", "linalg", "zerodrift", "include/zerodrift", "workspace"}
+    assert {folder_of(b) for a, b in uses if folder_of(a) == room} <= below | {room}
+
+
+def functions():
+    """The lines of each function, from its name to the closing brace: both are at the margin, and nothing else of it is."""
+    for path in CSRC.rglob("*.[ch]"):
+        for match in re.finditer(r"^[A-Za-z][^;={}/]*?(\w+)\([^;{}]*\)\n\{\n.*?^\}$", path.read_text(), re.MULTILINE | re.DOTALL):
+            yield f"{unit_of(path)}: {match[1]}", match[0].count("\n") + 1
+
+
+def test_functions_are_short():
+    lengths = dict(functions())
+    assert len(lengths) > 300
+    assert {name: lines for name, lines in lengths.items() if lines > LONGEST} == {}
