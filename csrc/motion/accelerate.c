@@ -12,16 +12,15 @@ static void stabilize(zd_motion *motion)
     }
 }
 
-int zd_motion_accelerate(zd_motion *motion)
+int zd_motion_accelerate_anew(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    if (point->known & ZD_ACCELERATED) return ZD_DONE;
     int status = zd_point_need(point, motion->acceleration_needs);
     if (!status) status = zd_motion_factor(motion);
     if (status) return status;
     zd_point_force(point, point->force);
     ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
-    stabilize(motion);
+    if (motion->is_stabilized) stabilize(motion);
     status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
     if (status) return status;
     motion->statistics.solves++;
@@ -47,7 +46,7 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = motion->formulation->rate(motion->solver, motion->point, ydot);
     if (status) return status;
-    extra_rates(motion, ydot);
-    if (zd_has_input(&motion->system)) ydot[motion->rate.size - 1] = zd_motion_power(motion);
+    if (motion->corrections_size) extra_rates(motion, ydot);
+    if (motion->balance.input) ydot[motion->rate.size - 1] = zd_motion_power(motion);
     return ZD_DONE;
 }

@@ -13,11 +13,6 @@ int zd_has_input(const zd_system *system)
     return zd_has_energy(system) && (system->provides & (ZD_POWER | ZD_PHI_T));
 }
 
-double zd_motion_input(const zd_motion *motion)
-{
-    return motion->balance.input ? *motion->balance.input : 0;
-}
-
 /* What comes in besides V: from forces, and through moving constraints, whose force -C^T lambda does work as C v = -Phi_t. */
 double zd_motion_power(const zd_motion *motion)
 {

@@ -49,6 +49,7 @@ struct zd_motion {
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;        /* how many are on */
+    int is_stabilized;      /* whether one of them changes the right side of (6) */
     zd_rate rate;
     const double *state;    /* the point's: that of the step's end, or a stage of the integrator */
     int formulation_size;   /* of the state's first part: the formulation's. Corrections' and the energy input (28) follow */
@@ -66,14 +67,25 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *set
 void zd_motion_attach(zd_motion *motion, double *state);
 
 /* solve.c */
-int zd_motion_factor(zd_motion *motion);            /* the leading matrix at the point */
-void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda); /* with what was factored */
+int zd_motion_factor_anew(zd_motion *motion);
+/* The leading matrix at the point. */
+static inline int zd_motion_factor(zd_motion *motion)
+{
+    return motion->point->known & ZD_FACTORED ? ZD_DONE : zd_motion_factor_anew(motion);
+}
 /* The formulation's solve, with right sides and multipliers of all rows, whichever of them count at the point. */
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,
                    double *x, double *lambda);
+/* With what was factored. */
+void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda);
 
 /* accelerate.c */
-int zd_motion_accelerate(zd_motion *motion);        /* vdot, lambda at the point */
+int zd_motion_accelerate_anew(zd_motion *motion);
+/* vdot, lambda at the point. */
+static inline int zd_motion_accelerate(zd_motion *motion)
+{
+    return motion->point->known & ZD_ACCELERATED ? ZD_DONE : zd_motion_accelerate_anew(motion);
+}
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 
 /* correct.c: those that are due in this step, in their order; `forced`: all */
@@ -84,7 +96,7 @@ static inline int zd_is_one_of(long every, long step) { return every == 1 || ste
 /* balance.c */
 int zd_has_energy(const zd_system *system);
 int zd_has_input(const zd_system *system);          /* of energy, besides V: then it is integrated along */
-double zd_motion_input(const zd_motion *motion);    /* J */
+static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */
 double zd_motion_power(const zd_motion *motion);    /* W, at the point, whose acceleration is known */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */

@@ -3,10 +3,9 @@
 #include "../constraints/rank.h"
 #include "motion.h"
 
-int zd_motion_factor(zd_motion *motion)
+int zd_motion_factor_anew(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    if (point->known & ZD_FACTORED) return ZD_DONE;
     int status = zd_point_need(point, ZD_M | ZD_C);
     if (status) return status;
     motion->statistics.factorizations++;
@@ -36,5 +35,6 @@ void zd_solve_with(const zd_point *point, const zd_formulation *formulation, voi
 
 void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda)
 {
-    zd_solve_with(motion->point, motion->formulation, motion->solver, force, rhs, x, lambda);
+    if (zd_rank_is_full(motion->point)) motion->formulation->solve(motion->solver, force, rhs, x, lambda);
+    else solve_reduced(motion->point, motion->formulation, motion->solver, force, rhs, x, lambda);
 }

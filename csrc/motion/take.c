@@ -28,6 +28,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *set
     void *self = correction->take(arena, &motion->system, settings);
     motion->active[motion->corrections++] = (zd_active){correction, self, every, at, size};
     motion->acceleration_needs |= correction->needs;
+    motion->is_stabilized |= correction->stabilize != NULL;
     motion->corrections_size += size;
     motion->rate.size += size;
 }

@@ -183,15 +183,12 @@ int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found
     return look(guard, next_step);
 }
 
-void zd_guard_watch_stability(zd_guard *guard, const zd_detour *found, double h)
+void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_step, int is_part)
 {
-    if (!guard->looking) return;
-    estimate_omega(guard, found->moved, h);
-    if (zd_has_energy(&guard->motion->system)) see_energy(guard);
-}
-
-void zd_guard_keep(zd_guard *guard, const zd_detour *found, long next_step)
-{
+    if (guard->looking && !is_part) {
+        estimate_omega(guard, found->moved, h);
+        if (zd_has_energy(&guard->motion->system)) see_energy(guard);
+    }
     keep(guard, found->speed, next_step);
 }
 

@@ -31,10 +31,9 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
 int zd_guard_begin(zd_guard *guard, long step);
 /* Compares where a step of size h has led with where its velocities lead; ZD_BRANCH if these differ. */
 int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found);
-/* Counts it if the step is longer than the method is stable for. */
-void zd_guard_watch_stability(zd_guard *guard, const zd_detour *found, double h);
-/* Keeps the end of the step as the beginning of the next. */
-void zd_guard_keep(zd_guard *guard, const zd_detour *found, long next_step);
+/* Keeps the end of the step as the beginning of the next. Counts it if the step is longer than the method is stable for; but not the
+ * part of one, which may be given up yet. */
+void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_step, int is_part);
 double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */
 
 #endif

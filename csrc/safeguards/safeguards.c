@@ -23,7 +23,6 @@ int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_pa
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
     if (!status) status = zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
-    if (!is_part) zd_guard_watch_stability(&self->guard, &found, h);
-    zd_guard_keep(&self->guard, &found, next_step);
+    zd_guard_keep(&self->guard, &found, h, next_step, is_part);
     return ZD_DONE;
 }
