@@ -11,7 +11,8 @@ static int take_step(zd_run *run)
     const zd_settings *settings = &run->settings;
     if (settings->t_eval || settings->events) zd_output_keep_beginning(&run->output);
     int status = zd_course_take_step(&run->course);
-    return !status && settings->events ? zd_watch_after(&run->watch, &run->course.end) : status;
+    if (status || !settings->events) return status;
+    return zd_watch_after(&run->watch, zd_course_is_corrected(&run->course), &run->course.end);
 }
 
 static int save(zd_run *run, zd_record *record)

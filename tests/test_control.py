@@ -1,5 +1,7 @@
 """Steps chosen by their error, and values between steps."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -203,3 +205,58 @@ def test_values_between_rows_that_are_not_there():
         zd.simulate(BAR, 0.5, step=0.02, save_every=2)(0.1)
 
 
+
+
+# ---- how many ----
+
+CHOSEN = {"rtol": 1e-6, "integrator": "dop853"}
+
+
+def spike():
+    """A spring that is hard for a short time: there the steps lie."""
+    return zd.System(["x"], mass=[[1.0]], p0=[1.0],
+                     force=lambda t, p: np.array([-1e10 * np.exp(-((t - 0.6) / 0.01) ** 2) * p[0]]))
+
+
+@pytest.mark.parametrize("most", [300, 1000, 3001])
+def test_too_many_steps_end_a_run_and_it_says_where_they_lie(most):
+    options = {"rtol": 1e-12, "atol": 1e-14, "integrator": "dormand_prince", "max_step": 0.003}
+    with pytest.raises(zd.StepFailed, match=f"max_steps = {most} steps were taken; half of the steps lie between t = ") as failed:
+        zd.simulate(spike(), 1.0, max_steps=most, **options)
+    partial = failed.value.solution
+    assert partial.stats["steps"] == len(partial.t) - 1 == most
+    low, high = map(float, re.search(r"between t = (\S+) and ([^:]+):", str(failed.value)).groups())
+    half = most // 2
+    spans = partial.t[half:] - partial.t[:-half]
+    shortest = spans.argmin()
+    assert high - low < 1.1 * spans.min()       # of every step; the core keeps the times of 256
+    assert abs(low - partial.t[shortest]) < 0.1 * spans.min()
+    returned = zd.simulate(spike(), 1.0, max_steps=most, on_failure="return", **options)
+    assert not returned.success
+    assert returned.message == str(failed.value)
+    assert returned.p.tobytes() == partial.p.tobytes()
+    assert returned.settings["max_steps"] == most
+
+
+def test_the_bound_is_exact_and_changes_nothing_else(bar):
+    free = zd.simulate(bar, 2.0, **CHOSEN, max_steps=None)
+    steps = free.stats["steps"]
+    assert free.settings["max_steps"] is None
+    assert zd.simulate(bar, 2.0, **CHOSEN, max_steps=steps).p.tobytes() == free.p.tobytes()
+    with pytest.raises(zd.StepFailed):
+        zd.simulate(bar, 2.0, **CHOSEN, max_steps=steps - 1)
+    default = zd.simulate(bar, 2.0, **CHOSEN)
+    assert default.settings["max_steps"] == 1_000_000
+    assert zd.simulate(bar, 2.0, **default.settings).p.tobytes() == free.p.tobytes()
+
+
+def test_steps_of_fixed_size_have_no_bound(bar):
+    sol = zd.simulate(bar, 1.0, step=0.01, max_steps=5)
+    assert sol.success
+    assert "max_steps" not in sol.settings
+
+
+@pytest.mark.parametrize(("value", "error"), [(0, ValueError), (-1, ValueError), (2.5, TypeError), (True, TypeError)])
+def test_bounds_that_are_none(bar, value, error):
+    with pytest.raises(error, match="max_steps must be"):
+        zd.simulate(bar, 1.0, **CHOSEN, max_steps=value)

@@ -1,5 +1,7 @@
 """Events: against closed forms and SciPy, on the constraints, with the same bits however the run is cut, and nonsense refused."""
 
+import functools
+import itertools
 import pickle
 
 import numpy as np
@@ -12,6 +14,7 @@ import zerodrift as zd
 from support import SYSTEMS, assert_close
 from test_custom import four_bar as bar_in_python
 from zerodrift.runs import simulate as simulation
+from zerodrift.runs.diagnosis import unwarned
 
 OSCILLATOR = zd.systems.oscillator(x0=0.1, v0=0.05)
 DENSE = {"step": 1 / 100, "integrator": "dop853"}      # in a hundredth of a second it leaves nothing but round-off
@@ -208,13 +211,68 @@ def test_a_ball_that_bounces():
 
 
 def test_a_jump_costs_no_more_than_bisection(bar):
-    """A function without a slope to follow: the step of 0.05 is halved down to four units of rounding, and one step is over."""
+    """A function without a slope: the step is halved down to four units of rounding, then both sides are visited."""
     sol = zd.simulate(bar, 0.05, step=0.05, events=event(lambda t, p, v: 1.0 if t > 0.0123456 else -1.0))
     assert_close(sol.t_events[0], [0.0123456], 8 * tol.EPS)
-    assert sol.stats["output_steps"] <= 50 + 2
+    assert sol.stats["output_steps"] <= 50 + 3
     smooth = zd.simulate(bar, 0.05, step=0.05, events=event(lambda t, p, v: p[0] - bar.p0[0] - 0.01))
     assert len(smooth.t_events[0]) == 1
     assert smooth.stats["output_steps"] <= 20
+
+
+CORRECTIONS = [None, "projection", zd.Projection(every=2), zd.Projection(every=3, metric="identity"), zd.Projection(tol=1e-4),
+               zd.Projection(every=4, positions=False), zd.Projection(every=4, velocities=False),
+               zd.Baumgarte(10.0, 25.0, 20.0)]
+STEPS = [{"step": 0.03}, {"rtol": 1e-4, "atol": 1e-6}]
+
+
+@pytest.mark.parametrize("kind", ["four_bar", "rolling_disc", "driven_four_bar"])
+def test_events_are_zero_whatever_is_corrected(kind, formulation, integrator):
+    """Corrections at every k-th step, within a wide tolerance, of velocities alone: none makes the function leap."""
+    system = SYSTEMS[kind]
+    if integrator not in zd.integrators(system):
+        pytest.skip("not for this system")
+    happened = 0
+    for steps, stabilization, energy in itertools.product(STEPS, CORRECTIONS, [None, zd.EnergyCorrection(every=3)]):
+        if "rtol" in steps and not zd.integrators()[integrator].error_order:
+            continue
+        function = functools.partial(wave, np.arange(1, system.nq + 1))
+        with unwarned():
+            sol = zd.simulate(system, 0.7, events=event(function, terminal=4), formulation=formulation, integrator=integrator,
+                              stabilization=stabilization, energy=energy, on_failure="return", **steps)
+        for t, p, v in zip(sol.t_events[0], sol.p_events[0], sol.v_events[0], strict=True):
+            happened += 1
+            assert abs(function(t, p, v)) <= tol.SAME
+            if system.mh and isinstance(stabilization, zd.Projection) and stabilization.positions:
+                assert np.abs(system.evaluate(p, v, t).Phi / sol.position_size).max() <= 2 * stabilization.tol
+    assert happened > 10
+
+
+def wave(weights, t, p, v):
+    """A function of all there is, with zeros now and then."""
+    return np.sin(weights @ p + 2 * t + 0.3 * v[0])
+
+
+@pytest.mark.parametrize("every", [2, 3, 5])
+def test_corrections_now_and_then_invent_no_events(bar, every):
+    """The function leaps neither where a correction is made nor where none is: the events are those of the motion."""
+    events = [event(lambda t, p, v: v[1]), event(lambda t, p, v: np.sin(p[0] - 0.3))]
+    true = zd.simulate(bar, 8.0, step=0.002, integrator="dop853", events=events)
+    often, seldom = (zd.simulate(bar, 8.0, step=0.01, events=events, stabilization=zd.Projection(every=k)) for k in (1, every))
+    for expected, corrected, found in zip(true.t_events, often.t_events, seldom.t_events, strict=True):
+        assert len(found) == len(expected) > 5
+        assert np.abs(found - expected).max() < 3 * np.abs(corrected - expected).max()
+
+
+@pytest.mark.parametrize("stabilization", ["projection", zd.Projection(every=2)], ids=["each", "second"])
+def test_a_function_that_leaps_is_reported_behind_its_leap(bar, stabilization):
+    def side(t, p, v):
+        return 0.7 if p[0] > 1.6 else -0.2
+
+    sol = zd.simulate(bar, 1.0, step=0.01, events=side, stabilization=stabilization)
+    (t,), (p,), (v,) = sol.t_events[0], sol.p_events[0], sol.v_events[0]
+    assert side(t, p, v) == 0.7
+    assert abs(p[0] - 1.6) <= 64 * tol.EPS
 
 
 # ---- keeping ----

@@ -40,6 +40,7 @@ DOP853 = list(zd.integrators()).index("dop853")
     ({"step": 0.0, "integrator": DOP853, "rtol": np.nan}, "rtol and atol"),
     ({"step": 0.0, "integrator": DOP853, "first_step": -1.0}, "first_step and max_step"),
     ({"step": 0.0, "integrator": DOP853, "max_step": np.nan}, "first_step and max_step"),
+    ({"step": 0.0, "integrator": DOP853, "max_steps": -1}, "max_steps is at least 0"),
     ({"save_every": 0}, "rows are saved every so many steps"),
     ({"t_eval": np.array([0.5, 0.5])}, "the times to save at increase"),
     ({"t_eval": np.array([0.5, 1.5])}, "the times to save at increase"),

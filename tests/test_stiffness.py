@@ -124,3 +124,24 @@ def test_turns_that_are_lost_are_said(energy):
         turns, said = whole_turns(energy, step)
         assert said or turns < 0.5
         assert turns > 0.005 or not said, f"{turns:g} turns with steps of {step:g} s"
+
+
+@pytest.mark.parametrize(("hardness", "damping", "method"), [(1e6, 0.0, "rk4"), (1e6, 0.0, "heun"), (1e4, 1e4, "heun")])
+def test_corrections_that_an_unstable_step_makes_fail_name_it(formulation, hardness, damping, method):
+    """A pendulum in Cartesian coordinates, to which a mass is tied too hard for the step."""
+    def force(p, v):
+        pull = hardness * (p[2] - p[0]) + damping * (v[2] - v[0])
+        return np.array([pull, -9.81, -pull])
+
+    system = zd.System(3, mass=np.eye(3), p0=[1.0, 0.0, 1.1], force=force,
+                       constraints=lambda p: np.array([p[0]**2 + p[1]**2 - 1]) / 2)
+    expected = f"the step is too long for {method!r} to be stable .omega h = "
+    with pytest.raises((zd.CorrectionFailed, zd.StepFailed), match=expected):
+        zd.simulate(system, 1.0, step=0.01, integrator=method, formulation=formulation)
+    assert zd.simulate(system, 0.02, step=2e-5, integrator=method, formulation=formulation).success
+
+
+def test_a_step_that_is_stable_is_not_called_unstable(bar):
+    with pytest.raises(zd.CorrectionFailed) as failed:
+        zd.simulate(bar, 8.0, step=0.2, stabilization=zd.Projection(max_iterations=1, tol=1e-14))
+    assert "stable" not in str(failed.value)

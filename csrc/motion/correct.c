@@ -10,3 +10,10 @@ int zd_motion_correct(zd_motion *motion, long step, int forced)
     }
     return ZD_DONE;
 }
+
+int zd_motion_is_corrected(const zd_motion *motion, long step)
+{
+    for (int i = 0; i < motion->corrections; i++)
+        if (motion->active[i].row->after_step && !zd_is_one_of(motion->active[i].every, step)) return 0;
+    return 1;
+}

@@ -32,7 +32,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .end = settings->t1,
         .undivided = zd_place_take(arena, motion),
     };
-    if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, motion);
+    if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, motion, settings->t0);
     run->output = zd_output_take(arena, settings, &run->stepper);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
     return here;

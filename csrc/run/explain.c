@@ -53,14 +53,33 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     return 1;
 }
 
-static void describe_divergence(const zd_run *run, char *to, size_t size)
+/* Where steps were longer than the method is stable for, that is why; else what else may help. What has left the range of doubles
+ * shows any omega h at last: there it takes several steps. */
+static void add_cause(const zd_run *run, int unstable, const char *otherwise, char *to, size_t size)
 {
-    double limit = run->stepper.integrator->card.stability;
-    int length = snprintf(to, size, "the state left the range of doubles");
-    if (run->motion.statistics.too_long && limit > 0)
-        snprintf(to + length, size - (size_t)length, ": the step is too long for '%s' to be stable (omega h = %.3g, stable below %.3g); "
-                 "try a smaller step, or an implicit method", run->stepper.integrator->card.name, zd_run_omega_h(run), limit);
-    else snprintf(to + length, size - (size_t)length, "; try a smaller step or another stabilization");
+    const zd_card *card = &run->stepper.integrator->card;
+    double omega_h = zd_run_omega_h(run);
+    size_t length = strlen(to);
+    if (unstable && card->stability > 0 && omega_h > card->stability)
+        snprintf(to + length, size - length, ": the step is too long for '%s' to be stable (omega h = %.3g, stable below %.3g); "
+                 "try a smaller step, or an implicit method", card->name, omega_h, card->stability);
+    else snprintf(to + length, size - length, "%s", otherwise);
+}
+
+/* So many that the two ends of the span are told apart */
+static int digits_of(double from, double to)
+{
+    double apart = fmax(fabs(from), fabs(to)) / (to - from);
+    return (int)fmin(17, 4 + fmax(0, ceil(log10(apart))));
+}
+
+static void describe_steps(const zd_run *run, char *to, size_t size)
+{
+    double a, b;
+    zd_pace_half(&run->course.control.pace, &a, &b);
+    int digits = digits_of(a, b);
+    snprintf(to, size, "max_steps = %ld steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
+             "or the problem is stiff and needs an implicit method; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b);
 }
 
 /* What the method cannot do with this system, or with the error asked for; returns whether it was that. */
@@ -83,6 +102,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
                  run->settings.atol);
         break;
+    case ZD_TOO_MANY_STEPS: describe_steps(run, to, size); break;
     default: return 0;
     }
     return 1;
@@ -94,6 +114,7 @@ static void describe_correction(const zd_run *run, const char *rows, char *to, s
     snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
              "(tolerance %.3g)%s%s%s", run->motion.point->defect, projection->max_iterations, projection->tolerance,
              *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
+    add_cause(run, 1, "", to, size);
 }
 
 static void describe(const zd_run *run, int status, char *to, size_t size)
@@ -104,14 +125,18 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
     if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;
     switch (status) {
-    case ZD_NOT_FINITE: describe_divergence(run, to, size); break;
+    case ZD_NOT_FINITE:
+        snprintf(to, size, "the state left the range of doubles");
+        add_cause(run, run->motion.statistics.too_long > 0, "; try a smaller step or another stabilization", to, size);
+        break;
     case ZD_NO_CONVERGENCE: describe_correction(run, rows, to, size); break;
     case ZD_BRANCH:
-        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly; try a smaller step");
+        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly");
+        add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_NO_EMBEDDING:
-        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left); try a smaller step",
-                 point->defect);
+        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)", point->defect);
+        add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
     case ZD_NO_MEMORY: snprintf(to, size, "there is no memory for this"); break;

@@ -24,9 +24,12 @@ static double root_mean_square(int n, const double *x, const double *scale)
     return n ? sqrt(sum / n) : 0;
 }
 
-zd_control zd_adaptive_take(zd_arena *arena, const zd_motion *motion)
+zd_control zd_adaptive_take(zd_arena *arena, const zd_motion *motion, double t0)
 {
-    return (zd_control){.scale = zd_take_doubles(arena, (size_t)motion->rate.size)};
+    return (zd_control){
+        .pace = zd_pace_take(arena, t0),
+        .scale = zd_take_doubles(arena, (size_t)motion->rate.size),
+    };
 }
 
 static void set_scale(zd_course *course, const double *a, const double *b)
@@ -106,6 +109,8 @@ static double factor(const zd_course *course, double norm)
 
 int zd_adaptive_step(zd_course *course)
 {
+    const long most = course->settings->max_steps;
+    if (most && course->step > most) return ZD_TOO_MANY_STEPS;
     double t = course->stepper->t, norm = 0, largest = LARGEST;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(course->end));
     for (;;) {
@@ -114,6 +119,7 @@ int zd_adaptive_step(zd_course *course)
         int status = attempt(course, t1 - t, t1, &norm);
         if (!status && norm <= 1) {
             course->control.h = h * fmin(largest, factor(course, norm));
+            zd_pace_step(&course->control.pace, t1);
             return ZD_DONE;
         }
         if (status == ZD_CALLBACK || status == ZD_BIFURCATION) return status;

@@ -3,10 +3,12 @@
 #define ZD_COURSE_H
 
 #include "../safeguards/safeguards.h"
+#include "pace.h"
 #include "step.h"
 
 typedef struct zd_control { /* where steps are chosen */
     double h;               /* the next step */
+    zd_pace pace;           /* where the steps have been */
     double *scale;          /* (size,): what the error is measured in */
     int held, free;         /* steps that were as long as stability allows; not so, in succession */
 } zd_control;
@@ -27,6 +29,12 @@ typedef struct zd_course {
 static inline int zd_course_is_due(const zd_course *course, long every)
 {
     return zd_is_one_of(every, course->step) || course->stepper->t == course->end || course->parts;
+}
+
+/* Whether all corrections that are on were made at the end of the step. */
+static inline int zd_course_is_corrected(const zd_course *course)
+{
+    return zd_motion_is_corrected(course->motion, course->step) || course->stepper->t == course->end || course->parts;
 }
 
 /* take_step.c: the next step, of fixed size or as the error asked for allows. */

@@ -13,8 +13,11 @@ DEFAULT_FOLDER = Path("zerodrift-figures")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say; the exit code."""
     options = _parser().parse_args(arguments)
-    from .paper.reproduce import reproduce  # with matplotlib: only now
-
+    try:
+        from .paper.reproduce import reproduce  # with matplotlib: only now
+    except ValueError as error:     # of a setting of matplotlib's own, such as the environment variable MPLBACKEND
+        print(f"python -m zerodrift: matplotlib refuses its settings (MPLBACKEND, matplotlibrc): {error}", file=sys.stderr)
+        return 1
     try:
         table = reproduce(options.out)
     except OSError as error:
@@ -25,13 +28,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def _folder(given: str) -> Path:
+    """A folder that may have to be made yet."""
+    if not given.strip() or "\0" in given:
+        raise argparse.ArgumentTypeError(f"a folder is needed, not {given!r}")
+    if Path(given).exists() and not Path(given).is_dir():
+        raise argparse.ArgumentTypeError(f"{given} is there and is no folder")
+    return Path(given)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m zerodrift", description="Constrained multibody systems without constraint drift.")
     commands = parser.add_subparsers(title="commands", required=True)
     what = "Figures 4-9 of Blajer (2002), and its claims against what we measure"
     command = commands.add_parser("reproduce", help=what, description=f"{what}.")
-    command.add_argument("--out", type=Path, default=DEFAULT_FOLDER, metavar="DIR",
+    command.add_argument("--out", type=_folder, default=DEFAULT_FOLDER, metavar="DIR",
                          help="folder to write to (default: %(default)s)")
     return parser
 

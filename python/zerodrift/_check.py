@@ -10,6 +10,19 @@ from typing import Any
 import numpy as np
 
 
+def shown(value: Any) -> str:
+    """A value in a message: in one line, and not all of what is long."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else f"{text[:60]} ... ({type(value).__name__})"
+
+
+def instance(name: str, value: Any, kinds: type | tuple[type, ...], allowed: str) -> Any:
+    """An object of one of these kinds."""
+    if not isinstance(value, kinds):
+        raise TypeError(f"{name} must be {allowed}, not {shown(value)}")
+    return value
+
+
 def number(name: str, value: Any, *, above: float | None = None, least: float | None = None) -> float:
     """A finite real number, more than `above` or at least `least`."""
     if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
@@ -62,18 +75,60 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
 
 def vector(name: str, value: Any, size: int) -> np.ndarray:
     """A fresh, contiguous float64 array of shape (size,), all finite."""
+    array = _numbers(name, value, f"have shape ({size},)")
+    if array.shape != (size,):
+        raise ValueError(f"{name} must have shape ({size},), not {array.shape}")
+    return _finite(name, array)
+
+
+def times(name: str, value: Any, first: float, last: float) -> np.ndarray:
+    """A fresh float64 array of any shape, of times between the first and the last."""
+    array = _finite(name, _numbers(name, value, "be a regular array of times"))
+    outside = (array < first) | (array > last)
+    if outside.any():
+        raise ValueError(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}")
+    return array
+
+
+def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
+    """A fresh float64 array (k,) of times that increase, between the first and the last."""
+    array = times(name, value, first, last)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have shape (k,), not {array.shape}")
+    if not array.size:
+        raise ValueError(f"{name} needs at least one time")
+    falls = np.diff(array, prepend=-np.inf) <= 0
+    if falls.any():
+        raise ValueError(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}")
+    return array
+
+
+def _numbers(name: str, value: Any, shape: str) -> np.ndarray:
+    """What is given as an array of real numbers, none of them masked."""
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} must not have masked entries, and {int(np.ma.getmaskarray(value).sum())} are")
     try:
         array = np.asarray(value)
     except ValueError as error:
-        raise ValueError(f"{name} must have shape ({size},), not be a ragged sequence") from error
+        raise ValueError(f"{name} must {shape}, not be a ragged sequence") from error
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
-    if array.shape != (size,):
-        raise ValueError(f"{name} must have shape ({size},), not {array.shape}")
-    array = np.array(array, dtype=np.float64, order="C")
-    if not np.isfinite(array).all():
-        raise ValueError(f"{name} must be finite, not {array}")
     return array
+
+
+def _finite(name: str, array: np.ndarray) -> np.ndarray:
+    array = np.array(array, dtype=np.float64, order="C")
+    infinite = ~np.isfinite(array)
+    if infinite.any():
+        raise ValueError(f"{name} must be finite, not {_at(array, infinite)}")
+    return array
+
+
+def _at(array: np.ndarray, where: np.ndarray) -> str:
+    """The first of an array's entries that is meant, and where it is."""
+    place = np.argwhere(where)[0]
+    value = str(float(array[tuple(place)]))
+    return f"{value} (entry {', '.join(map(str, place))})" if array.size > 1 else value
 
 
 def span(value: Any) -> tuple[float, float]:

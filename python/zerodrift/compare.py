@@ -3,3 +3,7 @@
 from .studies.compare import difference, signals
 
 __all__ = ["difference", "signals"]
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported

@@ -6,3 +6,7 @@
 from .systems.native import BIT, INTERFACE_VERSION, SLOT, get_include, native, numba_signature
 
 __all__ = ["BIT", "INTERFACE_VERSION", "SLOT", "get_include", "native", "numba_signature"]
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported

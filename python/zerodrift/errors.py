@@ -54,7 +54,7 @@ class BranchJump(CorrectionFailed):
 
 
 class StepFailed(ZerodriftError):
-    """The equations of an implicit step were not solved."""
+    """The equations of an implicit step were not solved, or chosen steps became too short or too many."""
 
 
 class StaleCore(ZerodriftError, ImportError):

@@ -53,6 +53,7 @@ enum zd_status {
     ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
     ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
     ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
+    ZD_TOO_MANY_STEPS = -22,  /* settings->max_steps were taken */
     ZD_PASSED = -21           /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
 };
 

@@ -30,6 +30,7 @@ ERRORS = {
     lib.ZD_NO_STEP: errors.StepFailed,
     lib.ZD_NO_EMBEDDING: errors.StepFailed,
     lib.ZD_TINY_STEP: errors.StepFailed,
+    lib.ZD_TOO_MANY_STEPS: errors.StepFailed,
     lib.ZD_BAD_START: errors.InconsistentStart,
     lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
     lib.ZD_UNSUITED: errors.UnsuitedFormulation,

@@ -16,3 +16,7 @@ from .closed_pendulum import closed_pendulum
 from .slider_crank import slider_crank
 
 __all__ = ["andrews", "bicycle", "closed_pendulum", "slider_crank"]
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported

@@ -18,6 +18,12 @@ from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.builtin import BuiltIn
 
+__all__ = ["FOUR_BAR", "FOUR_BAR_REFERENCE", "OSCILLATOR", "ROUND_OFF", "STEP", "Example", "run"]
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported
+
 
 @dataclass(frozen=True, repr=False)
 class Example:

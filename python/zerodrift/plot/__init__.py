@@ -10,3 +10,7 @@ from .style import COLOURS, panels
 
 __all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
            "violation", "work_precision"]
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported

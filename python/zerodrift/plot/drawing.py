@@ -10,10 +10,10 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 
 from .. import _check
-from ..runs.solution import Solution
+from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem
-from .style import COLOURS
+from .style import COLOURS, given_axes
 
 COLOUR = COLOURS[0]
 FAINT_POSITIONS = 9      # positions in the drawing of a motion
@@ -51,6 +51,8 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     >>> ax = zd.plot.mechanism(bar)
     >>> ax = zd.plot.mechanism(zd.simulate(bar, 2.0, step=0.01))
     """
+    if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
+        raise TypeError(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
     moving = isinstance(system_or_solution, Solution) and p is None
     system = system_or_solution.system if isinstance(system_or_solution, Solution) else system_or_solution
     if moving:
@@ -100,6 +102,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     >>> film = zd.plot.animate(zd.simulate(zd.systems.four_bar(), 1.0, step=0.01), fps=4)
     >>> page = film.to_jshtml()
     """
+    _check.instance("sol", sol, Solution, A_SOLUTION)
     fps, speed = _check.number("fps", fps, above=0), _check.number("speed", speed, above=0)
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
@@ -144,6 +147,7 @@ def _fixed_points(drawings: np.ndarray) -> np.ndarray:
 
 
 def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
+    ax = None if ax is None else given_axes(ax)
     if ax is None:
         ax = plt.figure(layout="constrained").add_subplot(projection="3d" if dimension == 3 else None)
     elif dimension == 3 and ax.name != "3d":

@@ -12,9 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
+from .. import _check
 from .._gateway import Variable
 from ..runs.settings import Projection
-from ..runs.solution import Solution
+from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
 from ..studies.reference import Reference
 from ..studies.stability_map import StabilityMap
@@ -94,6 +95,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     >>> zd.plot.violation(sol).get_yscale()
     'log'
     """
+    _check.instance("sol", sol, Solution, A_SOLUTION)
     constraints, mh = sol.system.constraints, sol.position_violation.shape[1]
     rates = [Variable(c.name, f"{c.unit}/s" if c.unit else "1/s") for c in constraints[:mh]] + list(constraints[mh:])
     lines = []
@@ -229,7 +231,7 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 
 
 def _require_energy(sol: Solution) -> None:
-    if sol.potential_energy is None:
+    if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
         raise ValueError(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
 
 
@@ -257,6 +259,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     >>> ax.get_xlabel()
     'time [ms]'
     """
+    _check.instance("result", result, WorkPrecision, "what zd.work_precision returns")
     ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and row.error > 0]
@@ -302,10 +305,15 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     >>> [ax.get_title() for ax in zd.plot.stability_map(found)]
     ['nothing', 'Baumgarte', 'projection', 'projection, energy']
     """
+    _check.instance("result", result, StabilityMap, "what zd.stability_map returns")
     if axes is None:
         count = len(result.rows)
         axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
     axes = np.atleast_1d(axes)
+    if len(axes) != len(result.rows):
+        raise ValueError(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}")
+    for ax in axes:
+        _style.given_axes(ax, "each of axes")
     scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)
     for ax, way in zip(axes, result.rows, strict=True):
         drawn = _draw_cells(ax, result.steps, result.values, result.error(way), scale)

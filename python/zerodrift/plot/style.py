@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from .. import _check
 from .._gateway import Variable
 
 # Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last is Tol's wine, as integrators are eight.
@@ -35,7 +36,11 @@ def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
 
 def axes(ax: Axes | None) -> Axes:
     """Those given, or those of a new figure."""
-    return styled(plt.subplots(layout="constrained")[1]) if ax is None else ax
+    return styled(plt.subplots(layout="constrained")[1]) if ax is None else given_axes(ax)
+
+
+def given_axes(ax: Any, name: str = "ax") -> Axes:
+    return _check.instance(name, ax, Axes, "matplotlib's Axes, or left out for a new figure")
 
 
 def styled(ax: Axes) -> Axes:

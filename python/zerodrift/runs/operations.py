@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
+from .._gateway import Variable
 from ..systems.base import BaseSystem, core_of
 from . import settings
 
 
-def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = (), *, t: float = 0.0, tol: float = 1e-12,
+def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Any = (), *, t: float = 0.0, tol: float = 1e-12,
              max_iterations: int = 100) -> tuple[np.ndarray, np.ndarray]:
     """Find a consistent state near a guess.
 
@@ -27,8 +28,9 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
         Guess of the coordinates.
     v : array_like (nv,), optional
         Guess of the velocities; left out: zero.
-    hold : sequence of str, or str
-        Names of the coordinates and velocities that keep the values of the guess.
+    hold : sequence of str or Variable, or one of them
+        Coordinates and velocities that keep the values of the guess: their names, or entries of `system.coordinates` and
+        `system.velocities`.
     t : float
         Time in s, for constraints that depend on it.
     tol : float
@@ -56,15 +58,20 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Sequence[str] = ()
     (1.2, 2.0)
     """
     core_of(system)
-    if not isinstance(hold, Iterable):
-        raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
-    hold = (hold,) if isinstance(hold, str) else tuple(hold)
-    known = [variable.name for variable in (*system.coordinates, *system.velocities)]
-    for name in hold:
-        _check.choice("hold", name, known)
+    hold = _held(system, hold)
     holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
+
+
+def _held(system: BaseSystem, hold: Any) -> list[str]:
+    """The argument `hold`: names of coordinates and velocities."""
+    if not isinstance(hold, Iterable):
+        raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
+    known = (*system.coordinates, *system.velocities)
+    names = [variable.name for variable in known]
+    each = (hold,) if isinstance(hold, str | Variable) else tuple(hold)
+    return [one.name if one in known and isinstance(one, Variable) else _check.choice("hold", one, names) for one in each]
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,

@@ -217,25 +217,29 @@ def on_singular_row(value: Any) -> int:
 
 # ---- all arguments of `simulate` ----
 
+MAX_STEPS = 1_000_000     # where steps are chosen
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}     # where steps are chosen
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off
 
 
 def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
-            stabilization: Any, energy: Any, save_every: Any, t_eval: Any, step: Any, **tolerances: Any) -> dict[str, Any]:
+            stabilization: Any, energy: Any, save_every: Any, t_eval: Any, step: Any, max_steps: Any,
+            **tolerances: Any) -> dict[str, Any]:
     """The arguments of `simulate`, checked, as `Solution.settings` keeps them."""
     on_singular_row(on_singular)
-    return {**_steps(span, step, integrator, tolerances), **_methods(system, formulation, integrator, stabilization, energy),
-            **_saved(span, save_every, t_eval), "on_singular": on_singular}
+    return {**_steps(span, step, integrator, max_steps, tolerances),
+            **_methods(system, formulation, integrator, stabilization, energy), **_saved(span, save_every, t_eval),
+            "on_singular": on_singular}
 
 
-def _steps(span: tuple[float, float], step: Any, integrator: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
+def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
     """How steps are made: of a fixed size, or chosen by their error."""
     integrator_row(integrator)
+    max_steps = None if max_steps is None else _check.count("max_steps", max_steps)
     latest = max(map(abs, span))
     smallest = 16 * np.finfo(float).eps * latest
     if step is None:
-        return {"step": None, **_tolerances(integrator, tolerances, smallest)}
+        return {"step": None, **_tolerances(integrator, tolerances, smallest), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
             raise ValueError(f"{name} is for steps that are chosen by their error: with it, leave out step")
@@ -276,9 +280,7 @@ def _saved(span: tuple[float, float], save_every: Any, t_eval: Any) -> dict[str,
         return {"save_every": save_every}
     if save_every != 1:
         raise ValueError("save_every counts steps, and t_eval names times: give one of them")
-    times = _check.vector("t_eval", t_eval, np.size(t_eval))
-    if not times.size or (np.diff(times) <= 0).any() or times[0] < span[0] or times[-1] > span[1]:
-        raise ValueError(f"t_eval must increase from at least {span[0]:g} to at most {span[1]:g}, not {t_eval!r}")
+    times = _check.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
     return {"save_every": 1, "t_eval": times}
 
@@ -294,7 +296,7 @@ def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
 
 
 # Settings that the core takes under the same name and without any change.
-_PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "save_every", "t_eval")
+_PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_steps", "save_every", "t_eval")
 
 
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:

@@ -33,6 +33,7 @@ def simulate(
     atol: float | None = None,
     first_step: float | None = None,
     max_step: float | None = None,
+    max_steps: int | None = settings.MAX_STEPS,
     t_eval: Any = None,
     events: Any = None,
     formulation: str = settings.FORMULATION,
@@ -64,14 +65,18 @@ def simulate(
         these. `zerodrift.tune` finds settings for an error of the motion itself.
     first_step, max_step : float, optional
         Where steps are chosen: the first, and the largest, in s.
+    max_steps : int or None
+        Where steps are chosen: after so many the run fails, and says where most of them lie. None: there is no bound. Steps of
+        fixed size have none.
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
         corrected.
     events : callable or list of callables, optional
         Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
-        the beginning of a step to its end. An attribute `direction` of 1 or -1 takes only those from below or from above;
-        `terminal`, True or a number, ends the run when the event has happened once or that often. What is zero at the start
-        is no event.
+        the beginning of a step to its end. What is reported is corrected, also with corrections at every k-th step only, and
+        there the function is zero to rounding; a function that leaps over zero is reported behind its leap. An attribute
+        `direction` of 1 or -1 takes only those from below or from above; `terminal`, True or a number, ends the run when the
+        event has happened once or that often. What is zero at the start is no event.
     formulation : str
         One of `formulations()`: which equations of motion are solved.
     integrator : str
@@ -145,9 +150,9 @@ def simulate(
     """
     core, span = core_of(system), _check.span(t_span)
     chosen = settings.checked(
-        system, span, step=step, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step, t_eval=t_eval,
-        formulation=formulation, integrator=integrator, stabilization=stabilization, energy=energy, save_every=save_every,
-        on_singular=on_singular)
+        system, span, step=step, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step, max_steps=max_steps,
+        t_eval=t_eval, formulation=formulation, integrator=integrator, stabilization=stabilization, energy=energy,
+        save_every=save_every, on_singular=on_singular)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events)
     p0, v0 = system._state_or_start(p0, v0)

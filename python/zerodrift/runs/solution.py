@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .. import _gateway
+from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
 from ..systems.builtin import FACTORIES, BuiltIn
 from .settings import STABILIZATIONS, EnergyCorrection, core_settings
 
+A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
 
 
@@ -199,13 +200,14 @@ class Solution:
         >>> p.shape
         (2, 1)
         """
-        times = np.asarray(t, dtype=float)
         if self.settings["save_every"] != 1 or "t_eval" in self.settings:
             raise ValueError("values between rows need every step saved: save_every=1, and no t_eval")
-        if times.size and not (self.t[0] <= times.min() and times.max() <= self.t[-1]):
-            raise ValueError(f"t must be between {self.t[0]:g} and {self.t[-1]:g}, not {t!r}")
-        states = [self._state_at(moment) for moment in times.ravel()]
-        p, v = (np.array([state[i] for state in states]).reshape(*times.shape, -1) for i in (0, 1))
+        if not len(self.t):
+            raise ValueError("this solution has no rows, and so no values")
+        times = _check.times("t", t, self.t[0], self.t[-1])
+        p, v = np.empty((*times.shape, self.p.shape[1])), np.empty((*times.shape, self.v.shape[1]))
+        for place in np.ndindex(times.shape):
+            p[place], v[place] = self._state_at(times[place])
         return p, v
 
     def _state_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -314,6 +316,9 @@ class Described(BaseSystem):
 
     def __repr__(self) -> str:
         return f"<description of {self.name}>"
+
+    def __str__(self) -> str:
+        return repr(self)       # sizes, rows and parameters were not saved
 
 
 def _restored_system(description: dict[str, Any]) -> BaseSystem:

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway import Variable
-from ..runs.solution import Solution
+from ..runs.solution import A_SOLUTION, Solution
 from .reference import Reference
 
 SAME_TIME = 1e-9    # of the larger of the time itself and 1 s: far above round-off, far below any step
@@ -38,12 +38,13 @@ def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tup
     >>> values.shape, variables[0].unit
     ((11, 1), 'm/s')
     """
-    system = solution.system
+    system = _check.instance("sol", solution, Solution, A_SOLUTION).system
     variables = (*system.coordinates, *system.velocities)
     known = [variable.name for variable in variables]
     if names is None:
         names = known[:len(system.coordinates)]
     names = [names] if isinstance(names, str) else names
+    _check.instance("names", names, Sequence, "names of coordinates and velocities")
     columns = [known.index(_check.choice("names", name, known)) for name in names]
     return _states(solution)[:, columns], tuple(variables[column] for column in columns)
 
@@ -97,7 +98,7 @@ def states_of(reference: Solution | Reference | Callable[[float], Any], times: n
     if isinstance(reference, Solution):
         return _states(reference)[_rows_at(reference.t, times)]
     if not callable(reference):
-        raise TypeError(f"reference must be a Reference, a Solution or a callable t -> p, not {reference!r}")
+        raise TypeError(f"reference must be a Reference, a Solution or a callable t -> p, not {_check.shown(reference)}")
     return _evaluated(reference, times, nq)
 
 

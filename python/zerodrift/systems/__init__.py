@@ -7,3 +7,7 @@ from .builtin import FACTORIES, BuiltIn  # noqa: F401  (systems pickled by earli
 
 globals().update(FACTORIES)
 __all__ = list(FACTORIES)
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported

@@ -134,6 +134,32 @@ class BaseSystem:
     def _with(self, changed: dict[str, Any]) -> Any:
         raise NotImplementedError
 
+    def __str__(self) -> str:
+        rows = [("coordinates", _listed(self.coordinates)), ("velocities", _listed(self.velocities)),
+                ("holonomic", _listed(self.constraints[:self.mh])), ("nonholonomic", _listed(self.constraints[self.mh:])),
+                ("freedom", self._freedom())]
+        units = self._parameter_units()
+        rows += [("parameters" if not i else "", f"{name} = {_check.shown(value)} {units.get(name, '')}".rstrip())
+                 for i, (name, value) in enumerate(self.parameters.items())]
+        return "\n".join([self.name, *(f"  {title:14}{what}" for title, what in rows)])
+
+    def _freedom(self) -> str:
+        """Velocities that the constraints leave free, as far as the start tells."""
+        least = f"at least {max(0, self.nv - self.m)}"
+        if not self.m:
+            return str(self.nv)
+        try:
+            C = self.evaluate().C
+            size = np.abs(C).max(axis=1, keepdims=True)
+            rank = int(np.linalg.matrix_rank(C / np.where(size > 0, size, 1)))
+        except Exception:       # there is no start, or a user's own function fails there
+            return least
+        return f"{self.nv - rank}" + (f", as {self.m - rank} rows follow from others at the start" if rank < self.m else "")
+
+    def _parameter_units(self) -> dict[str, str]:
+        """The units of the parameters, where they are known."""
+        return {}
+
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return None
@@ -144,11 +170,15 @@ class BaseSystem:
                 "constraints": self.constraints, "has_energy": self.has_energy}
 
 
+def _listed(variables: Sequence[Variable]) -> str:
+    return ", ".join(f"{name} [{unit}]" if unit else name for name, unit in variables) or "none"
+
+
 def core_of(system: Any) -> _gateway.CoreSystem:
     """What the core knows a system by; refuses what is no system, and what is only the description of one."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
-        raise TypeError(f"system must be one of zd.systems or a zd.System, not {system!r}")
+        raise TypeError(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
     return core
 
 
