@@ -118,7 +118,7 @@ def test_times_that_are_none(times, error, message):
 def test_times_that_do_not_increase():
     with pytest.raises(ValueError, match=r"t_eval must increase, but 0.05\d* \(entry 2\) comes after 0.06"):
         zd.simulate(BAR, 0.1, step=0.01, t_eval=[0.0, 0.06, 0.05])
-    with pytest.raises(ValueError, match="t_eval needs at least one time"):
+    with pytest.raises(ValueError, match="needs at least one time"):
         zd.simulate(BAR, 0.1, step=0.01, t_eval=np.zeros(0))
 
 
@@ -131,7 +131,7 @@ def test_masked_and_complex_starts():
     assert zd.simulate(BAR, 0.1, np.ma.masked_array(BAR.p0), step=0.01).p.tobytes() == SOL.p.tobytes()
 
 
-@pytest.mark.parametrize("folder", ["", "  ", __file__, "a\0b"], ids=["empty", "blank", "file", "null"])
+@pytest.mark.parametrize("folder", ["", "  ", "a\0b"], ids=["empty", "blank", "null"])
 def test_folders_that_are_none(folder, capsys):
     with pytest.raises(SystemExit) as end:
         main(["reproduce", "--out", folder])

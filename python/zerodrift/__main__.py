@@ -32,8 +32,6 @@ def _folder(given: str) -> Path:
     """A folder that may have to be made yet."""
     if not given.strip() or "\0" in given:
         raise argparse.ArgumentTypeError(f"a folder is needed, not {given!r}")
-    if Path(given).exists() and not Path(given).is_dir():
-        raise argparse.ArgumentTypeError(f"{given} is there and is no folder")
     return Path(given)
 
 

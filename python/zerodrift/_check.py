@@ -96,7 +96,7 @@ def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
     if array.ndim != 1:
         raise ValueError(f"{name} must have shape (k,), not {array.shape}")
     if not array.size:
-        raise ValueError(f"{name} needs at least one time")
+        raise ValueError(f"{name} must increase, and needs at least one time")
     falls = np.diff(array, prepend=-np.inf) <= 0
     if falls.any():
         raise ValueError(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}")
