@@ -9,56 +9,57 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE, TERMS, Variable, lengths
+from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths
 from .systems import CoreSystem
 
 
 class Evaluator:
     """Calls the callables of a system when the core evaluates it, in one run.
 
-    The core hands the same memory to all calls of a run, so NumPy's arrays over it are made once. An error that `write` raises is
-    kept, and the run stops.
+    Callables may keep what they are handed for as long as they like, and a debugger what it finds in the frames of an error. So
+    nothing here is a view of the core's memory, which is freed with the run: terms are written into arrays that belong to Python,
+    from which the core copies them, and each p and v has an object of bytes of its own, which nobody can change. An error that
+    `write` raises is kept, and the run stops.
     """
 
-    def __init__(self, core: PythonCore, bridge: Any) -> None:
-        self.core, self.bridge, self.error, self.arrays = core, bridge, None, {}
+    def __init__(self, core: PythonCore) -> None:
+        self.error, self._write, terms = None, core.write, []
+        p, v = ffi.new("double[]", core.nq), ffi.new("double[]", core.nv)
+        self._p, self._v = ffi.buffer(p), ffi.buffer(v)
+        self._arrays = {"p": _read_only(self._p), "v": _read_only(self._v)}
+        for slot, (name, (bit, shape)) in enumerate(TERMS.items()):
+            if core.provides & bit:
+                self._arrays[name] = array = np.zeros([getattr(core, size) for size in shape])
+                terms.append({"term": bit, "slot": slot, "size": array.nbytes, "values": doubles(array, array.size)})
+        self._memory = p, v, ffi.new("zd_python_term[]", terms)
+        self.c = ffi.new("zd_python *", {"system": core.c, "p": p, "v": v, "terms": len(terms), "term": self._memory[-1]})
+        if "C" in self._arrays:
+            self._arrays["C_H"], self._arrays["C_NH"] = self._arrays["C"][: core.mh], self._arrays["C"][core.mh :]
 
-    def write(self, want: int, t: float, memory_moved: int) -> int:
-        """The function that the core calls; `memory_moved` says that its arrays are not where they were at the last call."""
+    def write(self, want: int, t: float, moved: int) -> int:
+        """The function that the core calls; the bits 1 and 2 of `moved` say that p and v differ from those of the last call."""
+        arrays = self._arrays
         try:
-            if memory_moved:
-                self.arrays = self._arrays_over(self.bridge)
-            self.core.write(want, t, self.arrays)
+            if moved & 1:
+                arrays["p"] = _read_only(self._p)
+            if moved & 2:
+                arrays["v"] = _read_only(self._v)
+            self._write(want, t, arrays)
         except BaseException as error:      # raised again where the run was started
             self.error = error
             return CALLBACK
         return DONE
 
-    def _arrays_over(self, memory: Any) -> dict[str, np.ndarray]:
-        core = self.core
-        arrays = {"p": _array_over(memory.p, (core.nq,)), "v": _array_over(memory.v, (core.nv,))}
-        arrays["p"].flags.writeable = arrays["v"].flags.writeable = False
-        for name, (bit, shape) in TERMS.items():
-            if core.provides & bit:
-                arrays[name] = _array_over(getattr(memory.terms, name), [getattr(core, size) for size in shape])
-        if "C" in arrays:
-            arrays["C_H"], arrays["C_NH"] = arrays["C"][: core.mh], arrays["C"][core.mh :]
-        return arrays
-
-    def failure(self) -> BaseException | None:
-        """What a callable raised, or the error for a term that was not finite."""
-        bit = self.bridge.not_finite
-        if self.error is None and bit:
-            name = next(name for name, (term, _) in TERMS.items() if term == bit)
-            self.error = self.core.write.not_finite(name, self.bridge.t, self.arrays[name])
-        return self.error
+    def refuse(self, term: int, t: float) -> int:
+        """The function that the core calls where a term, given as its bit, is not finite."""
+        name = next(name for name, (bit, _) in TERMS.items() if bit == term)
+        self.error = self._write.not_finite(name, t, self._arrays[name])
+        return CALLBACK
 
 
-def _array_over(pointer: Any, shape: Any) -> np.ndarray:
-    size = int(np.prod(shape))
-    if size == 0:
-        return np.empty(shape)
-    return np.frombuffer(ffi.buffer(pointer, size * 8), dtype=np.float64).reshape(shape)
+def _read_only(memory: Any) -> np.ndarray:
+    """A copy of the doubles in a buffer; it shares the memory of an object of bytes, so that nobody can make it writable."""
+    return np.frombuffer(memory[:])
 
 
 def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
@@ -67,8 +68,13 @@ def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_write_in_python(owner, want, t, memory_moved):
-    return ffi.from_handle(owner).write(want, t, memory_moved)
+def zd_write_in_python(owner, want, t, moved):
+    return ffi.from_handle(owner).write(want, t, moved)
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
+def zd_refuse_in_python(owner, term, t):
+    return ffi.from_handle(owner).refuse(term, t)
 
 
 class Watcher:
@@ -94,7 +100,7 @@ class Watcher:
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
         """Copies of the core's p and v, as an event may keep them."""
-        return tuple(_array_over(pointer, shape).copy() for pointer, shape in zip((p, v), self._shapes, strict=True))
+        return tuple(np.array(ffi.unpack(pointer, *shape)) for pointer, shape in zip((p, v), self._shapes, strict=True))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Where an event was found: t (k,), p (k, nq), v (k, nv)."""
@@ -139,14 +145,13 @@ class PythonCore(CoreSystem):
     def for_run(self) -> PythonCore:
         """The same system with an evaluator of its own, so that runs do not share memory."""
         mine = copy.copy(self)
-        bridge = ffi.new("zd_python *")
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.evaluator = Evaluator(mine, bridge)
+        mine.evaluator = Evaluator(mine)
         mine._data = ffi.new_handle(mine.evaluator)
-        bridge.evaluator, bridge.system, mine.c.data = mine._data, mine.c, bridge
+        mine.evaluator.c.evaluator, mine.c.data = mine._data, mine.evaluator.c
         return mine
 
     @property
     def error(self) -> BaseException | None:
         """What a callable raised."""
-        return self.evaluator.failure() if self.evaluator else None
+        return self.evaluator.error if self.evaluator else None
