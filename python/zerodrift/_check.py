@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any
 
@@ -75,15 +76,16 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
 
 def vector(name: str, value: Any, size: int) -> np.ndarray:
     """A fresh, contiguous float64 array of shape (size,), all finite."""
-    array = _numbers(name, value, f"have shape ({size},)")
+    shape = f"{name} must have shape ({size},), not"
+    array = real(f"{name} must hold", value, ragged=f"{shape} be")
     if array.shape != (size,):
-        raise ValueError(f"{name} must have shape ({size},), not {array.shape}")
+        raise ValueError(f"{shape} {array.shape}")
     return _finite(name, array)
 
 
 def times(name: str, value: Any, first: float, last: float) -> np.ndarray:
     """A fresh float64 array of any shape, of times between the first and the last."""
-    array = _finite(name, _numbers(name, value, "be a regular array of times"))
+    array = _finite(name, real(f"{name} must hold", value, ragged=f"{name} must be a regular array of times, not be"))
     outside = (array < first) | (array > last)
     if outside.any():
         raise ValueError(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}")
@@ -103,19 +105,6 @@ def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
     return array
 
 
-def _numbers(name: str, value: Any, shape: str) -> np.ndarray:
-    """What is given as an array of real numbers, none of them masked."""
-    if np.ma.is_masked(value):
-        raise ValueError(f"{name} must not have masked entries, and {int(np.ma.getmaskarray(value).sum())} are")
-    try:
-        array = np.asarray(value)
-    except ValueError as error:
-        raise ValueError(f"{name} must {shape}, not be a ragged sequence") from error
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
-    return array
-
-
 def _finite(name: str, array: np.ndarray) -> np.ndarray:
     array = np.array(array, dtype=np.float64, order="C")
     infinite = ~np.isfinite(array)
@@ -129,6 +118,74 @@ def _at(array: np.ndarray, where: np.ndarray) -> str:
     place = np.argwhere(where)[0]
     value = str(float(array[tuple(place)]))
     return f"{value} (entry {', '.join(map(str, place))})" if array.size > 1 else value
+
+
+def real(must: str, value: Any, where: str = "", *, objects: bool = False, ragged: str = "") -> np.ndarray:
+    """An array of real numbers; of objects that are such, as fractions are, if allowed.
+
+    `must` says whose it is and begins the error, "p0 must hold", and `where` ends it; `ragged` begins that of no array at all.
+    """
+    if is_masked(value):
+        raise ValueError(f"{must} real numbers, none of them masked, not {shown(value)}{where}")
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise ValueError(f"{ragged or f'{must} an array of real numbers, not'} a ragged sequence{where}") from error
+    if array.dtype.kind == "O" and objects:
+        return _as_floats(array, must, value, where)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{must} real numbers, not {array.dtype}: {shown(value)}{where}")
+    return array
+
+
+def is_masked(value: Any) -> bool:
+    """Whether there are masked entries, which NumPy forgets when it makes an array of them."""
+    if isinstance(value, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(value))
+    return isinstance(value, list | tuple) and any(map(is_masked, value))
+
+
+def _as_floats(array: np.ndarray, must: str, value: Any, where: str) -> np.ndarray:
+    numbers = np.empty(array.shape)
+    for place, entry in np.ndenumerate(array):
+        if isinstance(entry, str | bytes | bool | np.bool_):
+            raise TypeError(f"{must} real numbers, not {entry!r}{where}")
+        try:
+            numbers[place] = float(entry)
+        except (TypeError, ValueError) as error:
+            raise TypeError(f"{must} real numbers, not {shown(value)}{where}") from error
+        except OverflowError:       # whole numbers may be larger than doubles
+            numbers[place] = np.inf
+    return numbers
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    """A copy that stays what it is: its memory is that of an object of bytes, so that nobody can make it writable."""
+    return np.ndarray(array.shape, array.dtype, array.tobytes())
+
+
+STATE = ("t", "p", "v")     # the names by which functions get time, coordinates and velocities
+
+
+def parameters(given: Any) -> dict[str, Any]:
+    """The argument `parameters`: a fresh dict, by names that do not stand for something else."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise TypeError(f"parameters must be a dict of values by name, not {given!r}")
+    for name in given:
+        if not isinstance(name, str):
+            raise TypeError(f"parameters must have strings for names, not {name!r}")
+        if name in STATE:
+            raise ValueError(f"parameters cannot have {name!r}: {', '.join(STATE)} are time, coordinates and velocities")
+    return dict(given)
+
+
+def tell(error: BaseException, note: str) -> None:
+    """Add a note of where an error was raised, once, unless it is of a kind that cannot be changed."""
+    with contextlib.suppress(Exception):
+        if note not in getattr(error, "__notes__", ()):
+            error.add_note(note)
 
 
 def span(value: Any) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -101,6 +102,11 @@ class Run:
     @property
     def _raised(self) -> BaseException | None:
         return self._core.error or (self._watcher and self._watcher.error)
+
+    @property
+    def notes(self) -> Sequence[str]:
+        """Where in the system it was raised."""
+        return getattr(self._core.error, "__notes__", ())
 
     @property
     def progress(self) -> float:

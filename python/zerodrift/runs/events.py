@@ -20,7 +20,11 @@ class Event(NamedTuple):
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray) -> float:
         """What the function returns, if that is a number."""
-        value = self.function(t, p, v)
+        try:
+            value = self.function(t, p, v)
+        except BaseException as error:
+            _check.tell(error, f"in {self.name}, called at t = {t:g}")
+            raise
         if type(value) is float and abs(value) < np.inf:
             return value
         return _check.number(f"what {self.name} returns at t = {t:g}", value)

@@ -190,14 +190,18 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
         status, error = _gateway.INTERRUPTED, caught
     finally:
         close()
-    if status == _gateway.CALLBACK and isinstance(run.error(status), KeyboardInterrupt):
+    if status == _gateway.CALLBACK and not isinstance(run.error(status), Exception):     # Ctrl-C, SystemExit and the like
         status, error = _gateway.INTERRUPTED, run.error(status)
     return _Outcome(status, time.perf_counter() - start, error)
 
 
 def _show(show: Callable[[float], None], part: float) -> None:
     """Show the progress. The callable may be the user's, so that Ctrl-C may break into it: this function marks the place."""
-    show(part)
+    try:
+        show(part)
+    except BaseException as error:
+        _check.tell(error, f"in progress, called with {part:g}")
+        raise
 
 
 def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
@@ -221,13 +225,21 @@ def _message(run: _gateway.Run, outcome: _Outcome) -> str:
         case _gateway.DONE:
             return "done"
         case _gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
-            return f"stopped by {outcome.error!r}"
+            return f"stopped by {_shown(outcome.error)}"
         case _gateway.INTERRUPTED:
             return "interrupted from the keyboard"
         case _gateway.CALLBACK:
-            return f"{run.message}: {run.error(outcome.status)!r}"
+            return "; ".join([f"{run.message}: {_shown(run.error(outcome.status))}", *run.notes])
         case _:
             return run.message
+
+
+def _shown(error: BaseException) -> str:
+    """An error as Python writes it; its name, if it is of a kind that cannot be written."""
+    try:
+        return repr(error)
+    except Exception:
+        return type(error).__name__
 
 
 def _events_found(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:
@@ -262,6 +274,6 @@ def _with_solution(error: BaseException, solution: Solution, note: str | None = 
     """The error, which carries the solution unless it is of a kind that takes no attributes."""
     with contextlib.suppress(Exception):
         error.solution = solution
-        if note:
-            error.add_note(note)
+    if note:
+        _check.tell(error, note)
     return error

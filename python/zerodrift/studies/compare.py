@@ -121,11 +121,21 @@ def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) 
     """What a callable says at each of the times, (k, size)."""
     exact = np.empty((len(times), size))
     for row, t in zip(exact, times, strict=True):
-        value = np.ravel(np.asarray(reference(float(t)), dtype=float))
+        value = _say_where(reference, float(t))
+        value = np.ravel(_check.real("reference(t) must return", value, f" (at t = {t:g})", objects=True))
         if value.shape != (size,):
             raise ValueError(f"reference(t) must return p of shape ({size},), not {value.shape}")
         row[:] = value
     return exact
+
+
+def _say_where(reference: Callable[[float], Any], t: float) -> Any:
+    """What a callable returns; a note of an error says where it was raised."""
+    try:
+        return reference(t)
+    except BaseException as error:
+        _check.tell(error, f"in reference, called at t = {t:g}")
+        raise
 
 
 def nearest(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:

@@ -54,6 +54,9 @@ class Definition:
             "names": self.constraint_names, "parameters": [list(self.values), self._parameters]}
         self.coordinate_names = tuple(_name(q) for q in self.coordinates)
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
+        for name in self.values:
+            if name in (*self.coordinate_names, *self.velocity_names, self.time.name):
+                raise ValueError(f"parameter {name} is a coordinate, a velocity or time")
 
     def _check_times(self) -> None:
         for q in self.coordinates:
@@ -155,9 +158,6 @@ class Definition:
             if by_name.setdefault(symbol.name, symbol) != symbol:
                 raise ValueError(f"there are two different symbols named {symbol.name!r} (their assumptions differ)")
             known[symbol] = graph.leaf("parameter", list(self.values).index(symbol.name))
-        for symbol in self._parameters:
-            if symbol in taken:
-                raise ValueError(f"parameter {symbol} is a coordinate, a velocity or time")
         return known
 
     def _for_energy(self, reader: Reader, moving: Mapping[Any, Node]) -> dict[Any, Node]:
@@ -248,6 +248,8 @@ def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]
     if not isinstance(given, Mapping):
         raise TypeError(f"parameters must be a dict of symbols or names and their values, not {given!r}")
     values: dict[str, float] = {}
+    if not isinstance(given, Mapping):
+        raise TypeError(f"parameters must be a dict of values by symbol or name, not {given!r}")
     for key, value in given.items():
         if not isinstance(key, str | sympy.Symbol):
             raise TypeError(f"parameters must be symbols or names, not {key!r}")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,8 +22,8 @@ class System(BaseSystem):
     """A multibody system from functions of NumPy arrays.
 
     Each callable names the arguments it wants, out of ``t`` (float), ``p`` (nq,), ``v`` (nv,) and the keys of
-    `parameters`; p and v are read-only. What is left out is absent: no force, no constraint. A constant may stand in
-    place of a callable.
+    `parameters`. Arrays are read-only, and stay what they are for as long as they are kept. What is left out is absent: no
+    force, no constraint. A constant may stand in place of a callable.
 
     Parameters
     ----------
@@ -52,7 +53,8 @@ class System(BaseSystem):
     power : callable -> float
         Energy input rate of (28) in W: what the forces that V does not describe do, and dV/dt at fixed p.
     parameters : dict
-        Values the callables may ask for by name.
+        Values the callables may ask for by name, other than ``t``, ``p`` and ``v``: numbers, arrays, which are copied, or any
+        objects but strings.
     p0, v0 : array_like (nq,), (nv,)
         The start, unless `simulate` is given another; `v0` left out: at rest.
     name : str
@@ -67,7 +69,8 @@ class System(BaseSystem):
     Raises
     ------
     ValueError, TypeError
-        If a callable asks for something there is not, or its result has the wrong shape.
+        If a callable asks for something there is not, or its result has the wrong shape or is not of real numbers. What a
+        callable itself raises gets a note of which it was, and at what t.
 
     Examples
     --------
@@ -94,11 +97,11 @@ class System(BaseSystem):
         power: Any = None, units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: Any = None,
         v0: Any = None, name: str | None = None,
     ) -> None:
-        self._given = {key: value for key, value in locals().items() if key not in ("self", "__class__")}
-        self.name = name or "system"
-        self.parameters = dict(parameters or {})
+        parameters = {key: _parameter(key, value) for key, value in _check.parameters(parameters).items()}
+        self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}
+        self.name, self.parameters = name or "system", parameters
         names = _check.names("coordinates", coordinates, "p")
-        self.p0 = None if p0 is None else _check.vector("p0", p0, len(names))
+        self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, len(names)))
         functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
             raise ValueError("jacobian is given without constraints")
@@ -108,7 +111,7 @@ class System(BaseSystem):
         self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None)
         self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities))
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
-        self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
+        self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
 
     def _with(self, changed: dict[str, Any]) -> System:
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))
@@ -125,6 +128,20 @@ def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
     return kind(**given)
 
 
+def _as_now(value: Any) -> Any:
+    """What was given, as it is now: a caller's array may change."""
+    return copy.deepcopy(value) if isinstance(value, np.ndarray | list) else value
+
+
+def _parameter(name: str, value: Any) -> Any:
+    """What callables get for a parameter: arrays as they are now, to be read only; any object but strings as it is."""
+    if isinstance(value, str | bytes) or (isinstance(value, np.ndarray) and value.dtype.kind not in "biufcO"):
+        raise TypeError(f"parameter {name!r} must be a number, an array of numbers or an object that is no string, not {value!r}")
+    if _check.is_masked(value):
+        raise ValueError(f"parameter {name!r} must have no masked entries, not {value!r}")
+    return _check.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
+
+
 # ---- the callables ----
 
 # The shape of what each callable returns. The first callable in which a size appears determines that size.
@@ -132,17 +149,19 @@ SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints"
           "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
 
 
-# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand.
+# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand. Each callable gets views of its
+# own, as the shape of an array can be set even where its numbers cannot.
 _CALLS: dict[frozenset[str], Callable[..., Any]] = {
     frozenset(""): lambda f, t, p, v: f(),
     frozenset("t"): lambda f, t, p, v: f(t=t),
-    frozenset("p"): lambda f, t, p, v: f(p=p),
-    frozenset("v"): lambda f, t, p, v: f(v=v),
-    frozenset("tp"): lambda f, t, p, v: f(t=t, p=p),
-    frozenset("tv"): lambda f, t, p, v: f(t=t, v=v),
-    frozenset("pv"): lambda f, t, p, v: f(p=p, v=v),
-    frozenset("tpv"): lambda f, t, p, v: f(t=t, p=p, v=v),
+    frozenset("p"): lambda f, t, p, v: f(p=p.view()),
+    frozenset("v"): lambda f, t, p, v: f(v=v.view()),
+    frozenset("tp"): lambda f, t, p, v: f(t=t, p=p.view()),
+    frozenset("tv"): lambda f, t, p, v: f(t=t, v=v.view()),
+    frozenset("pv"): lambda f, t, p, v: f(p=p.view(), v=v.view()),
+    frozenset("tpv"): lambda f, t, p, v: f(t=t, p=p.view(), v=v.view()),
 }
+_DOUBLE = np.dtype(np.float64)
 
 
 class _Function:
@@ -151,56 +170,85 @@ class _Function:
     def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
         self.name = name
         if callable(given):
-            names = _arguments(name, given, ["t", "p", "v", *parameters])
-            bound = {key: parameters[key] for key in names if key in parameters}
+            names = _arguments(name, given, [*_check.STATE, *parameters])
+            bound = {key: _view(parameters[key]) for key in names if key in parameters}
             self.state_arguments = frozenset(names) - frozenset(bound)
             self._function = functools.partial(given, **bound) if bound else given
         else:
-            value = np.array(given, dtype=float)
-            value.flags.writeable = False
+            value = _check.frozen(_check.real(f"{name} must be a callable, or", given, objects=True).astype(float))
             self.state_arguments, self._function = frozenset(), lambda: value
         self._call = _CALLS[self.state_arguments]
 
-    def __call__(self, t: Any, p: Any, v: Any) -> Any:
-        """What the user's function returns, whatever it is."""
-        return self._call(self._function, t, p, v)
+    def _tell(self, error: BaseException, t: float, how: str = "") -> None:
+        _check.tell(error, f"in {self.name}, called at t = {t:g}{how}")
+
+    def value(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """What the user's function returns, checked to be of real numbers; an error says where it was raised."""
+        try:
+            value = self._call(self._function, t, p, v)
+        except BaseException as error:
+            self._tell(error, t)
+            raise
+        if type(value) is np.ndarray and value.dtype is _DOUBLE:
+            return value
+        return _check.real(f"{self.name} must return", value, f" (at t = {t:g})", objects=True)
 
     def write(self, out: np.ndarray, t: float, p: np.ndarray, v: np.ndarray) -> None:
-        """Its value, checked, into an array of the core."""
-        value = self._call(self._function, t, p, v)
-        if type(value) is not np.ndarray:
-            value = np.asarray(value)
+        """Its value, checked, into an array for the core."""
+        value = self.value(t, p, v)
         if value.shape != out.shape:
             raise ValueError(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
         out[...] = value
 
-    def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: Any, v: Any) -> Any:
-        """Its value and its derivatives: an array (shape) of jets or plain numbers."""
-        result = np.asarray(self(t, p, v), dtype=object)
-        if result.shape != shape:
-            raise ValueError(f"{self.name} must return shape {shape}, not {result.shape}")
+    def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Its value with derivatives, an array of objects."""
+        try:
+            returned, where = self._call(self._function, t, p, v), f" (at t = {_jets.value(t):g})"
+        except BaseException as error:
+            self._tell(error, _jets.value(t), " with numbers that carry derivatives")
+            raise
+        result = np.asarray(returned, dtype=object)
+        numbers = returned if _check.is_masked(returned) else _jets.numbers(result)
+        if _check.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
+            raise ValueError(f"{self.name} must return shape {shape}, not {result.shape}{where}")
         return result
 
 
+def _view(value: Any) -> Any:
+    return value.view() if isinstance(value, np.ndarray) else value
+
+
 def _arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
-    names = []
-    for argument in inspect.signature(given).parameters.values():
+    """The names of the arguments that a callable wants."""
+    wants, there_is = [], f"there is {', '.join(allowed)}"
+    for argument in _signature(name, given, there_is):
+        if argument.kind in (argument.VAR_POSITIONAL, argument.VAR_KEYWORD):
+            raise TypeError(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}")
         if argument.name in allowed:
-            names.append(argument.name)
+            if argument.kind is argument.POSITIONAL_ONLY:
+                raise TypeError(f"{name} takes {argument.name!r} by position only, and is handed it by name: leave out the '/'")
+            wants.append(argument.name)
         elif argument.default is argument.empty:
-            raise TypeError(f"{name} asks for {argument.name!r}; there is {', '.join(allowed)}")
-    return names
+            raise TypeError(f"{name} asks for {argument.name!r}; {there_is}")
+    return wants
+
+
+def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[inspect.Parameter]:
+    try:
+        return inspect.signature(given).parameters.values()
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}") from error
 
 
 def _sizes(nq: int, functions: dict[str, _Function], p0: np.ndarray | None) -> tuple[int, int, int, int]:
     """(nq, nv, mh, mn), from what the callables return at the start."""
-    p = np.zeros(nq) if p0 is None else p0
+    p = _check.frozen(np.zeros(nq)) if p0 is None else p0
 
     def shape(name: str, dimensions: int) -> tuple[int, ...]:
         if name not in functions:
             return (0,) * dimensions
         with np.errstate(all="ignore"):
-            found = np.shape(functions[name](0.0, p, np.zeros(nv)))
+            found = functions[name].value(0.0, p, _check.frozen(np.zeros(nv))).shape
         if len(found) != dimensions:
             raise ValueError(f"{name} must return shape ({', '.join(SHAPES[name])}), not {found}")
         return found
@@ -220,7 +268,7 @@ def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.
     for name, function in functions.items():
         expected = tuple(sizes[size] for size in SHAPES[name])
         with np.errstate(all="ignore"):
-            found = np.shape(function(0.0, p, np.zeros(sizes["nv"])))
+            found = function.value(0.0, p, _check.frozen(np.zeros(sizes["nv"]))).shape
         if found != expected:
             raise ValueError(f"{name} must return shape {expected}, not {found}")
 
@@ -270,12 +318,13 @@ class _Writer:
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
         """The error for a term that is not finite: it names the callable, or those that may be at fault."""
-        asked = ("jacobian", "nonholonomic") if name == "C" else (_CALLABLE_OF.get(name),)
+        asked = ("jacobian", "nonholonomic", "kinematics") if name == "C" else (_CALLABLE_OF.get(name),)
         sources = [source for source in asked if source in self.functions]
-        if sources:
+        if sources not in ([], ["kinematics"]):
             return ValueError(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}")
-        source = "constraints" if self.mh else "nonholonomic"
-        return ValueError(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}")
+        source = " and ".join(["constraints" if self.mh else "nonholonomic", *["kinematics"] * ("kinematics" in self.functions)])
+        return ValueError(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}; where there are no "
+                          "derivatives, supply jacobian and xi")
 
     def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         p, v, mh = arrays["p"], arrays["v"], self.mh

@@ -23,8 +23,13 @@ class Jet:
         self.value, self.gradient, self.first, self.second = value, gradient, first, second
 
     def _chain(self, value: float, slope: float, curvature: float) -> Jet:
-        """phi(x) from phi, phi', phi'' at x."""
-        return Jet(value, slope * self.gradient, slope * self.first, curvature * self.first**2 + slope * self.second)
+        """phi(x) from phi, phi', phi'' at x.
+
+        Where phi'' is infinite and x' = 0, as of x**1.5 at the 0 of x = y**2, x is at an end of what phi takes, and phi'' does
+        not enter: |y|**3 has a second derivative.
+        """
+        bend = curvature * self.first**2 if self.first else 0.0
+        return Jet(value, slope * self.gradient, slope * self.first, bend + slope * self.second)
 
     def __add__(self, other: Any) -> Jet:
         if isinstance(other, np.ndarray):
@@ -68,8 +73,8 @@ class Jet:
         return self.reciprocal() * other
 
     def reciprocal(self) -> Jet:
-        r = 1 / self.value
-        return self._chain(r, -r * r, 2 * r**3)
+        r = _power(self.value, -1)
+        return self._chain(r, -r * r, 2 * r * r * r)
 
     def __pow__(self, n: Any) -> Jet:
         if isinstance(n, np.ndarray):
@@ -81,11 +86,11 @@ class Jet:
         if n == 1:
             return self
         x = self.value
-        curvature = n * (n - 1) * (x ** (n - 2) if n != 2 else 1.0)
-        return self._chain(x**n, n * x ** (n - 1), curvature)
+        curvature = n * (n - 1) * (_power(x, n - 2) if n != 2 else 1.0)
+        return self._chain(_power(x, n), n * _power(x, n - 1), curvature)
 
     def __rpow__(self, base: float) -> Jet:
-        return (self * math.log(base)).exp()
+        return (self * Jet(base).log().value).exp()
 
     def __abs__(self) -> Jet:
         return self if self.value >= 0 else -self
@@ -131,8 +136,25 @@ class Jet:
         return f"Jet({self.value}, {self.gradient}, {self.first}, {self.second})"
 
 
-def _unary(phi: Callable[[float], tuple[float, float, float]]) -> Callable[[Jet], Jet]:
-    return lambda self: self._chain(*phi(self.value))
+def _unary(name: str, phi: Callable[[float], tuple[float, float, float]]) -> Callable[[Jet], Jet]:
+    """The method of a function. Where Python raises an error, the value is NumPy's, and there are no derivatives."""
+    def method(self: Jet) -> Jet:
+        try:
+            parts = phi(self.value)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            with np.errstate(all="ignore"):
+                parts = float(getattr(np, name)(self.value)), math.nan, math.nan
+        return self._chain(*parts)
+    return method
+
+
+def _power(x: float, n: float) -> float:
+    """x**n as NumPy has it: no error at 0, no complex numbers below, infinite where it is too large."""
+    try:
+        y = x ** float(n)
+    except (ZeroDivisionError, OverflowError):
+        return math.inf
+    return math.nan if isinstance(y, complex) else y
 
 
 def _sqrt(x: float) -> tuple[float, float, float]:
@@ -178,12 +200,20 @@ FUNCTIONS: dict[str, Callable[[float], tuple[float, float, float]]] = {
     "degrees": lambda x: (math.degrees(x), 180 / math.pi, 0.0),
 }
 for _name, _phi in FUNCTIONS.items():
-    setattr(Jet, _name, _unary(_phi))
+    setattr(Jet, _name, _unary(_name, _phi))
 
 
 def value(x: Any) -> Any:
     """The number itself."""
     return x.value if isinstance(x, Jet) else x
+
+
+def numbers(array: np.ndarray) -> np.ndarray:
+    """An array of objects with the numbers themselves in place of jets."""
+    out = np.empty(array.shape, dtype=object)
+    for index in np.ndindex(array.shape):
+        out[index] = value(array[index])
+    return out
 
 
 def seeds(values: Any, first: Any = None, second: Any = None, gradient: Any = None) -> np.ndarray:
@@ -194,6 +224,7 @@ def seeds(values: Any, first: Any = None, second: Any = None, gradient: Any = No
     jets = np.empty(n, dtype=object)
     for i in range(n):
         jets[i] = Jet(float(values[i]), 0.0 if gradient is None else gradient[i], float(first[i]), float(second[i]))
+    jets.flags.writeable = False
     return jets
 
 

@@ -137,7 +137,7 @@ class Native(BaseSystem):
         rows = holonomic + _check.names("nonholonomic", nonholonomic, "rolling", least=0)
         terms = _checked_terms(terms, len(holonomic), len(rows))
         rates = _velocity_names(velocities, names, "A" in terms)
-        self.parameters = {key: _check.number(key, value) for key, value in dict(parameters or {}).items()}
+        self.parameters = {key: _check.number(key, value) for key, value in _check.parameters(parameters).items()}
         sizes = (len(names), len(rates), len(holonomic), len(rows) - len(holonomic))
         data = np.array([*self.parameters.values()], dtype=float)
         self.coordinates, self.velocities = with_units(names, rates, units, "A" not in terms)
@@ -145,8 +145,8 @@ class Native(BaseSystem):
         self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
                                          keep=found.keep, scratch=_check.count("scratch", scratch, least=0))
         self.name = name or "native system"
-        self.p0 = None if p0 is None else _check.vector("p0", p0, self.nq)
-        self.v0 = None if v0 is None else _check.vector("v0", v0, self.nv)
+        self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, self.nq))
+        self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
         self._given = {"coordinates": names, "velocities": rates, "constraints": holonomic, "nonholonomic": rows[len(holonomic):],
                        "terms": terms, "units": units, "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
         _check_at_start(self)
@@ -193,13 +193,14 @@ def _described_by_library(library: Any, symbol: Any, parameters: Any, others: li
     if others:
         raise TypeError(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
     found = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
-    return _from_library(found, dict(parameters or {}))
+    return _from_library(found, _check.parameters(parameters))
 
 
 def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> NativeKind:
     where = f"{found.origin.symbol} of {found.origin.path}"
     try:
         kind = _gateway.kind_at(found.address)
+        _check.parameters({parameter.name: None for parameter in kind.parameters})
         _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
         raise ValueError(f"{where}: {error}") from None
