@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 import zerodrift as zd
 from support import FORMULATIONS
 from test_runs import assert_same_bits
-from zerodrift import _jets
+from zerodrift.systems import jets
 
 EXAMPLES = int(os.environ.get("ZERODRIFT_EXAMPLES", "40"))
 
@@ -170,7 +170,7 @@ def each(change):
     def changed(value):
         array = np.array(value, dtype=object)
         for index in np.ndindex(array.shape):
-            if not isinstance(array[index], _jets.Jet):
+            if not isinstance(array[index], jets.Jet):
                 array[index] = change(array[index])
         return array
     return changed

@@ -248,8 +248,6 @@ def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]
     if not isinstance(given, Mapping):
         raise TypeError(f"parameters must be a dict of symbols or names and their values, not {given!r}")
     values: dict[str, float] = {}
-    if not isinstance(given, Mapping):
-        raise TypeError(f"parameters must be a dict of values by symbol or name, not {given!r}")
     for key, value in given.items():
         if not isinstance(key, str | sympy.Symbol):
             raise TypeError(f"parameters must be symbols or names, not {key!r}")

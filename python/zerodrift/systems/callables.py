@@ -149,8 +149,8 @@ SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints"
           "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
 
 
-# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand. Each callable gets views of its
-# own, as the shape of an array can be set even where its numbers cannot.
+# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand. Each gets views of its own, as
+# the shape of an array can be set even where its numbers cannot.
 _CALLS: dict[frozenset[str], Callable[..., Any]] = {
     frozenset(""): lambda f, t, p, v: f(),
     frozenset("t"): lambda f, t, p, v: f(t=t),
