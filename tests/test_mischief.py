@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 import zerodrift as zd
 from support import FORMULATIONS
 from test_runs import assert_same_bits
+from watched import At, pendulum, throw
 from zerodrift.systems import jets
 
 EXAMPLES = int(os.environ.get("ZERODRIFT_EXAMPLES", "40"))
@@ -307,3 +308,19 @@ def test_no_call_can_hide_an_error(derived, steps, formulation):
             raise error
 
         assert outcome(Mischief("constraints", k, throw), derived, STEPS[steps] | {"formulation": formulation}) is error
+
+
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
+@pytest.mark.parametrize("how", [{"formulation": "schur"}, {"formulation": "independent", "integrator": "euler"}], ids=str)
+def test_no_call_can_hide_an_error_where_steps_are_made_in_parts(how):
+    """There the core goes on after a failure of its own, and must not after one of a callable."""
+    def fast(watch):
+        return zd.simulate(pendulum(watch), 0.2, v0=[0.0, 10.0], step=0.1, stabilization=zd.Projection(max_iterations=2), **how)
+
+    watch = At(-1, None)
+    assert fast(watch).stats["subdivided"]
+    for k in range(1, watch.calls + 1, 3):
+        error = ZeroDivisionError(k)
+        with pytest.raises(ZeroDivisionError) as caught:
+            fast(At(k, throw(error)))
+        assert caught.value is error
