@@ -31,7 +31,9 @@ def compiled(tmp_path, *arguments):
 @needs_compiler
 @linux
 def test_steps_allocate_nothing(tmp_path):
-    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each system, formulation and integrator, corrections on and off."""
+    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each system, formulation and
+    integrator, corrections on and off.
+    """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
     compiled(tmp_path, "-o", "allocations", ROOT / "tests" / "allocations.c", *SOURCES, *wrap, "-lm")
     output = subprocess.run([tmp_path / "allocations"], check=True, capture_output=True, text=True).stdout
