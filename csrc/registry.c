@@ -49,6 +49,24 @@ int zd_rows(enum zd_table table)
     return 0;
 }
 
+static int row_of(enum zd_table table, const zd_card *card)
+{
+    int row = 0;
+    while (zd_row(table, row) != card) row++;
+    return row;
+}
+
+int zd_default_row(enum zd_table table)
+{
+    switch (table) {
+    case ZD_SYSTEMS: return row_of(table, &zd_four_bar.card);
+    case ZD_FORMULATIONS: return row_of(table, &zd_schur.card);
+    case ZD_INTEGRATORS: return row_of(table, &zd_rk4.card);
+    case ZD_CORRECTIONS: return row_of(table, &zd_projection_row.card);
+    }
+    return 0;
+}
+
 const zd_card *zd_row(enum zd_table table, int row)
 {
     if (row < 0 || row >= zd_rows(table)) return NULL;

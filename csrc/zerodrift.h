@@ -18,6 +18,7 @@ enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
 int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
+int zd_default_row(enum zd_table table);    /* the one to take where nothing else is asked for */
 int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
 
 const zd_kind *zd_kind_of(int row);
@@ -56,8 +57,9 @@ typedef struct zd_energy {          /* (28), (29) */
     int every;                      /* 0: off */
 } zd_energy;
 
-/* What to do where constraints that are independent elsewhere are not: a bifurcation. */
-enum zd_on_singular { ZD_STOP, ZD_CONTINUE };   /* the latter: on the branch of least acceleration */
+/* What to do at a bifurcation, where constraints depend on each other that are independent elsewhere, so that the motion can go on in
+ * more than one way: end the run, or go on along the branch that the motion is on; from rest, along that of least acceleration. */
+enum zd_on_singular { ZD_STOP, ZD_CONTINUE };
 
 typedef struct zd_settings {
     int formulation, integrator;    /* rows of the tables */

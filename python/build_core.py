@@ -25,75 +25,17 @@ def fingerprint() -> str:
 
 
 def declarations() -> str:
-    """The public headers without the preprocessor's lines."""
-    headers = "".join((ROOT / "csrc" / name).read_text() for name in ("include/zerodrift/system.h", "zerodrift.h"))
-    return re.sub(r"^#.*$", "", headers, flags=re.MULTILINE) + IN_PYTHON
+    """The headers that CFFI reads, without the preprocessor's lines; functions written in Python are marked as CFFI wants it."""
+    names = ("include/zerodrift/system.h", "zerodrift.h", "python/interface.h")
+    headers = "".join((ROOT / "csrc" / name).read_text() for name in names)
+    return re.sub(r"^#.*$", "", headers, flags=re.MULTILINE).replace("ZD_WRITTEN_IN_PYTHON", 'extern "Python"')
 
-
-# Beside the core's own interface: what it was built from, and the evaluation of systems written in Python. Python never sees the
-# core's memory, which goes with the run: the state and the terms are copied between it and memory of Python's own.
-FOR_PYTHON = """
-typedef struct zd_python_term {     /* Python's memory of one term */
-    int term, slot;                 /* its bit, and which pointer of zd_terms it is */
-    size_t size;                    /* in bytes */
-    const double *values;
-} zd_python_term;
-
-typedef struct zd_python {
-    void *evaluator;                /* handle of the Python object */
-    const zd_system *system;
-    double *p, *v;                  /* (nq,), (nv,): the state of the last call, for Python to read */
-    int terms;
-    const zd_python_term *term;
-} zd_python;
-"""
-
-IN_PYTHON = FOR_PYTHON + """
-extern const char *const zd_fingerprint;
-int zd_evaluate_in_python(const void *, int, double, const double *, const double *, const zd_terms *);
-extern "Python" int zd_write_in_python(void *owner, int want, double t, int moved);
-extern "Python" int zd_refuse_in_python(void *owner, int term, double t);
-extern "Python" int zd_event_in_python(void *owner, int event, double t, const double *p, const double *v, double *value);
-extern "Python" int zd_found_in_python(void *owner, int event, double t, const double *p, const double *v);
-"""
-
-BRIDGE = """
-#include <string.h>
-#include "zerodrift.h"
-
-static const char *const zd_fingerprint = "%s";
-""" + FOR_PYTHON + """
-static int zd_write_in_python(void *evaluator, int want, double t, int moved);
-static int zd_refuse_in_python(void *evaluator, int term, double t);
-
-/* to <- from; returns whether that changed a bit */
-static int replace(double *to, const double *from, int n)
-{
-    if (memcmp(to, from, (size_t)n * sizeof *to) == 0) return 0;
-    memcpy(to, from, (size_t)n * sizeof *to);
-    return 1;
-}
-
-static int zd_evaluate_in_python(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
-{
-    const zd_python *self = data;
-    const zd_system *system = self->system;
-    double *const *to = (double *const *)out;
-    int moved = replace(self->p, p, system->nq) | replace(self->v, v, system->nv) << 1;
-    int status = zd_write_in_python(self->evaluator, want, t, moved);
-    if (status) return status;
-    for (const zd_python_term *term = self->term; term < self->term + self->terms; term++)
-        if (want & term->term) memcpy(to[term->slot], term->values, term->size);
-    int not_finite = zd_first_not_finite(system, want, out);
-    return not_finite ? zd_refuse_in_python(self->evaluator, not_finite, t) : ZD_DONE;
-}
-"""
 
 ffibuilder = FFI()
 ffibuilder.cdef(declarations())
 ffibuilder.set_source(
     "zerodrift._core",
-    BRIDGE % fingerprint(),
+    f'#define ZD_FINGERPRINT "{fingerprint()}"\n#include "python/evaluate.h"\n',
     sources=sources(),
     depends=[str(path.relative_to(ROOT)) for path in (ROOT / "csrc").rglob("*.h")],
     include_dirs=["csrc"],

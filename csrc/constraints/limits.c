@@ -41,7 +41,7 @@ zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
 {
     size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_limits self = {
-        .away = zd_take_doubles(arena, m),
+        .distance = zd_take_doubles(arena, m),
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, n),
         .pdot = zd_take_doubles(arena, nq),
@@ -68,7 +68,7 @@ static int add_ahead(zd_point *point, double s, double weight)
     zd_limits *self = point->rank->limits;
     int n = point->rank->n, m = point->rank->m;
     for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
-    zd_point_move(point, self->t + (self->rests ? 0 : s), self->moved, self->v);
+    zd_point_move(point, self->t + (self->is_at_rest ? 0 : s), self->moved, self->v);
     int status = zd_point_need(point, ZD_C | ZD_XI);
     if (status) return status;
     zd_add_scaled(m * n, self->Cdot, weight, point->terms.C);
@@ -120,7 +120,7 @@ static void split(const zd_point *point, int row, double *x, double *share)
         for (int b = a + 1; b < rank; b++) share[a] -= share[b] * self->R[b * self->m + a];
         share[a] /= self->R[a * self->m + a];
     }
-    for (int a = 0; a < rank; a++) share[a] *= point->per_size[self->row[a]] * point->size[row];
+    for (int a = 0; a < rank; a++) share[a] *= point->inverse_size[self->row[a]] * point->size[row];
 }
 
 /* w = C_d - T C_r and wdot - K C_r of all other holonomic rows, the latter also behind the basis */
@@ -174,16 +174,16 @@ static int choose_next(zd_rank *self, int chosen)
 static double distance(const zd_rank *self, int row)
 {
     const double *w = self->limits->w + row * self->n, *wdot = self->limits->wdot + row * self->n;
-    double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), whole = zd_dot(self->n, wdot, wdot);
-    double aside = own - along / whole * along;
+    double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), rate = zd_dot(self->n, wdot, wdot);
+    double aside = own - along / rate * along;
     int resolved = own > ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
-    return resolved && !(aside <= PARALLEL * PARALLEL * own) ? INFINITY : along / whole;
+    return resolved && !(aside <= PARALLEL * PARALLEL * own) ? INFINITY : along / rate;
 }
 
 static double limit(const zd_point *point, int row, int i)
 {
     const zd_rank *self = point->rank;
-    return self->limits->wdot[row * self->n + i] * point->per_unit[i] * point->size[row];
+    return self->limits->wdot[row * self->n + i] * point->inverse_unit[i] * point->size[row];
 }
 
 static double of_limit(const zd_point *point, int row, const double *x)
@@ -199,9 +199,9 @@ static void insert(zd_point *point, int wanted)
     zd_rank *self = point->rank;
     int n = self->n, before = point->holonomic, behind = self->independent - before;
     memmove(self->C + (before + wanted) * n, self->C + before * n, (size_t)(behind * n) * sizeof(double));
-    memmove(self->place + before + wanted, self->place + before, (size_t)behind * sizeof(int));
+    memmove(self->row_at + before + wanted, self->row_at + before, (size_t)behind * sizeof(int));
     for (int j = 0; j < wanted; j++) {
-        int row = self->place[before + j] = self->row[self->independent + j];
+        int row = self->row_at[before + j] = self->row[self->independent + j];
         for (int i = 0; i < n; i++) self->C[(before + j) * n + i] = limit(point, row, i);
     }
     self->lost = wanted;
@@ -214,7 +214,7 @@ static int find_rates(zd_point *point, int wanted, int *found)
 {
     zd_rank *self = point->rank;
     *found = 0;
-    self->limits->speed = zd_max_scaled(point->system->nq, self->limits->pdot, point->per_unit_p);
+    self->limits->speed = zd_max_scaled(point->system->nq, self->limits->pdot, point->inverse_unit_p);
     if (!(self->limits->speed > 0 && self->limits->speed < INFINITY)) return ZD_DONE;
     int status = differentiate(point);
     if (status) return status;
@@ -244,8 +244,8 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
         int row = self->row[a];
         for (int i = 0; i < n; i++)
             K[(n + a) * size + i] = K[i * size + n + a] = a < self->independent
-                ? point->terms.C[row * n + i] * point->unit[i] * point->per_size[row] : self->limits->wdot[row * n + i];
-        y[n + a] = rhs[a] * point->per_size[row];
+                ? point->terms.C[row * n + i] * point->unit[i] * point->inverse_size[row] : self->limits->wdot[row * n + i];
+        y[n + a] = rhs[a] * point->inverse_size[row];
     }
     if (zd_lu_factor(size, K, self->limits->order) < size) return 0;
     zd_lu_solve(size, K, self->limits->order, y);
@@ -291,7 +291,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
         for (int j = 0; j < wanted; j++) limits[j] = of_limit(point, self->row[self->independent + j], e) - limits[j] / 2;
         if (!solve(point, wanted, self->limits->force, rhs, x)) return ZD_DONE;
         zd_subtract(n, x, e, e);
-        double change = zd_max_scaled(n, e, point->per_unit) / self->limits->speed;
+        double change = zd_max_scaled(n, e, point->inverse_unit) / self->limits->speed;
         *found = change <= SETTLED;
         if (*found) return ZD_DONE;
         stalls += change > FALLING * best;
@@ -306,17 +306,17 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
 int zd_limits_find(zd_point *point)
 {
     zd_rank *self = point->rank;
-    int wanted = self->limit - self->independent, found;
+    int wanted = self->most_rows - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->limits->pdot);
-    self->limits->rests = zd_max_abs(point->system->nq, self->limits->pdot) == 0;
-    status = self->limits->rests ? find_from_rest(point, wanted, &found) : find_rates(point, wanted, &found);
+    self->limits->is_at_rest = zd_max_abs(point->system->nq, self->limits->pdot) == 0;
+    status = self->limits->is_at_rest ? find_from_rest(point, wanted, &found) : find_rates(point, wanted, &found);
     if (status || !found) return status;
     for (int j = 0; j < wanted; j++) {
-        self->limits->away[j] = distance(self, self->row[self->independent + j]);
-        if (!(fabs(self->limits->away[j]) < INFINITY)) return ZD_DONE;
+        self->limits->distance[j] = distance(self, self->row[self->independent + j]);
+        if (!(fabs(self->limits->distance[j]) < INFINITY)) return ZD_DONE;
     }
     insert(point, wanted);
     return ZD_DONE;
@@ -332,7 +332,7 @@ static double besides_others(const zd_rank *self, int row, double so_much, const
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
     const zd_rank *self = point->rank;
-    if (fabs(self->limits->away[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->limits->away[j];
+    if (fabs(self->limits->distance[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->limits->distance[j];
     if (what == ZD_LIMIT_PHI) return 0;
     return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
 }
@@ -351,7 +351,7 @@ int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs)
     const zd_rank *self = point->rank;
     int first = point->holonomic - self->lost, status = zd_point_need(point, ZD_XI);
     for (int j = 0; j < self->lost && !status; j++) {
-        int row = self->place[first + j];
+        int row = self->row_at[first + j];
         rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->limits->xidot, 1) / 3, rhs)
                  : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)
                  : violation(point, j, row, what, rhs);

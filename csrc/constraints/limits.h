@@ -5,14 +5,14 @@
 #include "rank.h"
 
 struct zd_limits {
-    double *away;       /* (lost,): of path, in natural units, from the bifurcation */
+    double *distance;   /* (lost,): of path, in natural units, from the bifurcation */
     double speed;       /* in natural units, by which rates are taken */
     double t, *p, *v;   /* (nq,), (n,): where that is */
     double *pdot, *moved;       /* (nq,), (nq,) */
     double *Cdot, *xidot;       /* (m, n), (m,) */
     double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along the rows that count */
     double *w, *wdot;           /* (m, n): and what besides, in natural units */
-    int rests;                  /* whether the point does */
+    int is_at_rest;             /* whether the point is */
     double *e, *x, *force;      /* (n,) each: from rest, its acceleration, the next one, f - d */
     double *K, *y;              /* (n + m, n + m), (n + m,) */
     int *order;                 /* (n + m,) */

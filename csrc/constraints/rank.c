@@ -32,17 +32,17 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .n = (int)n,
         .m = (int)m,
         .mh = system->mh,
-        .limit = (int)m,
-        .holonomic_limit = system->mh,
+        .most_rows = (int)m,
+        .most_holonomic = system->mh,
         .redundant = zd_take(arena, m * sizeof(int)),
         .row = zd_take(arena, m * sizeof(int)),
-        .place = zd_take(arena, m * sizeof(int)),
-        .length = zd_take_doubles(arena, m),
+        .row_at = zd_take(arena, m * sizeof(int)),
+        .start_square = zd_take_doubles(arena, m),
         .C = zd_take_doubles(arena, m * n),
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
-        .whole = zd_take_doubles(arena, m),
-        .left = zd_take_doubles(arena, m),
+        .square = zd_take_doubles(arena, m),
+        .square_left = zd_take_doubles(arena, m),
         .weight = zd_take_doubles(arena, m),
         .K = zd_take_doubles(arena, m * m),
         .L = zd_take_doubles(arena, n * n),
@@ -64,9 +64,9 @@ static void set_rows(zd_rank *self, const double *C, const double *L)
         if (L) zd_forward(n, L, C + k * n, q);
         else zd_copy(n, C + k * n, q);
         for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
-        self->whole[k] = self->left[k] = zd_dot(n, q, q);
+        self->square[k] = self->square_left[k] = zd_dot(n, q, q);
         double length = zd_dot(n, C + k * n, C + k * n);
-        if (!(length > self->tolerance * self->length[k])) self->left[k] = 0;
+        if (!(length > self->tolerance * self->start_square[k])) self->square_left[k] = 0;
     }
 }
 
@@ -76,9 +76,9 @@ static int choose_row(const zd_rank *self, int begin, int end)
     int best = -1;
     double most = self->tolerance;
     for (int k = begin; k < end; k++)
-        if (self->left[k] > most * self->whole[k]) {
+        if (self->square_left[k] > most * self->square[k]) {
             best = k;
-            most = 4 * self->left[k] / self->whole[k];
+            most = 4 * self->square_left[k] / self->square[k];
         }
     return best;
 }
@@ -89,13 +89,13 @@ static void take_out(zd_rank *self, int chosen, int rank)
     double *q = self->Q + chosen * n, length = sqrt(zd_dot(n, q, q));
     for (int i = 0; i < n; i++) q[i] /= length;
     self->G[chosen * self->m + rank] = length;
-    self->left[chosen] = -1;
+    self->square_left[chosen] = -1;
     for (int k = 0; k < self->m; k++) {
         double *other = self->Q + k * n;
-        if (self->left[k] < 0) continue;
+        if (self->square_left[k] < 0) continue;
         double along = self->G[k * self->m + rank] = zd_dot(n, q, other);
         zd_add_scaled(n, other, -along, q);
-        if (self->left[k] > 0) self->left[k] = zd_dot(n, other, other);
+        if (self->square_left[k] > 0) self->square_left[k] = zd_dot(n, other, other);
     }
 }
 
@@ -103,22 +103,22 @@ static int orthogonalize(zd_rank *self, const double *C, const double *L)
 {
     int rank = 0, chosen;
     set_rows(self, C, L);
-    while (rank < self->limit && rank < self->holonomic_limit && (chosen = choose_row(self, 0, self->mh)) >= 0) {
+    while (rank < self->most_rows && rank < self->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
         take_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
-    while (rank < self->limit && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
+    while (rank < self->most_rows && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
         take_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
     for (int k = 0, next = rank; k < self->m; k++)
-        if (self->left[k] >= 0) self->row[next++] = k;
+        if (self->square_left[k] >= 0) self->row[next++] = k;
     return rank;
 }
 
 static void set_weights(zd_rank *self)
 {
-    for (int k = 0; k < self->m; k++) self->weight[k] = self->left[k] != 0 && self->whole[k] > 0 ? 1 / self->whole[k] : 0;
+    for (int k = 0; k < self->m; k++) self->weight[k] = self->square_left[k] != 0 && self->square[k] > 0 ? 1 / self->square[k] : 0;
 }
 
 /* Whether M^-1 is one: with so little of a pivot left, rounding in that metric would be as large as the tolerance. */
@@ -188,7 +188,7 @@ static void use_chosen(zd_point *point, int rank)
     express_others(self, rank);
     set_shares(self, rank);
     for (int a = 0; a < rank; a++) {
-        self->place[a] = self->row[a];
+        self->row_at[a] = self->row[a];
         zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
     }
     self->independent = point->rows = rank;
@@ -211,7 +211,7 @@ void zd_rank_choose(zd_point *point, double tolerance)
 
 void zd_rank_scale(const zd_point *point, int row, double *x)
 {
-    for (int i = 0; i < point->rank->n; i++) x[i] *= point->unit[i] * point->per_size[row];
+    for (int i = 0; i < point->rank->n; i++) x[i] *= point->unit[i] * point->inverse_size[row];
 }
 
 void zd_rank_set_basis(const zd_point *point)

@@ -11,28 +11,28 @@ typedef struct zd_limits zd_limits;     /* limits.h */
 
 struct zd_rank {
     int n, m, mh;
-    int limit, holonomic_limit;     /* most rows that count, of all and of the holonomic: less than m, mh where some are redundant */
-    double tolerance;   /* squared: of a row's length, below which it is no longer one */
-    int may_drop;       /* whether fewer are taken as they come; else that is ZD_BIFURCATION */
-    int begun;          /* whether the start is over: then that is told from rows that are redundant */
-    int dropped;        /* whether that has happened, in this step */
-    int near;           /* whether a closer look was needed, in this step */
-    int *redundant;     /* (m,): whether the row was redundant at the start */
-    int independent;    /* rows that are, here */
-    int *row;           /* (m,): those rows, holonomic ones first, then those that follow from them */
-    int *place;         /* (rows,): which of all rows stand where in point->C */
-    double *length;     /* (m,): squares of the lengths of the rows at the start */
-    double *C;          /* (rows, n): those that count */
-    double *Q;          /* (m, n): rows being orthogonalized */
-    double *G;          /* (m, m): what they had along each other, and then (rows beyond those that count) T: C_other = T C */
-    double *whole, *left;   /* (m,): squares of their lengths, before and after */
-    double *weight;     /* (m,): 1 / |row|^2 */
-    double *K;          /* (rows, rows): factored; see share_out() */
-    double *L;          /* (n, n): of M */
+    int most_rows, most_holonomic;  /* that count anywhere, of all and of the holonomic: less than m, mh where some are redundant */
+    double tolerance;       /* squared: the share of a row's length below which it follows from the others */
+    int may_be_deficient;   /* whether fewer than that may count at a point; else that is ZD_BIFURCATION */
+    int is_started;         /* whether it is known which rows are redundant */
+    int was_deficient;      /* whether fewer than that have counted at a point of this step */
+    int was_ill_conditioned;    /* whether rows had to be orthogonalized at a point of this step, as they might be dependent */
+    int *redundant;         /* (m,): whether the row was redundant at the start */
+    int independent;        /* how many rows are, at the point */
+    int *row;               /* (m,): these rows, holonomic ones first, then those that follow from them */
+    int *row_at;            /* (rows,): which of all rows stand where in point->C */
+    double *start_square;   /* (m,): squared lengths of the rows at the start */
+    double *C;              /* (rows, n): those that count */
+    double *Q;              /* (m, n): rows being orthogonalized */
+    double *G;              /* (m, m): products of the rows with those chosen; then, of rows not chosen, T in C_d = T C_r */
+    double *square, *square_left;   /* (m,): squared lengths of the rows, and of what is left of them once others are taken out */
+    double *weight;         /* (m,): 1 / |row|^2 */
+    double *K;              /* (rows, rows): B^T W B, factored; see rank.c */
+    double *L;              /* (n, n): Cholesky factor of M */
     double *rhs, *lambda;   /* (rows,) */
-    double *R;          /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
-    int lost;           /* rows for which limits stand: the last of the holonomic ones in point->C */
-    zd_limits *limits;  /* NULL where fewer rows are never taken as they come */
+    double *R;              /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
+    int lost;               /* rows for which limits stand: the last of the holonomic ones in point->C */
+    zd_limits *limits;      /* NULL where may_be_deficient is 0 */
 };
 
 /* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
@@ -57,7 +57,7 @@ static inline int zd_rank_is_full(const zd_point *point)
 /* Which row of all stands there among those that count. */
 static inline int zd_rank_row(const zd_point *point, int k)
 {
-    return zd_rank_is_full(point) ? k : point->rank->place[k];
+    return zd_rank_is_full(point) ? k : point->rank->row_at[k];
 }
 /* x, of this row, in natural units. */
 void zd_rank_scale(const zd_point *point, int row, double *x);

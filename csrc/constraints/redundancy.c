@@ -18,10 +18,10 @@ static void measure(const zd_point *point)
 {
     const zd_rank *self = point->rank;
     int n = self->n, m = self->m;
-    for (int k = 0; k < m; k++) self->length[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
-    double largest = zd_max_abs(m, self->length);
+    for (int k = 0; k < m; k++) self->start_square[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
+    double largest = zd_max_abs(m, self->start_square);
     for (int k = 0; k < m; k++)
-        if (!(self->length[k] > NO_ROW * largest)) self->length[k] = largest;
+        if (!(self->start_square[k] > NO_ROW * largest)) self->start_square[k] = largest;
 }
 
 /* v <- another velocity that the constraints allow where they allow v0 */
@@ -29,7 +29,7 @@ static void vary(const zd_point *point, unsigned *seed, const double *v0, double
 {
     const zd_rank *self = point->rank;
     int n = self->n;
-    double size = 1 + zd_max_scaled(n, v0, point->per_unit);
+    double size = 1 + zd_max_scaled(n, v0, point->inverse_unit);
     for (int i = 0; i < n; i++) {
         *seed = *seed * 1664525u + 1013904223u;
         v[i] = size * ((double)(*seed >> 8) * 0x1p-23 - 1);
@@ -40,7 +40,7 @@ static void vary(const zd_point *point, unsigned *seed, const double *v0, double
 
 static double unit_of(const zd_rank *self, int k)
 {
-    return self->length[k] > 0 ? sqrt(self->length[k]) : 1;
+    return self->start_square[k] > 0 ? sqrt(self->start_square[k]) : 1;
 }
 
 /* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
@@ -84,10 +84,10 @@ static int count_curved(zd_point *point, int others, double *sample)
         status = zd_point_need(point, ZD_XI);
         if (status) break;
         if (curvature(point, w) >= point->rows + others) continue;
-        double whole = zd_dot(others, w, w);
+        double square = zd_dot(others, w, w);
         for (int b = 0; b < curved; b++) zd_add_scaled(others, w, -zd_dot(others, basis + b * others, w), basis + b * others);
         double left = zd_dot(others, w, w);
-        if (!(left > SQUARED * whole)) continue;
+        if (!(left > SQUARED * square)) continue;
         for (int b = 0; b < others; b++) w[b] /= sqrt(left);
         curved++;
     }
@@ -101,13 +101,13 @@ static int tell_redundant(zd_point *point, double *sample)
     int status = zd_point_need(point, ZD_XI);
     if (status) return status;
     int first = curvature(point, sample);
-    point->culprit = self->row[first < self->m ? first : 0];
+    point->failed_index = self->row[first < self->m ? first : 0];
     if (first < self->m) return ZD_CONTRADICTION;       /* there is no vdot */
     int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
     int curved = count_curved(point, others, sample), curved_holonomic = curved > 0 ? count_curved(point, holonomic, sample) : 0;
     if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
-    self->limit = point->rows + curved;
-    self->holonomic_limit = point->holonomic + curved_holonomic;
+    self->most_rows = point->rows + curved;
+    self->most_holonomic = point->holonomic + curved_holonomic;
     if (curved) return ZD_DONE;
     for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
     return ZD_DONE;
@@ -129,15 +129,15 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
     if (!self->m) return ZD_DONE;
     int status = zd_point_need(point, ZD_C | ZD_M);
     if (status) return status;
-    self->may_drop = 1;
+    self->may_be_deficient = 1;
     measure(point);
     status = zd_rows_find(point);
-    self->may_drop = on_singular == ZD_CONTINUE;
-    self->begun = 1;
+    self->may_be_deficient = on_singular == ZD_CONTINUE;
+    self->is_started = 1;
     if (status || point->rows == self->m) return status;
     status = point->system->provides & ZD_XI ? tell_redundant_rows(point) : ZD_DONE;
     if (status) return status;
-    self->dropped = point->rows < self->limit;
-    if (self->dropped && !self->may_drop) return ZD_BIFURCATION;
-    return self->dropped ? zd_rows_find_again(point) : ZD_DONE;
+    self->was_deficient = point->rows < self->most_rows;
+    if (self->was_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
+    return self->was_deficient ? zd_rows_find_again(point) : ZD_DONE;
 }

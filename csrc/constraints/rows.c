@@ -8,9 +8,9 @@
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 
-zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_drop)
+zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_be_deficient)
 {
-    zd_limits *limits = may_drop ? zd_limits_take(arena, system) : NULL;
+    zd_limits *limits = may_be_deficient ? zd_limits_take(arena, system) : NULL;
     zd_rank *self = zd_rank_take(arena, system);
     if (self) self->limits = limits;
     return self;
@@ -20,19 +20,19 @@ static int reduce(zd_point *point)
 {
     static const double region = ZD_BRANCH_REGION * ZD_BRANCH_REGION;
     zd_rank *self = point->rank;
-    self->near = 1;
+    self->was_ill_conditioned = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
-    int by_limits = self->begun && self->limits;
+    int by_limits = self->is_started && self->limits;
     zd_rank_choose(point, by_limits ? region : SQUARED);
-    if (by_limits && point->rows < self->limit) {
+    if (by_limits && point->rows < self->most_rows) {
         status = zd_limits_find(point);
         if (!status && !self->lost) zd_rank_choose(point, SQUARED);
     }
-    int dropped = self->lost || point->rows < self->limit;
-    self->dropped |= dropped;
-    if (dropped && !self->may_drop) return ZD_BIFURCATION;
+    int is_deficient = self->lost || point->rows < self->most_rows;
+    self->was_deficient |= is_deficient;
+    if (is_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
     return status;
 }
@@ -41,20 +41,20 @@ static int reduce(zd_point *point)
 ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
 {
     int m = self->m;
-    double *whole = self->whole, *left = self->left;
+    double *square = self->square, *left = self->square_left;
     for (int k = 0; k < m; k++) {
-        whole[k] = zd_dot(n, C + k * n, C + k * n);
-        if (!(whole[k] > DOUBTFUL * self->length[k])) return 1;
+        square[k] = zd_dot(n, C + k * n, C + k * n);
+        if (!(square[k] > DOUBTFUL * self->start_square[k])) return 1;
     }
     if (m < 2) return 0;
     double along = zd_dot(n, C, C + n);
-    if (m == 2) return !((1 - DOUBTFUL) * whole[0] * whole[1] > along * along);     /* without the divisions of what follows */
+    if (m == 2) return !((1 - DOUBTFUL) * square[0] * square[1] > along * along);     /* without the divisions of what follows */
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n;
         zd_copy(n, C + k * n, q);
         for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
         left[k] = zd_dot(n, q, q);
-        if (!(left[k] > DOUBTFUL * whole[k])) return 1;
+        if (!(left[k] > DOUBTFUL * square[k])) return 1;
     }
     return 0;
 }
@@ -65,7 +65,7 @@ int zd_rows_find(zd_point *point)
     if (point->known & ZD_RANKED) return ZD_DONE;
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
-    if (self->limit < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
+    if (self->most_rows < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
     zd_rank_use_all(point);
     point->known |= ZD_RANKED;
     return ZD_DONE;

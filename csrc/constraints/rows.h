@@ -4,8 +4,8 @@
 
 #include "rank.h"
 
-/* `may_drop`: whether the run goes on where fewer rows are independent than elsewhere; else that is ZD_BIFURCATION. */
-zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_drop);
+/* `may_be_deficient`: whether the run goes on where fewer rows are independent than elsewhere; else that is ZD_BIFURCATION. */
+zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_be_deficient);
 /* Which rows count at the point, into point->rows, point->C. */
 int zd_rows_find(zd_point *point);
 /* The same again, as the velocity has changed, along which limits are taken. */

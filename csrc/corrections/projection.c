@@ -36,7 +36,7 @@ extern const zd_formulation zd_schur;
 typedef struct position_problem {   /* what Newton's loop is handed */
     projection *self;
     zd_motion *motion;
-    int begun;              /* whether p has been moved */
+    int has_moved;          /* whether an iteration has moved p */
 } position_problem;
 
 static int every(const zd_settings *settings)
@@ -82,7 +82,7 @@ static int solve_with_identity(projection *self, zd_motion *motion, enum zd_limi
     unit.terms.M = self->identity;
     motion->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
-    motion->point->culprit = unit.culprit;
+    motion->point->failed_index = unit.failed_index;
     if (!status) zd_solve_with(&unit, &zd_schur, self->plain, NULL, self->rhs, x, NULL);
     return status;
 }
@@ -106,8 +106,8 @@ static int improve_position(void *context)
     const zd_system *system = point->system;
     int status = zd_point_need(point, ZD_PHI | ZD_A);
     if (status) return status;
-    if (!problem->begun) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
-    problem->begun = 1;
+    if (!problem->has_moved) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
+    problem->has_moved = 1;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
     status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);
     if (status) return status;
@@ -146,7 +146,7 @@ static int iterate(const zd_newton *newton, position_problem *problem)
     zd_motion *motion = problem->motion;
     zd_statistics *statistics = &motion->statistics;
     int iterations;
-    int status = zd_newton_solve(newton, problem, &iterations, &motion->point->defect);
+    int status = zd_newton_solve(newton, problem, &iterations, &motion->point->residual_left);
     statistics->position_iterations += iterations;
     if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
     if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
@@ -160,9 +160,10 @@ static int correct_positions(projection *self, zd_motion *motion)
                         motion->in_run ? TRUSTED : 0, NULL};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
-    /* Near a bifurcation a violation within the tolerance may be a long way off: what can be corrected, is. */
-    if (!status && motion->point->rank->near && motion->point->rank->limit == motion->point->rank->m) return improve_position(&problem);
-    if (!status || status == ZD_CALLBACK || !problem.begun) return status;
+    /* Near a bifurcation C is small, so that a violation within the tolerance may belong to a p far from the constraints: one more
+     * iteration is made there. */
+    if (!status && motion->point->rank->was_ill_conditioned && motion->point->rank->most_rows == motion->point->rank->m) return improve_position(&problem);
+    if (!status || status == ZD_CALLBACK || !problem.has_moved) return status;
     newton.improve = improve_and_remember;
     newton.contraction = 0;
     newton.retreat = retreat;

@@ -71,8 +71,8 @@ static int factor(void *memory, zd_point *point)
     fill(self, point->terms.M, point->C);                               /* (8) */
     int column = zd_lu_factor(size, self->G, self->order);
     if (column == size) return ZD_DONE;
-    point->culprit = column < self->n ? column : column - self->n;
-    return column < self->n ? ZD_SINGULAR : ZD_DEPENDENT;
+    point->failed_index = column < self->n ? column : column - self->n;
+    return column < self->n ? ZD_SINGULAR : ZD_DEPENDENT_ROWS;
 }
 
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)

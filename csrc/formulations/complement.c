@@ -38,12 +38,12 @@ static int choose(zd_complement *self, zd_point *point)
 {
     for (int k = 0; k < self->m; k++)       /* in natural units */
         for (int j = 0; j < self->n; j++)
-            self->work[k * self->n + j] = point->C[k * self->n + j] * point->unit[j] * point->per_size[zd_rank_row(point, k)];
+            self->work[k * self->n + j] = point->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
-    point->culprit = rank;
+    point->failed_index = rank;
     self->chosen = rank == self->m;
     self->reference = 0;
-    return self->chosen ? ZD_DONE : ZD_DEPENDENT;
+    return self->chosen ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
 void zd_complement_prefer(zd_complement *self, const int *independent)
@@ -72,7 +72,7 @@ static void fill_partitioned(zd_complement *self, const zd_point *point)
         zd_lu_solve(m, self->K, self->pivots, self->work);
         for (int k = 0; k < m; k++) {
             self->D[self->order[k] * r + j] = self->work[k];
-            self->largest = fmax(self->largest, fabs(self->work[k]) * point->per_unit[self->order[k]] * point->unit[column]);
+            self->largest = fmax(self->largest, fabs(self->work[k]) * point->inverse_unit[self->order[k]] * point->unit[column]);
         }
         self->D[column * r + j] = 1;
     }
@@ -89,8 +89,8 @@ static int partition(zd_complement *self, zd_point *point)
     }
     for (int k = 0; k < m; k++)
         for (int j = 0; j < m; j++) self->K[k * m + j] = C[k * n + self->order[j]];
-    point->culprit = zd_lu_factor(m, self->K, self->pivots);
-    if (point->culprit < m) return ZD_DEPENDENT;
+    point->failed_index = zd_lu_factor(m, self->K, self->pivots);
+    if (point->failed_index < m) return ZD_DEPENDENT_ROWS;
     fill_partitioned(self, point);
     return ZD_DONE;
 }
@@ -103,15 +103,15 @@ static int adopt(zd_complement *self, zd_point *point)
     memcpy(self->D, point->terms.D, (size_t)(n * r) * sizeof(double));
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) self->K[i * n + j] = i < m ? point->terms.C[i * n + j] : self->D[j * r + i - m];
-    point->culprit = zd_lu_factor(n, self->K, self->pivots);
-    if (point->culprit < n) return ZD_DEPENDENT;
+    point->failed_index = zd_lu_factor(n, self->K, self->pivots);
+    if (point->failed_index < n) return ZD_DEPENDENT_ROWS;
     for (int a = 0; a < r; a++)
         for (int b = 0; b < r; b++) {
             double sum = 0;
             for (int i = 0; i < n; i++) sum += self->D[i * r + a] * self->D[i * r + b];
             self->gram[a * r + b] = sum;
         }
-    return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT;
+    return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
 static void count_rows(zd_complement *self, const zd_point *point)
@@ -136,7 +136,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
 int zd_complement_review(zd_complement *self, zd_point *point)
 {
     int was_chosen = self->chosen, status = zd_complement_at(self, point);
-    int is_bad = status == ZD_DEPENDENT || (!status && self->largest > WORSE * self->reference);
+    int is_bad = status == ZD_DEPENDENT_ROWS || (!status && self->largest > WORSE * self->reference);
     if (self->own || !was_chosen || !is_bad) return status;
     point->statistics->repartitions++;
     self->chosen = 0;

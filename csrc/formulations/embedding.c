@@ -64,13 +64,13 @@ static int factor(zd_embedding *self, zd_point *point)
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
         for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]) * point->unit[j];
-        gradient = fmax(gradient, sum * point->per_size[zd_rank_row(point, k)]);
+        gradient = fmax(gradient, sum * point->inverse_size[zd_rank_row(point, k)]);
     }
     for (int k = 0; k < self->k; k++)
         for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
-    self->rounding = 16 * 0x1p-52 * gradient * zd_max_scaled(self->nq, point->p, point->per_unit_p);
-    point->culprit = zd_lu_factor(nv, self->K, self->pivots);
-    return point->culprit < nv ? ZD_SINGULAR : ZD_DONE;
+    self->rounding = 16 * 0x1p-52 * gradient * zd_max_scaled(self->nq, point->p, point->inverse_unit_p);
+    point->failed_index = zd_lu_factor(nv, self->K, self->pivots);
+    return point->failed_index < nv ? ZD_SINGULAR : ZD_DONE;
 }
 
 /* ---- Newton's iteration ---- */
@@ -85,7 +85,7 @@ typedef struct problem {
 static int find_resolution(const zd_embedding *self, zd_point *point, double *resolution)
 {
     *resolution = self->rounding;
-    if (!point->rank->near) return ZD_DONE;
+    if (!point->rank->was_ill_conditioned) return ZD_DONE;
     int status = zd_rows_find(point);
     if (!status && point->rank->lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
     return status;
@@ -133,7 +133,7 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     zd_point_move(point, t, self->p, point->v);
     int status = zd_newton_solve(&newton, &it, &iterations, &left);
     point->statistics->embedding_iterations += iterations;
-    point->defect = left * self->rounding;
+    point->residual_left = left * self->rounding;
     return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
 }
 
@@ -144,7 +144,7 @@ static void predict(zd_embedding *self, zd_point *point, double t)
     double h = t - point->t;
     if (point->terms.A && !(point->known & ZD_A)) h = 0;
     else zd_point_rate(point, point->v, self->p);
-    int far = h == 0 || !(fabs(h) * zd_max_scaled(self->nq, self->p, point->per_unit_p) <= FARTHEST);
+    int far = h == 0 || !(fabs(h) * zd_max_scaled(self->nq, self->p, point->inverse_unit_p) <= FARTHEST);
     for (int i = 0; i < self->nq; i++) self->p[i] = far ? point->p[i] : point->p[i] + h * self->p[i];
 }
 
@@ -183,7 +183,7 @@ static double response(zd_embedding *self, const zd_point *point)
         memset(self->delta, 0, (size_t)self->nv * sizeof(double));
         self->delta[self->mh + k] = 1;
         zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
-        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->per_unit) / point->per_unit_p[self->index[k]]);
+        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->inverse_unit) / point->inverse_unit_p[self->index[k]]);
     }
     return largest;
 }
@@ -194,10 +194,10 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->C[i * nv + j] * point->per_size[zd_rank_row(point, i)]
-                                                                   : kinematic(point, i - mh, j) * point->per_unit_p[i - mh]);
-    point->culprit = zd_choose_columns(nv, columns, mh, self->work, self->order);
-    if (point->culprit < nv) return ZD_DEPENDENT;
+            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
+                                                                   : kinematic(point, i - mh, j) * point->inverse_unit_p[i - mh]);
+    point->failed_index = zd_choose_columns(nv, columns, mh, self->work, self->order);
+    if (point->failed_index < nv) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;
     return ZD_DONE;
 }
@@ -208,7 +208,7 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
     *changed = 0;
     int status = self->chosen && self->embed && self->mh ? factor(self, point) : ZD_DONE;
     if (status && status != ZD_SINGULAR) return status;
-    if (self->chosen && self->embed && self->mh && (status || point->rank->near || !(response(self, point) <= MOST_RESPONSE)))
+    if (self->chosen && self->embed && self->mh && (status || point->rank->was_ill_conditioned || !(response(self, point) <= MOST_RESPONSE)))
         give_up_own(self);
     if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
     status = need_rows(self, point);

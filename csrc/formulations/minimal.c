@@ -37,8 +37,8 @@ int zd_minimal_factor(void *memory, zd_point *point)
     if (status) return status;
     self->M = point->terms.M;
     zd_complement_mass(&self->complement, self->M, self->Mu);
-    point->culprit = ZD_SIZED(zd_cholesky, r, self->Mu, self->Mu);
-    return point->culprit < r ? ZD_NOT_DEFINITE : ZD_DONE;
+    point->failed_index = ZD_SIZED(zd_cholesky, r, self->Mu, self->Mu);
+    return point->failed_index < r ? ZD_NOT_DEFINITE : ZD_DONE;
 }
 
 /* b = force - M x */
@@ -76,7 +76,7 @@ static int turn(zd_minimal *self, zd_point *point, double *change)
     if (!status) status = check_size(self);
     if (status) return status;
     for (int i = 0; i < self->complement.n; i++) self->du[i] = self->b[i] - point->v[i];
-    *change = zd_max_scaled(self->complement.n, self->du, point->per_unit);
+    *change = zd_max_scaled(self->complement.n, self->du, point->inverse_unit);
     zd_point_move_velocity(point, self->b);
     return ZD_DONE;
 }

@@ -68,8 +68,8 @@ static int factor(void *memory, zd_point *point)
     if (status) return status;
     self->M = point->terms.M;
     fill(self, self->M, point->C);                                      /* (9) */
-    point->culprit = zd_lu_factor(n, self->H, self->order);
-    return point->culprit < n ? ZD_SINGULAR : ZD_DONE;
+    point->failed_index = zd_lu_factor(n, self->H, self->order);
+    return point->failed_index < n ? ZD_SINGULAR : ZD_DONE;
 }
 
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)

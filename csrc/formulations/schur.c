@@ -69,9 +69,9 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n, *g = self->G + k * m;
         zd_forward(n, self->L, C + k * n, q);
-        double whole = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
-        if (rest < 0.01 * whole) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
-        if (!(rest > LEAST * LEAST * whole) || !(rest < INFINITY)) return k;
+        double square = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
+        if (rest < 0.01 * square) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
+        if (!(rest > LEAST * LEAST * square) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
@@ -82,14 +82,14 @@ ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(facto
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
-    point->culprit = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
-    if (point->culprit < self->n) return ZD_NOT_DEFINITE;
+    point->failed_index = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
+    if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
     int status = zd_rows_find(point);
     if (status) return status;
     self->m = point->rows;
     self->C = point->C;
-    point->culprit = ZD_SIZED(factor_rows, self->n, self);
-    return point->culprit < self->m ? ZD_DEPENDENT : ZD_DONE;
+    point->failed_index = ZD_SIZED(factor_rows, self->n, self);
+    return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */

@@ -141,10 +141,10 @@ static int residual(void *context, double *size)
     motion->statistics.solves++;
     zd_motion_solve(motion, self->F, self->rhs, self->x, NULL);
 
-    double change = zd_max_abs(n, self->x), whole = zd_max_abs(n, self->w);
-    int rounding = change >= self->before / 2 && change <= SMALL * (whole + zd_max_abs(n, self->p) / fabs(self->h));
+    double change = zd_max_abs(n, self->x), speed = zd_max_abs(n, self->w);
+    int rounding = change >= self->before / 2 && change <= SMALL * (speed + zd_max_abs(n, self->p) / fabs(self->h));
     self->before = change;
-    *size = change > 0 && !rounding ? change / fmax(change, whole) : 0;
+    *size = change > 0 && !rounding ? change / fmax(change, speed) : 0;
     return ZD_DONE;
 }
 
@@ -157,9 +157,9 @@ static void learn(rattle *self)
     multiply(n, 1, self->H, y, 0, Hy);
     for (int j = 0; j < n; j++) sH[j] = 0;
     for (int i = 0; i < n; i++) zd_add_scaled(n, sH, self->s[i], self->H + i * n);
-    double whole = zd_dot(n, sH, y);
-    if (!(fabs(whole) > LEAST * zd_dot(n, self->s, self->s))) return;
-    for (int i = 0; i < n; i++) zd_add_scaled(n, self->H + i * n, (self->s[i] - Hy[i]) / whole, sH);
+    double denominator = zd_dot(n, sH, y);
+    if (!(fabs(denominator) > LEAST * zd_dot(n, self->s, self->s))) return;
+    for (int i = 0; i < n; i++) zd_add_scaled(n, self->H + i * n, (self->s[i] - Hy[i]) / denominator, sH);
 }
 
 static int improve(void *context)

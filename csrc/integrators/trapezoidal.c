@@ -31,7 +31,7 @@ typedef struct trapezoidal {
     double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
     int *order;         /* (size,) */
     int factored;
-    double least;           /* increment, in 2^26ths: where some y and f are but rounding, differences need more than these say */
+    double least_size;      /* below which no y_i is varied as if it were: where y_i and f_i are but rounding, their sizes say nothing */
     double factored_h;
     const zd_rate *rate;    /* of the step being solved, as are the next three */
     double t1, h;
@@ -66,7 +66,7 @@ static int rate_at_end(trapezoidal *self, double *f)
 /* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
 static double increment(const trapezoidal *self, int i)
 {
-    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), fmax(self->scale[i], self->least)));
+    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), fmax(self->scale[i], self->least_size)));
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
@@ -74,7 +74,7 @@ static void choose_units(trapezoidal *self)
 {
     for (int i = 0; i < self->size; i++) {
         int exponent = 0;
-        double size = fmax(self->scale[i], self->least);
+        double size = fmax(self->scale[i], self->least_size);
         if (size > 0 && size < INFINITY) (void)frexp(size, &exponent);
         self->unit[i] = ldexp(1, exponent);
     }
@@ -161,11 +161,11 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     if (status) return status;
     for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
 
-    self->least = 0;
+    self->least_size = 0;
     status = solve_step(self, statistics);
     if (status == ZD_NO_CONVERGENCE || status == ZD_NO_STEP) {
         self->factored = 0;
-        self->least = 1e-3 * zd_max_abs(self->size, y);
+        self->least_size = 1e-3 * zd_max_abs(self->size, y);
         for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
         status = solve_step(self, statistics);
     }

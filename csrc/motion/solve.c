@@ -19,7 +19,7 @@ static void solve_reduced(const zd_point *point, const zd_formulation *formulati
 {
     zd_rank *rank = point->rank;
     int holonomic = point->holonomic - rank->lost, others = rank->independent - holonomic;
-    for (int a = 0; a < point->rows; a++) rank->rhs[a] = rhs[rank->place[a]];
+    for (int a = 0; a < point->rows; a++) rank->rhs[a] = rhs[rank->row_at[a]];
     formulation->solve(solver, force, rank->rhs, x, lambda ? rank->lambda : NULL);
     if (!lambda) return;
     memmove(rank->lambda + holonomic, rank->lambda + point->holonomic, (size_t)others * sizeof(double));

@@ -40,10 +40,10 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .force = zd_take_doubles(arena, nv),
         .rhs = zd_take_doubles(arena, m),
         .unit = zd_take_doubles(arena, nv),
-        .per_unit = zd_take_doubles(arena, nv),
-        .per_unit_p = zd_take_doubles(arena, nq),
+        .inverse_unit = zd_take_doubles(arena, nv),
+        .inverse_unit_p = zd_take_doubles(arena, nq),
         .size = zd_take_doubles(arena, m),
-        .per_size = zd_take_doubles(arena, m),
+        .inverse_size = zd_take_doubles(arena, m),
     };
 #undef TAKE
     return zd_take_filled(arena, &point, sizeof point);

@@ -26,13 +26,13 @@ typedef struct zd_point {
     zd_rank *rank;          /* NULL where the point only serves to evaluate terms */
     int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
     const double *C;        /* (rows, nv): those that count */
-    double *unit, *per_unit;    /* (nv,): natural size of what each velocity is the rate of, see units.c; and 1 / unit */
-    double *per_unit_p;         /* (nq,): 1 / the same of the coordinates */
+    double *unit, *inverse_unit;    /* (nv,): natural size of what each velocity is the rate of, see units.c; and 1 / unit */
+    double *inverse_unit_p;         /* (nq,): 1 / the same of the coordinates */
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
-    double *per_size;       /* (m,): 1 / size */
+    double *inverse_size;       /* (m,): 1 / size */
     int measured;           /* whether these are known */
-    int culprit;            /* the coordinate or row that a failed factorization names */
-    double defect;          /* what a failed iteration was left with */
+    int failed_index;            /* the coordinate or row that a failed factorization names */
+    double residual_left;   /* what a failed iteration was left with */
 } zd_point;
 
 static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }

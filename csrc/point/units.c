@@ -39,13 +39,13 @@ static double length_of(const zd_point *point)
 }
 
 /* A row that is nothing at the start, but for rounding, is as large as the largest. */
-static void settle_sizes(int m, double *size, double *per_size)
+static void settle_sizes(int m, double *size, double *inverse_size)
 {
     double largest = zd_max_abs(m, size);
     for (int k = 0; k < m; k++) {
         if (!(size[k] > NO_ROW * largest)) size[k] = largest;
         if (!(size[k] > 0 && size[k] < INFINITY)) size[k] = 1;
-        per_size[k] = 1 / size[k];
+        inverse_size[k] = 1 / size[k];
     }
 }
 
@@ -57,22 +57,22 @@ int zd_point_measure(zd_point *point)
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
     double length = system->lengths ? length_of(point) : 1;
-    for (int i = 0; i < system->nq; i++) point->per_unit_p[i] = 1 / (is_length(system, i) ? length : 1);
+    for (int i = 0; i < system->nq; i++) point->inverse_unit_p[i] = 1 / (is_length(system, i) ? length : 1);
     for (int i = 0; i < nv; i++) {
         point->unit[i] = is_length(system, system->nq + i) ? length : 1;
-        point->per_unit[i] = 1 / point->unit[i];
+        point->inverse_unit[i] = 1 / point->unit[i];
     }
     for (int k = 0; k < zd_constraints(system); k++) {
         double size = 0;
         for (int i = 0; i < nv; i++) size = fmax(size, fabs(point->terms.C[k * nv + i]) * point->unit[i]);
         point->size[k] = size;
     }
-    settle_sizes(zd_constraints(system), point->size, point->per_size);
+    settle_sizes(zd_constraints(system), point->size, point->inverse_size);
     point->measured = 1;
     return ZD_DONE;
 }
 
 double zd_point_violation(const zd_point *point)
 {
-    return zd_max_scaled(point->system->mh, point->terms.Phi, point->per_size);
+    return zd_max_scaled(point->system->mh, point->terms.Phi, point->inverse_size);
 }

@@ -43,7 +43,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* The system with so many constraints and no more. What it brings itself is for all of them, and for where all of them count. */
+/* The system with so many constraints and no more. A complement D or an embedding g of its own is left out: these are for all its
+ * constraints, and only right where all of them count. */
 static zd_system with_rows(const zd_system *system, enum zd_on_singular on_singular, int rows, int holonomic)
 {
     if (rows == zd_constraints(system) && on_singular == ZD_STOP) return *system;
@@ -81,8 +82,8 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         if (!*status) *status = zd_redundancy_find(run->motion.point, settings->on_singular);
         const zd_rank *rank = run->motion.point->rank;
         int laid = rows, laid_holonomic = holonomic;
-        run->motion.statistics.rank = rows = smaller(rank->limit, system->nv);
-        holonomic = smaller(rank->holonomic_limit, rows);
+        run->motion.statistics.rank = rows = smaller(rank->most_rows, system->nv);
+        holonomic = smaller(rank->most_holonomic, rows);
         if (*status || (rows == laid && holonomic == laid_holonomic)) return run;
         zd_run_free(run);
     }

@@ -20,33 +20,33 @@ static const char *name_of(int term)
 /* What the mass matrix or the constraints have; returns whether it was that. */
 static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
-    int culprit = run->motion.point->culprit;
+    int failed_index = run->motion.point->failed_index;
     switch (status) {
     case ZD_NOT_DEFINITE:
-        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", culprit,
+        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", failed_index,
                  run->motion.formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
                                                   "hold what has no mass"
                                                 : "");
         break;
-    case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", culprit); break;
-    case ZD_DEPENDENT:
-        snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", culprit);
+    case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", failed_index); break;
+    case ZD_DEPENDENT_ROWS:
+        snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", failed_index);
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
                  run->settings.on_singular == ZD_STOP ? ON_SINGULAR : "no branch was found that the motion is on, and independent velocities need one; 'schur' "
                                                                       "does not");
         break;
-    case ZD_PASSED:
+    case ZD_BIFURCATION_PASSED:
         snprintf(to, size, "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow "
                  "the motion; a smaller step shows which, " ON_SINGULAR);
         break;
     case ZD_CONTRADICTION:
         snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "
-                 "velocity)", rows, culprit);
+                 "velocity)", rows, failed_index);
         break;
     case ZD_SINGULAR:
-        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name, culprit);
+        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name, failed_index);
         break;
     default: return 0;
     }
@@ -112,7 +112,7 @@ static void describe_correction(const zd_run *run, const char *rows, char *to, s
 {
     const zd_projection *projection = &run->settings.projection;
     snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
-             "(tolerance %.3g)%s%s%s", run->motion.point->defect, projection->max_iterations, projection->tolerance,
+             "(tolerance %.3g)%s%s%s", run->motion.point->residual_left, projection->max_iterations, projection->tolerance,
              *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
     add_cause(run, 1, "", to, size);
 }
@@ -135,13 +135,13 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_NO_EMBEDDING:
-        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)", point->defect);
+        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)", point->residual_left);
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
     case ZD_NO_MEMORY: snprintf(to, size, "there is no memory for this"); break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
-    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(point->culprit)); break;
+    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(point->failed_index)); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }
@@ -154,7 +154,7 @@ static int cause_of(zd_run *run, int status, double *t)
     if (status == ZD_CALLBACK || status == ZD_BAD_START || status == ZD_UNREACHABLE) return status;
     int finite = zd_point_is_finite(point);
     int term = zd_run_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
-    if (term) point->culprit = term;
+    if (term) point->failed_index = term;
     return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;
 }
 

@@ -27,7 +27,7 @@ typedef struct workspace {
 static double velocity_violation(const zd_run *run, const double *Psi)
 {
     const zd_point *point = run->motion.point;
-    double speed = zd_max_scaled(run->motion.system.nv, point->v, point->per_unit) + 1 / (run->course.end - run->settings.t0);
+    double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->course.end - run->settings.t0);
     double largest = 0;
     for (int k = 0; k < zd_constraints(&run->motion.system); k++) {
         double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
@@ -65,7 +65,7 @@ static int check_tolerance(zd_run *run)
     for (int k = 0; k < run->motion.system.mh; k++) {
         double rounding = 0;
         for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->motion.system.nv + i] * point->p[i]);
-        reachable = fmax(reachable, rounding * point->per_size[k]);
+        reachable = fmax(reachable, rounding * point->inverse_size[k]);
     }
     if (projection->tolerance > reachable) return ZD_DONE;
     snprintf(run->outcome.message, sizeof run->outcome.message,
@@ -81,7 +81,7 @@ static int check_symmetry(zd_point *point)
     double largest = zd_max_abs(n * n, M);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
-            point->culprit = i;
+            point->failed_index = i;
             if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
         }
     return ZD_DONE;
@@ -116,15 +116,15 @@ static int check_mass(zd_run *run, double *factor)
     int n = run->motion.system.nv, status = zd_point_need(point, ZD_M);
     if (!status) status = check_symmetry(point);
     if (status) return status;
-    point->culprit = zd_cholesky(n, point->terms.M, factor);
-    if (point->culprit == n) return ZD_DONE;
+    point->failed_index = zd_cholesky(n, point->terms.M, factor);
+    if (point->failed_index == n) return ZD_DONE;
     if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
     status = zd_rows_find(point);
     if (status) return status;
     weigh(run, 0, factor);
     for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
-    point->culprit = zd_cholesky(n, factor, factor);
-    if (point->culprit < n) return ZD_NOT_DEFINITE;
+    point->failed_index = zd_cholesky(n, factor, factor);
+    if (point->failed_index < n) return ZD_NOT_DEFINITE;
     weigh(run, point->rows, factor);
     int free = zd_cholesky(n, factor, factor);
     if (free == n) return ZD_DONE;

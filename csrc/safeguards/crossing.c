@@ -32,7 +32,7 @@ zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *
         .motion = motion,
         .last = last,
         .C = zd_take_doubles(arena, m * n),
-        .before = zd_take_doubles(arena, m * n),
+        .previous = zd_take_doubles(arena, m * n),
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .p1 = zd_take_doubles(arena, (size_t)system->nq),
         .v1 = zd_take_doubles(arena, n),
@@ -43,7 +43,7 @@ zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *
 
 int zd_crossing_is_at_one(const zd_point *point)
 {
-    return point->rank->lost || point->rows < point->rank->limit;
+    return point->rank->lost || point->rows < point->rank->most_rows;
 }
 
 ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)
@@ -66,7 +66,7 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
     if (rows == 2) return ZD_SIZED(turn_of_two, n, point, C0);
     for (int a = 0; a < rows; a++)
         for (int b = 0; b < rows; b++)
-            self->turn[a * rows + b] = point->per_size[zd_rank_row(point, a)] * point->per_size[zd_rank_row(point, b)]
+            self->turn[a * rows + b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[zd_rank_row(point, b)]
                                      * zd_dot(n, point->C + a * n, C0 + zd_rank_row(point, b) * n);
     if (rows == 1) return self->turn[0];
     return zd_lu_factor(rows, self->turn, self->order) == rows ? zd_lu_determinant(rows, self->turn, self->order) : 0;
@@ -89,7 +89,7 @@ static int follow(zd_crossing *self, double h, int looks, int *kept)
     const double t1 = point->t;
     memcpy(self->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
     memcpy(self->v1, point->v, (size_t)n * sizeof(double));
-    memcpy(self->before, self->C, (size_t)(m * n) * sizeof(double));
+    memcpy(self->previous, self->C, (size_t)(m * n) * sizeof(double));
     int status = ZD_DONE;
     *kept = 1;
     for (int look = 1; look <= looks && *kept && !status; look++) {
@@ -97,8 +97,8 @@ static int follow(zd_crossing *self, double h, int looks, int *kept)
         zd_point_move(point, look == looks ? t1 : t1 - h * (looks - look) / looks, look == looks ? self->p1 : self->p, self->v1);
         status = zd_point_need(point, ZD_C);
         if (!status) status = zd_rows_find(point);
-        *kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->before) > 0;
-        ZD_SIZED(keep_rows, n, point, self->before);
+        *kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->previous) > 0;
+        ZD_SIZED(keep_rows, n, point, self->previous);
     }
     zd_point_move(point, t1, self->p1, self->v1);
     return status == ZD_BIFURCATION ? ZD_DONE : status;
@@ -110,12 +110,12 @@ static int judge(const zd_crossing *self)
     zd_point *point = self->motion->point;
     int status = zd_point_need(point, ZD_PHI | ZD_C);
     if (status) return status;
-    return self->holds || !point->system->mh || zd_point_violation(point) <= NEARBY ? ZD_PASSED : ZD_DONE;
+    return self->constraints_hold || !point->system->mh || zd_point_violation(point) <= NEARBY ? ZD_BIFURCATION_PASSED : ZD_DONE;
 }
 
 int zd_crossing_begin(zd_crossing *self)
 {
-    self->kept = 0;
+    self->has_rows = 0;
     return zd_crossing_step(self, 0, 0);
 }
 
@@ -132,16 +132,16 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
     if (!status && !(point->known & ZD_RANKED)) status = zd_rows_find(point);
     if (status) return status;
     if (zd_crossing_is_at_one(point)) {
-        self->kept = 0;
+        self->has_rows = 0;
         return ZD_DONE;
     }
-    if (self->kept && !self->passes) {
+    if (self->has_rows && !self->may_pass) {
         if (moved <= LONG * LONG) kept = determinant(self, point, self->C) > 0;
         else status = follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_LOOKS), &kept);
     }
     if (!status && !kept) status = judge(self);
     if (status) return status;
     ZD_SIZED(keep_rows, point->rank->n, point, self->C);
-    self->kept = 1;
+    self->has_rows = 1;
     return ZD_DONE;
 }

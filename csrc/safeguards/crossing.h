@@ -5,27 +5,28 @@
 #include "../motion/motion.h"
 #include "../motion/place.h"
 
-typedef struct zd_crossing {    /* the rows of C where the step began, to see what has become of them */
+/* The rows of C where the step began, to see what has become of them. */
+typedef struct zd_crossing {
     zd_motion *motion;
     const zd_last *last;    /* the step */
     const double *rate0, *rate1;    /* (nq,): pdot at its ends */
-    int kept;               /* whether there are such */
-    int passes;             /* whether the step may pass a bifurcation */
-    int holds;              /* whether the constraints of position hold at the end of every step */
+    int has_rows;           /* whether C is known: not where the step began at a bifurcation */
+    int may_pass;           /* whether the step may pass a bifurcation */
+    int constraints_hold;   /* whether (3) holds at the end of every step */
     double *C;              /* (m, nv), times the squares of the natural units */
-    double *before;         /* likewise, at the last look */
-    double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): where one is, and the end */
-    double *turn;           /* (m, m) */
+    double *previous;       /* likewise, at the point looked at before */
+    double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): the point looked at, and the end of the step */
+    double *turn;           /* (m, m): C1 W C0^T, factored */
     int *order;             /* (m,) */
 } zd_crossing;
 
 zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last);
 int zd_crossing_begin(zd_crossing *self);       /* keeps where the motion is */
-/* Keeps where a step of size h has led, by so much in natural units, squared; ZD_PASSED if a bifurcation lies in between. */
+/* Keeps where a step of size h has led, by so much in natural units, squared; ZD_BIFURCATION_PASSED if a bifurcation lies in between. */
 int zd_crossing_step(zd_crossing *self, double h, double moved);
 /* Whether the point is at a bifurcation. */
 int zd_crossing_is_at_one(const zd_point *point);
-/* det(C1 W C0^T), of the rows that count at the point, C0 being those that are kept: its sign changes where a bifurcation is passed. */
+/* det(C1 W C0^T), of the rows that count at the point, C0 being those where the step began: its sign changes where a bifurcation is passed. */
 double zd_crossing_orientation(const zd_crossing *self);
 
 #endif

@@ -6,7 +6,8 @@
  *     |p1 - p0 - h (pdot0 + pdot1) / 2|^2  <=  ASTRAY^2 h^2 (|pdot0|^2 + |pdot1|^2) / 2.
  *
  * The left side is of order h^6 as long as steps resolve the motion. Methods of order one miss that mean where velocities change a
- * lot, as they do near rest; so where it fails, the nearest of all means of the two velocities decides.
+ * lot, as they do near rest. So a step that fails passes all the same if p1 - p0 is as near to h times some weighted mean of the two
+ * velocities.
  *
  * And it has to be short enough for the method: where the fastest part of the motion outgrows all others, as in an instability it
  * does, vdot1 - vdot0 = -omega^2 (p1 - p0) shows its omega. A look now and then is enough, and costs less: until there is suspicion.
@@ -37,8 +38,8 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
     return (zd_guard){
         .motion = motion,
         .last = last,
-        .branch = system->mh && holds,
-        .stability = settings->step > 0,
+        .checks_branch = system->mh && holds,
+        .checks_stability = settings->step > 0,
         .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
         .nearby = least * least,
         .limit = pow(stability > 0 ? stability : RESOLVED, 4),
@@ -51,12 +52,12 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
     };
 }
 
-ZD_INLINE zd_detour compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *per_unit)
+ZD_INLINE zd_detour compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *inverse_unit)
 {
     zd_detour sum = {0, 0, 0};
     for (int i = 0; i < n; i++) {
-        double moved = (p[i] - p0[i]) * per_unit[i], rate = guard->rate[i] * per_unit[i];
-        double detour = moved - 0.5 * h * (guard->pdot[i] * per_unit[i] + rate);
+        double moved = (p[i] - p0[i]) * inverse_unit[i], rate = guard->rate[i] * inverse_unit[i];
+        double detour = moved - 0.5 * h * (guard->pdot[i] * inverse_unit[i] + rate);
         sum.moved += moved * moved;
         sum.detour += detour * detour;
         sum.speed += rate * rate;
@@ -68,11 +69,11 @@ ZD_INLINE zd_detour compare(const int n, const zd_guard *guard, const double *p0
 static double least_detour(const zd_guard *guard, double h)
 {
     const zd_point *point = guard->motion->point;
-    const double *per_unit = point->per_unit_p;
+    const double *inverse_unit = point->inverse_unit_p;
     double rest = 0, along = 0, turn = 0;
     for (int i = 0; i < point->system->nq; i++) {
-        double a = (point->p[i] - guard->last->p[i] - h * guard->pdot[i]) * per_unit[i];
-        double b = h * (guard->rate[i] - guard->pdot[i]) * per_unit[i];
+        double a = (point->p[i] - guard->last->p[i] - h * guard->pdot[i]) * inverse_unit[i];
+        double b = h * (guard->rate[i] - guard->pdot[i]) * inverse_unit[i];
         rest += a * a, along += a * b, turn += b * b;
     }
     double s = turn > 0 ? fmin(1, fmax(0, along / turn)) : 0;
@@ -109,10 +110,10 @@ static int is_unresolved(zd_guard *guard, int *status)
     return unresolved;
 }
 
-ZD_INLINE double squared_difference(const int n, const double *a, const double *b, const double *per_unit)
+ZD_INLINE double squared_difference(const int n, const double *a, const double *b, const double *inverse_unit)
 {
     double sum = 0;
-    for (int i = 0; i < n; i++) sum += ((a[i] - b[i]) * per_unit[i]) * ((a[i] - b[i]) * per_unit[i]);
+    for (int i = 0; i < n; i++) sum += ((a[i] - b[i]) * inverse_unit[i]) * ((a[i] - b[i]) * inverse_unit[i]);
     return sum;
 }
 
@@ -126,25 +127,25 @@ static void see_energy(zd_guard *guard)
 static void estimate_omega(zd_guard *guard, double moved, double h)
 {
     const zd_point *point = guard->motion->point;
-    double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->per_unit);
+    double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->inverse_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
     if (!(moved > 0)) return;
-    if (power > guard->fourth * moved && power < INFINITY) guard->fourth = power / moved;
+    if (power > guard->largest_fourth * moved && power < INFINITY) guard->largest_fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
 static int is_looked_at(const zd_guard *guard, long step)
 {
-    return guard->stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak);
+    return guard->checks_stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak);
 }
 
-ZD_INLINE int look(zd_guard *guard, long next_step)
+ZD_INLINE int evaluate_end(zd_guard *guard, long next_step)
 {
     zd_motion *motion = guard->motion;
     zd_point *point = motion->point;
     int status = zd_point_need(point, ZD_A);
-    if (!status && (guard->looking || is_looked_at(guard, next_step))) status = zd_motion_accelerate(motion);   /* the next step begins with it */
+    if (!status && (guard->watches_step || is_looked_at(guard, next_step))) status = zd_motion_accelerate(motion);   /* the next step begins with it */
     if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;
 }
@@ -153,39 +154,39 @@ ZD_INLINE void keep(zd_guard *guard, double speed, long next_step)
 {
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
-    guard->looking = is_looked_at(guard, next_step);
-    if (guard->looking) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
+    guard->watches_step = is_looked_at(guard, next_step);
+    if (guard->watches_step) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
     guard->speed = speed;
-    guard->kept = 1;
+    guard->has_begun = 1;
 }
 
 int zd_guard_begin(zd_guard *guard, long step)
 {
     const zd_point *point = guard->motion->point;
-    int status = look(guard, step);
+    int status = evaluate_end(guard, step);
     if (status) return status;
-    keep(guard, ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, 0, point->per_unit_p).speed, step);
+    keep(guard, ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, 0, point->inverse_unit_p).speed, step);
     return ZD_DONE;
 }
 
 int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found)
 {
     const zd_point *point = guard->motion->point;
-    int status = look(guard, next_step);
+    int status = evaluate_end(guard, next_step);
     if (status) return status;
-    const zd_detour sum = *found = ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, h, point->per_unit_p);
+    const zd_detour sum = *found = ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, h, point->inverse_unit_p);
     double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
-    if (!guard->branch) return ZD_DONE;
+    if (!guard->checks_branch) return ZD_DONE;
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
     if (sum.moved <= LONG * LONG) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
     if (status || unresolved) return status ? status : ZD_BRANCH;
-    return look(guard, next_step);
+    return evaluate_end(guard, next_step);
 }
 
 void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_step, int is_part)
 {
-    if (guard->looking && !is_part) {
+    if (guard->watches_step && !is_part) {
         estimate_omega(guard, found->moved, h);
         if (zd_has_energy(&guard->motion->system)) see_energy(guard);
     }
@@ -194,5 +195,5 @@ void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_
 
 double zd_guard_omega_h(const zd_guard *guard)
 {
-    return sqrt(sqrt(guard->fourth));
+    return sqrt(sqrt(guard->largest_fourth));
 }

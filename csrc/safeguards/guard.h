@@ -5,20 +5,21 @@
 #include "../motion/motion.h"
 #include "../motion/place.h"
 
-typedef struct zd_guard {   /* where a step began, with which its end is compared */
+/* Where a step began, with which its end is compared. */
+typedef struct zd_guard {
     zd_motion *motion;
     const zd_last *last;    /* the step */
-    int kept;               /* whether there is such */
-    int branch, stability;  /* what is looked at */
-    int looking;            /* whether at the stability of the next step */
+    int has_begun;          /* whether there is anything to compare with */
+    int checks_branch, checks_stability;    /* which of the two comparisons are made */
+    int watches_step;       /* whether the stability of the step is looked at */
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
-    double *pdot, *vdot;    /* (nq,), (nv,): there; p and v are those of `last` */
+    double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
     double *p, *v, *C;      /* (nq,), (nv,), (mh, nv): at the end, while the point is elsewhere */
-    double speed;           /* |pdot|^2 there, in natural units */
+    double speed;           /* |pdot|^2 where the step began, in natural units */
     int streak;             /* steps in succession that were longer than the method is stable for */
-    double fourth;          /* (omega h)^4, the largest seen */
-    double kinetic;         /* energy, likewise */
+    double largest_fourth;  /* the largest (omega h)^4 of all steps */
+    double kinetic;         /* J: the largest kinetic energy of all steps */
 } zd_guard;
 
 typedef struct zd_detour {  /* sums of squares, in natural units */

@@ -7,7 +7,7 @@ void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion,
     self->crossing = zd_crossing_take(arena, motion, last);
     self->crossing.rate0 = self->guard.pdot;
     self->crossing.rate1 = self->guard.rate;
-    self->crossing.holds = self->guard.branch;
+    self->crossing.constraints_hold = self->guard.checks_branch;
 }
 
 int zd_safeguards_begin(zd_safeguards *self, long step)
@@ -19,7 +19,7 @@ int zd_safeguards_begin(zd_safeguards *self, long step)
 int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_part)
 {
     zd_detour found;
-    if (!self->guard.kept) return ZD_DONE;
+    if (!self->guard.has_begun) return ZD_DONE;
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
     if (!status) status = zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;

@@ -13,7 +13,7 @@
 
 #include "passage.h"
 
-enum { HELD = 10, FREE = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
+enum { STIFF_AFTER = 10, NOT_STIFF_AFTER = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
 static const double AT_THE_LIMIT = 0.95;    /* of stability */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
 
@@ -78,10 +78,10 @@ static void watch_stiffness(zd_course *course, double lambda_h)
     zd_control *control = &course->control;
     if (!(lambda_h > 0)) return;
     if (lambda_h > AT_THE_LIMIT * course->stepper->integrator->decay) {
-        control->held++;
-        control->free = 0;
-        if (control->held >= HELD) course->motion->statistics.stiff += control->held == HELD ? HELD : 1;
-    } else if (++control->free >= FREE) control->held = 0;
+        control->at_limit++;
+        control->below_limit = 0;
+        if (control->at_limit >= STIFF_AFTER) course->motion->statistics.stiff += control->at_limit == STIFF_AFTER ? STIFF_AFTER : 1;
+    } else if (++control->below_limit >= NOT_STIFF_AFTER) control->at_limit = 0;
 }
 
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */

@@ -10,7 +10,7 @@ typedef struct zd_control { /* where steps are chosen */
     double h;               /* the next step */
     zd_pace pace;           /* where the steps have been */
     double *scale;          /* (size,): what the error is measured in */
-    int held, free;         /* steps that were as long as stability allows; not so, in succession */
+    int at_limit, below_limit;  /* steps that were as long as stability allows; not so, in succession */
 } zd_control;
 
 typedef struct zd_course {

@@ -38,7 +38,7 @@ static void remember_undivided(zd_course *course)
 
 static int is_too_far(int status)
 {
-    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_PASSED;
+    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_BIFURCATION_PASSED;
 }
 
 static int divide_step(zd_course *course, int status, double t1)

@@ -56,14 +56,14 @@ static int pass(zd_course *course, double t1, double h)
 {
     zd_stepper *stepper = course->stepper;
     zd_crossing *crossing = &course->safeguards->crossing;
-    if (course->settings->on_singular == ZD_STOP) return ZD_PASSED;
+    if (course->settings->on_singular == ZD_STOP) return ZD_BIFURCATION_PASSED;
     int found, status = find(course, t1, &found);
     if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
-    crossing->passes = 1;
+    crossing->may_pass = 1;
     status = zd_stepper_return(stepper);
     if (!status) status = zd_stepper_integrate(stepper, h);
     if (!status) status = land_and_judge(course, t1);
-    crossing->passes = 0;
+    crossing->may_pass = 0;
     return status;
 }
 
@@ -71,5 +71,5 @@ int zd_passage_land(zd_course *course, double t1)
 {
     double h = course->stepper->last.h;
     int status = land_and_judge(course, t1);
-    return status == ZD_PASSED ? pass(course, t1, h) : status;
+    return status == ZD_BIFURCATION_PASSED ? pass(course, t1, h) : status;
 }

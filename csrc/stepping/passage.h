@@ -5,7 +5,7 @@
 #include "course.h"
 
 /* Lands at t1 what has been integrated, and judges it. If a bifurcation lies within the step, it is made again, through that, where
- * this is wanted and the motion leads there; else that is ZD_PASSED. */
+ * this is wanted and the motion leads there; else that is ZD_BIFURCATION_PASSED. */
 int zd_passage_land(zd_course *course, double t1);
 
 #endif

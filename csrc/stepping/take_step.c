@@ -10,8 +10,8 @@ int zd_course_take_step(zd_course *course)
     zd_rank *rank = motion->point->rank;
     course->step++;
     int status = course->settings->step > 0 ? zd_fixed_step(course) : zd_adaptive_step(course);
-    if (rank->dropped) motion->statistics.rank_drops++;
-    rank->dropped = rank->near = 0;
+    if (rank->was_deficient) motion->statistics.rank_drops++;
+    rank->was_deficient = rank->was_ill_conditioned = 0;
     if (!status) motion->statistics.steps++;
     return status;
 }

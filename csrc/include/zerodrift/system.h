@@ -35,7 +35,7 @@ enum zd_status {
     ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
     ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
     ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
-    ZD_DEPENDENT = -3,        /* rows of C that count are dependent, to the formulation's own precision */
+    ZD_DEPENDENT_ROWS = -3,        /* rows of C that count are dependent, to the formulation's own precision */
     ZD_SINGULAR = -4,         /* a leading matrix is singular */
     ZD_NO_CONVERGENCE = -5,   /* the position correction did not reach its tolerance */
     ZD_NO_STEP = -6,          /* the equations of an implicit step were not solved */
@@ -53,8 +53,8 @@ enum zd_status {
     ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
     ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
     ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
-    ZD_TOO_MANY_STEPS = -22,  /* settings->max_steps were taken */
-    ZD_PASSED = -21           /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
+    ZD_BIFURCATION_PASSED = -21,    /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
+    ZD_TOO_MANY_STEPS = -22   /* settings->max_steps were taken */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

@@ -14,6 +14,7 @@ from .base import (
     Variable,
     cards,
     check_fingerprint,
+    default,
     doubles,
     error_of,
 )
@@ -26,7 +27,7 @@ from .systems import CoreSystem, Kind, kinds
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
-    "Watcher", "acceleration", "address_of", "cards", "count_steps", "doubles", "error_of", "find", "in_library", "kind_at",
+    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library", "kind_at",
     "kinds", "load_data", "numba_signature", "probe", "project", "settings", "step", "terms_of",
 ]
 

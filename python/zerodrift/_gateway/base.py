@@ -20,9 +20,9 @@ ERRORS = {
     lib.ZD_NOT_FINITE: errors.Diverged,
     lib.ZD_NOT_DEFINITE: errors.SingularSystem,
     lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
-    lib.ZD_DEPENDENT: errors.SingularSystem,
+    lib.ZD_DEPENDENT_ROWS: errors.SingularSystem,
     lib.ZD_BIFURCATION: errors.Bifurcation,
-    lib.ZD_PASSED: errors.Bifurcation,
+    lib.ZD_BIFURCATION_PASSED: errors.Bifurcation,
     lib.ZD_CONTRADICTION: errors.SingularSystem,
     lib.ZD_SINGULAR: errors.SingularSystem,
     lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
@@ -117,6 +117,11 @@ def cards(table: str) -> tuple[Card, ...]:
     """The rows of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
     return tuple(map(card_of, rows))
+
+
+def default(table: str) -> str:
+    """The name of the row of a table of the core that is taken where nothing else is asked for."""
+    return cards(table)[lib.zd_default_row(TABLES[table])].name
 
 
 def card_of(c: Any) -> Card:

@@ -121,7 +121,8 @@ class EnergyCorrection:
 
 STABILIZATIONS = {"projection": Projection, "baumgarte": Baumgarte}
 Stabilization = Projection | Baumgarte | None
-FORMULATION, INTEGRATOR, STABILIZATION = "schur", "rk4", "projection"       # what is taken where nothing else is asked for
+# What is taken where nothing else is asked for.
+FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
 
 
 def stabilization(value: Any) -> Stabilization:

@@ -1,0 +1,35 @@
+/* What the extension module has beside zerodrift.h: what it was built from, and systems that are written in Python.
+ *
+ * Plain declarations and nothing else: CFFI reads this very text. What is marked as written in Python are functions that call it.
+ */
+#ifndef ZD_PYTHON_INTERFACE_H
+#define ZD_PYTHON_INTERFACE_H
+
+#include "../zerodrift.h"
+
+#define ZD_WRITTEN_IN_PYTHON static
+
+extern const char *const zd_fingerprint;
+
+typedef struct zd_python_term {     /* Python's memory of one term */
+    int term, slot;                 /* its bit, and which pointer of zd_terms it is */
+    size_t size;                    /* in bytes */
+    const double *values;
+} zd_python_term;
+
+/* A system written in Python, as the data of zd_evaluate_in_python(). Python never sees the core's memory. */
+typedef struct zd_python {
+    void *evaluator;                /* handle of the Python object */
+    const zd_system *system;
+    double *p, *v;                  /* (nq,), (nv,): the state of the last call, for Python to read */
+    int terms;
+    const zd_python_term *term;
+} zd_python;
+
+int zd_evaluate_in_python(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
+ZD_WRITTEN_IN_PYTHON int zd_write_in_python(void *evaluator, int want, double t, int moved);
+ZD_WRITTEN_IN_PYTHON int zd_refuse_in_python(void *evaluator, int term, double t);
+ZD_WRITTEN_IN_PYTHON int zd_event_in_python(void *owner, int event, double t, const double *p, const double *v, double *value);
+ZD_WRITTEN_IN_PYTHON int zd_found_in_python(void *owner, int event, double t, const double *p, const double *v);
+
+#endif
