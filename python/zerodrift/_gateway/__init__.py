@@ -27,8 +27,8 @@ from .systems import CoreSystem, Kind, kinds
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
-    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library", "kind_at",
-    "kinds", "load_data", "numba_signature", "probe", "project", "settings", "step", "terms_of",
+    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library",
+    "kind_at", "kinds", "load_data", "numba_signature", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()
