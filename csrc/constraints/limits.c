@@ -8,16 +8,16 @@
  *     c(v) := wdot v + ... = T xi_r - xi_d = 0,        so v + dv is on the branch if  wdot dv = -c(v) / 2
  *     3 wdot vdot = d/dt (xi_d - T xi_r)  at this v
  *
- * The factors are those of Phi's being a function of p and t: so only holonomic rows have such limits. With wdot for w there are
- * as many rows again as elsewhere, and every formulation goes on as it does elsewhere: to the accelerations that the motion has
- * before and after. What the limit cannot give is lambda_d, which grows beyond bounds: it is left out.
+ * The factors 1/2 and 3 come from the derivatives of a function of p and t, so that only holonomic rows have such limits. With wdot in
+ * place of w there are as many independent rows as elsewhere, and every formulation works as it does elsewhere: it finds the
+ * accelerations that the motion has before and after. Only lambda_d has no limit, as it grows beyond bounds, and is left out.
  *
- * A distance s along the path away from it, w is s wdot but for s^2. What rounding makes of Phi, e, puts p aside by e / s, and turns
- * the velocity by e / s^2: these are known from w itself, almost down to the bifurcation. But accelerations err by e / s^3, and by s
- * where the limit is taken: so that serves as soon as the fourth root of the rounding is reached. If w does not point like wdot there,
- * the mechanism is one that only comes near.
+ * At a distance s from the bifurcation, along the path, w differs from s wdot by terms of order s^2. A rounding error e of Phi moves p
+ * by e / s and turns the velocity by e / s^2, so that both can be found with w almost down to the bifurcation. Accelerations err by
+ * e / s^3 with w, and by s with its limit; so the limit is better within the fourth root of the rounding. If w does not point like wdot
+ * there, the mechanism only comes near a bifurcation.
  *
- * Rates are differences over a short path, and all of the above is in natural units of it rather than of time.
+ * Rates are found by differences over a short path, and are taken for each natural unit of path rather than of time.
  */
 #include "limits.h"
 
@@ -28,14 +28,14 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 
-enum { MAX_TURNS = 100, MOST_STALLS = 8 };     /* of an iteration from rest */
+enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* of the iteration for the acceleration from rest */
 
-static const double PATH = 0x1p-17;     /* radians, or parts of the mechanism's length: squared, it is rounding over it */
-static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path, is a rate: less may be rounding */
-static const double NEAREST = 0x1p-18;  /* of path, from where on c(v) is closer to zero than w v is to it */
-static const double SETTLED = 0x1p-36;  /* parts of an acceleration: it is that of a branch if it changes no more */
-static const double FALLING = 0.99;     /* of the smallest change so far: more is a stall */
-static const double PARALLEL = 0x1p-10; /* the sine of what w and wdot may be apart by */
+static const double PATH = 0x1p-17;     /* of differences, in natural units: their errors, PATH^2 and rounding / PATH, are alike */
+static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path: a smaller rate may be rounding */
+static const double NEAREST = 0x1p-18;  /* in natural units: nearer to the bifurcation c(v) is more accurate than w v */
+static const double SETTLED = 0x1p-36;  /* of an acceleration: one that changes by no more is that of a branch */
+static const double FALLING = 0.99;     /* of the smallest change so far: a change that is larger is a stall */
+static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
 
 zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
 {
@@ -281,7 +281,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
     for (int a = 0; a < self->independent; a++) rhs[a] = point->terms.xi[self->row[a]];
     if (!solve(point, 0, self->limits->force, rhs, e)) return ZD_DONE;
     double best = INFINITY;
-    for (int i = 0, stalls = 0; i < MAX_TURNS && stalls < MOST_STALLS; i++) {
+    for (int i = 0, stalls = 0; i < MAX_ITERATIONS && stalls < MOST_STALLS; i++) {
         zd_point_rate(point, e, self->limits->pdot);
         status = find_rates(point, wanted, found);
         if (status || !*found) return status;
@@ -322,13 +322,14 @@ int zd_limits_find(zd_point *point)
     return ZD_DONE;
 }
 
-/* Where wdot x is so much and C_r x = rhs: (wdot - K C_r) x */
-static double besides_others(const zd_rank *self, int row, double so_much, const double *rhs)
+/* (wdot - K C_r) x, from wdot x and from C_r x = rhs */
+static double besides_others(const zd_rank *self, int row, double product, const double *rhs)
 {
-    return so_much - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
+    return product - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
 }
 
-/* Of Phi or Psi: the row's, for each unit of the path that is left; or from c(v). */
+/* The violation, of Phi or Psi, of the limit that stands for a row: that of the row, divided by its distance; nearest to the bifurcation
+ * from c(v). */
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
     const zd_rank *self = point->rank;
@@ -337,7 +338,7 @@ static double violation(const zd_point *point, int j, int row, enum zd_limit wha
     return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
 }
 
-/* What the point's velocity makes of the limit, less its violation. rhs has -Phi_t. */
+/* The limit times the velocity that satisfies it: the point's velocity, less its violation. rhs has -Phi_t. */
 static double enforced(const zd_point *point, int j, int row, const double *limit, const double *rhs)
 {
     double *Psi = point->rank->lambda;

@@ -23,7 +23,7 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 
-static const double LEAST_PIVOT = 0x1p-44;      /* of M, of its diagonal, where M^-1 serves as a metric */
+static const double LEAST_PIVOT = 0x1p-44;      /* of the diagonal of M: smaller pivots make M^-1 no metric */
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
 {
@@ -70,7 +70,8 @@ static void set_rows(zd_rank *self, const double *C, const double *L)
     }
 }
 
-/* The row among these of which most is left, or -1: a later one only if that is twice as much, so that the choice is a steady one. */
+/* The row among these of which the largest share is left, or -1. A later row is only preferred to an earlier one if twice as much of it
+ * is left, so that rounding does not change the choice from point to point. */
 static int choose_row(const zd_rank *self, int begin, int end)
 {
     int best = -1;
@@ -121,7 +122,7 @@ static void set_weights(zd_rank *self)
     for (int k = 0; k < self->m; k++) self->weight[k] = self->square_left[k] != 0 && self->square[k] > 0 ? 1 / self->square[k] : 0;
 }
 
-/* Whether M^-1 is one: with so little of a pivot left, rounding in that metric would be as large as the tolerance. */
+/* Whether M^-1 can serve as a metric: with a smaller pivot, rounding in that metric would be as large as the tolerance. */
 static int has_metric(zd_rank *self, const double *M)
 {
     int n = self->n;
@@ -131,7 +132,7 @@ static int has_metric(zd_rank *self, const double *M)
     return 1;
 }
 
-/* The larger of the two ranks; with it in G what rows had along those that were chosen. */
+/* The larger of the ranks in the two metrics. G has the products of all rows with those chosen. */
 static int rank_of(zd_rank *self, const double *C, const double *M)
 {
     int rank = orthogonalize(self, C, NULL);

@@ -35,13 +35,14 @@ struct zd_rank {
     zd_limits *limits;      /* NULL where may_be_deficient is 0 */
 };
 
-/* A row is one of the others where less than this share of its length is left when they are taken out, both plainly and in the metric
- * of M^-1, that is: both whatever the masses and whatever the units of the coordinates. As near as s to a bifurcation, its branches
- * are as far as s from each other, and Phi differs by s^2: so they cannot be told apart with less than the root of the rounding. */
+/* A row counts as dependent where less than this share of its length is left once the others are taken out of it by orthogonalization,
+ * both in the plain metric, which does not depend on the masses, and in that of M^-1, which does not depend on the units of the
+ * coordinates. The square root of the rounding is the smallest share there can be: at a distance s from a bifurcation its branches are
+ * s apart, too, and their Phi differ by s^2 only. */
 #define ZD_RANK_TOLERANCE 0x1p-23
-/* In whose neighbourhood limits serve better than rows, if it is one: see branch.c. */
-#define ZD_BRANCH_REGION 0x1p-13
-/* Rows of which this share is left, plainly, need no closer look. */
+/* Nearer to a bifurcation than this, in natural units, limits are more accurate than rows: see limits.c. */
+#define ZD_LIMITS_REGION 0x1p-13
+/* Rows of which this share is left in the plain metric are independent for certain. */
 #define ZD_DOUBTFUL 0x1p-10
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
@@ -54,7 +55,7 @@ static inline int zd_rank_is_full(const zd_point *point)
 {
     return point->C == point->terms.C;
 }
-/* Which row of all stands there among those that count. */
+/* Which of all rows stands at place k among those that count. */
 static inline int zd_rank_row(const zd_point *point, int k)
 {
     return zd_rank_is_full(point) ? k : point->rank->row_at[k];

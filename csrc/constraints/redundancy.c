@@ -10,10 +10,10 @@
 #include "rows.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
-static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6), is more than what a row may still have of its own */
-static const double NO_ROW = 0x1p-80;   /* so small a part of the largest row, squared, is at the start no row at all */
+static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6): a larger rest shows a row that is independent elsewhere */
+static const double NO_ROW = 0x1p-80;   /* of the largest row, squared: a row that is shorter at the start counts as zero there */
 
-/* How large the rows are where nothing is singular; a row that is nothing at the start is as large as the largest. */
+/* The lengths that rows have where nothing is singular. A row that is zero at the start is taken to be as long as the longest. */
 static void measure(const zd_point *point)
 {
     const zd_rank *self = point->rank;
@@ -24,7 +24,7 @@ static void measure(const zd_point *point)
         if (!(self->start_square[k] > NO_ROW * largest)) self->start_square[k] = largest;
 }
 
-/* v <- another velocity that the constraints allow where they allow v0 */
+/* v <- v0 and a random velocity that satisfies C v = 0 */
 static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
 {
     const zd_rank *self = point->rank;

@@ -18,7 +18,7 @@ zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_be_defic
 
 static int reduce(zd_point *point)
 {
-    static const double region = ZD_BRANCH_REGION * ZD_BRANCH_REGION;
+    static const double region = ZD_LIMITS_REGION * ZD_LIMITS_REGION;
     zd_rank *self = point->rank;
     self->was_ill_conditioned = 1;
     int status = zd_point_need(point, ZD_M);

@@ -18,7 +18,7 @@
 #include "../motion/motion.h"
 #include "../point/units.h"
 
-/* Newton's first iteration contracts so well where its start belongs to one solution and no other, after Kantorovich. */
+/* The first iteration has to reduce the violation to this share. By Kantorovich's theorem there is then one solution near its start. */
 static const double TRUSTED = 0.25;
 
 typedef struct projection {

@@ -17,9 +17,9 @@
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
-static const double FARTHEST = 0.5;   /* in natural units: radians, or parts of the mechanism's length */
-static const double MOST_RESPONSE = 16;   /* of p to a q that the system has chosen itself */
-static const double WORSE = 1.1;      /* so much larger than at its choice may the response of p to q grow */
+static const double FARTHEST = 0.5;   /* in natural units: a longer prediction is not used as the first iterate */
+static const double MOST_RESPONSE = 16;   /* of p to the q of the system's own embedding: with more, q is chosen numerically */
+static const double WORSE = 1.1;      /* q is chosen anew when the response of p to it has grown by more than this factor */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 {

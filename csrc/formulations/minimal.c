@@ -13,8 +13,9 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 
-enum { MAX_TURNS = 12 };
-static const double SETTLED = 0x1p-46, NEARLY = 0x1p-30;    /* parts of the speed: that it still changes by; that are rounding at most */
+enum { MAX_ITERATIONS = 12 };
+static const double SETTLED = 0x1p-46;  /* of the speed: the velocity is found if it changes by no more */
+static const double NEARLY = 0x1p-30;   /* of the speed: a change so small that no longer halves is rounding */
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
 {
@@ -63,14 +64,14 @@ void zd_minimal_solve(void *memory, const double *force, const double *rhs, doub
     zd_complement_multipliers(&self->complement, self->b, lambda);
 }
 
-/* Where fewer rows count than in the state, u is too short to say where the motion goes. */
+/* Where fewer rows count than when the state was laid out, u has too few numbers to determine the motion. */
 static int check_size(const zd_minimal *self)
 {
     return self->complement.r == self->size ? ZD_DONE : ZD_BIFURCATION;
 }
 
-/* v of u, and the point with it; how much that has changed, in natural units */
-static int turn(zd_minimal *self, zd_point *point, double *change)
+/* Gives the point the v of u; *change is by how much that has changed it, in natural units. */
+static int update_velocity(zd_minimal *self, zd_point *point, double *change)
 {
     int status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) status = check_size(self);
@@ -81,8 +82,8 @@ static int turn(zd_minimal *self, zd_point *point, double *change)
     return ZD_DONE;
 }
 
-/* At a bifurcation u tells the velocities of a branch from each other, but not the branches: the one is taken which is next to what
- * the acceleration before has led to. Limits depend on the velocity: this is Newton's iteration for c(v) = 0 of limits.c. */
+/* At a bifurcation u determines the velocity on each branch, but not the branch. The one is taken whose velocity is nearest to that which
+ * the last known acceleration leads to. Limits depend on the velocity, so that this is Newton's iteration for c(v) = 0 of limits.c. */
 static int settle_on_branch(zd_minimal *self, zd_point *point)
 {
     zd_copy(self->complement.n, point->v, self->b);
@@ -90,12 +91,13 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
     zd_point_move_velocity(point, self->b);
     self->lead_time = 0;
     double change = INFINITY, before;
-    for (int i = 0; i < MAX_TURNS; i++) {
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
         before = change;
         int status = i ? zd_rows_find_again(point) : ZD_DONE;
-        if (!status) status = turn(self, point, &change);
+        if (!status) status = update_velocity(self, point, &change);
         if (status) return status;
-        if (change <= SETTLED * point->rank->limits->speed || (change <= NEARLY * point->rank->limits->speed && change >= before / 2)) return ZD_DONE;
+        const double speed = point->rank->limits->speed;
+        if (change <= SETTLED * speed || (change <= NEARLY * speed && change >= before / 2)) return ZD_DONE;
     }
     return ZD_BIFURCATION;
 }

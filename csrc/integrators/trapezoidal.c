@@ -15,10 +15,10 @@
 #include "integrator.h"
 
 enum { MAX_ITERATIONS = 20 };
-static const double SLOW = 0.01;                /* a contraction that asks for a new matrix */
-static const double ROUNDING = 4 * 0x1p-52;     /* solved when each defect is this small among the terms it is summed from */
-static const double NEARLY = 1e-12;             /* ... or when it is this small, and only rounding is left */
-static const double STALLED = 0.5;              /* a contraction that only rounding prevents from being better */
+static const double SLOW = 0.01;                /* a matrix is made anew when an iteration leaves more of the defect */
+static const double ROUNDING = 4 * 0x1p-52;     /* of the terms that a defect is summed from: with no more, the step is solved */
+static const double NEARLY = 1e-12;             /* of these terms: a defect so small that no longer shrinks is rounding */
+static const double STALLED = 0.5;              /* of the defect: an iteration that leaves more has stalled */
 
 typedef struct trapezoidal {
     int size;
@@ -31,7 +31,7 @@ typedef struct trapezoidal {
     double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
     int *order;         /* (size,) */
     int factored;
-    double least_size;      /* below which no y_i is varied as if it were: where y_i and f_i are but rounding, their sizes say nothing */
+    double least_size;      /* of y_i, for the choice of differences: where y_i and f_i are rounding, they do not show their size */
     double factored_h;
     const zd_rate *rate;    /* of the step being solved, as are the next three */
     double t1, h;

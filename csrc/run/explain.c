@@ -146,7 +146,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     }
 }
 
-/* Numbers that are no numbers surface first in some factorization: the cause is named, not the place. */
+/* Numbers that are not finite often show first as a failed factorization: their cause is named, and not that. */
 static int cause_of(zd_run *run, int status, double *t)
 {
     zd_point *point = run->motion.point;

@@ -6,8 +6,8 @@
  * Introduction to Numerical Continuation Methods, section 8). It changes as well if the mechanism only comes near one and the step
  * leads straight on, where the motion would have turned away.
  *
- * Which of these it is, shorter steps tell: through a bifurcation the motion is continuous, so that one of them ends within the region
- * where branch.c knows it; otherwise it leaps however short they are.
+ * Shorter steps tell which of these it is, in stepping/passage.c: through a bifurcation the motion is continuous, so that one of them
+ * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step however short these are.
  */
 #include "crossing.h"
 
@@ -19,10 +19,10 @@
 #include "../linalg/small.h"
 #include "../point/units.h"
 
-enum { MOST_LOOKS = 64 };
-static const double LONG = 1;       /* in natural units: a path so long is looked at in between, */
-static const double NEAR = 0.5;     /* and every so often */
-static const double NEARBY = 1e-3;  /* in natural units: from the constraints */
+enum { MOST_POINTS = 64 };     /* of a path at which C is evaluated */
+static const double LONG = 1;       /* in natural units: of a longer path, points in between are evaluated, too */
+static const double NEAR = 0.5;     /* in natural units: the distance between these points */
+static const double NEARBY = 1e-3;  /* in natural units: a larger violation says that nothing keeps the motion on the constraints */
 
 zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
@@ -72,7 +72,7 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
     return zd_lu_factor(rows, self->turn, self->order) == rows ? zd_lu_determinant(rows, self->turn, self->order) : 0;
 }
 
-/* Where the cubic that has the positions and rates of the step's ends is at this share of it. */
+/* p <- the cubic through the ends of the step with the rates there, at this share s of the step. */
 static void interpolate(const zd_crossing *self, double h, double s)
 {
     for (int i = 0; i < self->motion->system.nq; i++) {
@@ -81,8 +81,8 @@ static void interpolate(const zd_crossing *self, double h, double s)
     }
 }
 
-/* Whether the orientation is kept from one look to the next, on a path too long to tell from its ends. */
-static int follow(zd_crossing *self, double h, int looks, int *kept)
+/* Whether the orientation is the same from point to point, on a path too long to tell from its ends alone. */
+static int follow(zd_crossing *self, double h, int points, int *is_kept)
 {
     zd_point *point = self->motion->point;
     const int m = point->rank->m, n = point->rank->n;
@@ -91,20 +91,20 @@ static int follow(zd_crossing *self, double h, int looks, int *kept)
     memcpy(self->v1, point->v, (size_t)n * sizeof(double));
     memcpy(self->previous, self->C, (size_t)(m * n) * sizeof(double));
     int status = ZD_DONE;
-    *kept = 1;
-    for (int look = 1; look <= looks && *kept && !status; look++) {
-        interpolate(self, h, (double)look / looks);
-        zd_point_move(point, look == looks ? t1 : t1 - h * (looks - look) / looks, look == looks ? self->p1 : self->p, self->v1);
+    *is_kept = 1;
+    for (int i = 1; i <= points && *is_kept && !status; i++) {
+        interpolate(self, h, (double)i / points);
+        zd_point_move(point, i == points ? t1 : t1 - h * (points - i) / points, i == points ? self->p1 : self->p, self->v1);
         status = zd_point_need(point, ZD_C);
         if (!status) status = zd_rows_find(point);
-        *kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->previous) > 0;
+        *is_kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->previous) > 0;
         ZD_SIZED(keep_rows, n, point, self->previous);
     }
     zd_point_move(point, t1, self->p1, self->v1);
     return status == ZD_BIFURCATION ? ZD_DONE : status;
 }
 
-/* A turned orientation; far off the constraints, where nothing holds a run, it means nothing. */
+/* What a change of orientation means: a bifurcation, but nothing far off the constraints, where nothing keeps the motion on them. */
 static int judge(const zd_crossing *self)
 {
     zd_point *point = self->motion->point;
@@ -128,7 +128,9 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
 {
     zd_point *point = self->motion->point;
     if (!point->rank->m) return ZD_DONE;
-    int kept = 1, status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, self->motion->acceleration_needs);   /* the next step's, at once */
+    int is_kept = 1;
+    /* What the next step begins with is evaluated at once. */
+    int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, self->motion->acceleration_needs);
     if (!status && !(point->known & ZD_RANKED)) status = zd_rows_find(point);
     if (status) return status;
     if (zd_crossing_is_at_one(point)) {
@@ -136,10 +138,10 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
         return ZD_DONE;
     }
     if (self->has_rows && !self->may_pass) {
-        if (moved <= LONG * LONG) kept = determinant(self, point, self->C) > 0;
-        else status = follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_LOOKS), &kept);
+        if (moved <= LONG * LONG) is_kept = determinant(self, point, self->C) > 0;
+        else status = follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), &is_kept);
     }
-    if (!status && !kept) status = judge(self);
+    if (!status && !is_kept) status = judge(self);
     if (status) return status;
     ZD_SIZED(keep_rows, point->rank->n, point, self->C);
     self->has_rows = 1;

@@ -26,7 +26,8 @@ int zd_crossing_begin(zd_crossing *self);       /* keeps where the motion is */
 int zd_crossing_step(zd_crossing *self, double h, double moved);
 /* Whether the point is at a bifurcation. */
 int zd_crossing_is_at_one(const zd_point *point);
-/* det(C1 W C0^T), of the rows that count at the point, C0 being those where the step began: its sign changes where a bifurcation is passed. */
+/* det(C1 W C0^T), of the rows that count at the point, C0 being those where the step began. Its sign changes where a bifurcation is
+ * passed. */
 double zd_crossing_orientation(const zd_crossing *self);
 
 #endif

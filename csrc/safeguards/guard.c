@@ -1,7 +1,8 @@
-/* Whether a step can be believed, from what is known at both of its ends anyway.
+/* Whether a step can be believed, by two comparisons of what is known at both of its ends anyway.
  *
- * Its displacement has to be that of its velocities: a correction that goes to another assembly branch moves p where they do not
- * lead, and the velocities found there lead elsewhere again. With all of it in natural units,
+ * First, its displacement has to agree with its velocities. A correction that leads to another assembly branch does not: it moves p
+ * where the velocity at the beginning does not lead, and the velocity found there points elsewhere again. A step is believed if, in
+ * natural units,
  *
  *     |p1 - p0 - h (pdot0 + pdot1) / 2|^2  <=  ASTRAY^2 h^2 (|pdot0|^2 + |pdot1|^2) / 2.
  *
@@ -9,8 +10,9 @@
  * lot, as they do near rest. So a step that fails passes all the same if p1 - p0 is as near to h times some weighted mean of the two
  * velocities.
  *
- * And it has to be short enough for the method: where the fastest part of the motion outgrows all others, as in an instability it
- * does, vdot1 - vdot0 = -omega^2 (p1 - p0) shows its omega. A look now and then is enough, and costs less: until there is suspicion.
+ * Second, it has to be short enough for the method to be stable. In an instability the fastest part of the motion outgrows all others;
+ * then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is compared in every eighth step only, and in every
+ * step once one was found too long.
  */
 #include "guard.h"
 
@@ -20,11 +22,11 @@
 #include "../linalg/small.h"
 
 static const double ASTRAY = 0.5;
-static const double NEARBY = 1e-8;      /* detours this small, in natural units, are rounding and tolerances */
-static const double LONG = 0.25;        /* steps, in natural units, that may turn a constraint noticeably */
-static const double RESOLVED = 2;       /* omega h of a motion that steps show somehow: a turn is a bit more than three of them */
+static const double NEARBY = 1e-8;      /* in natural units: smaller detours come from rounding and tolerances */
+static const double LONG = 0.25;        /* in natural units: a longer step may turn a row of C noticeably */
+static const double RESOLVED = 2;       /* omega h of a motion of which steps still show something: one period is pi steps */
 enum {
-    STREAK = 3,             /* steps looked at in succession: a single one may have come to where p1 - p0 happens to vanish */
+    STREAK = 3,             /* steps in succession that have to be too long: in a single one p1 - p0 may happen to be zero */
     LOOK_EVERY = 8,
 };
 
@@ -80,7 +82,7 @@ static double least_detour(const zd_guard *guard, double h)
     return rest - 2 * s * along + s * s * turn;
 }
 
-/* Whether this row of C, in natural units, is turned by more than 60 degrees or so from the one kept of the end. */
+/* Whether this row of C, in natural units, differs in direction by more than 60 degrees or so from what it is at the end of the step. */
 static int is_turned(const zd_guard *guard, const zd_point *point, int row)
 {
     int nv = point->system->nv;
@@ -92,7 +94,7 @@ static int is_turned(const zd_guard *guard, const zd_point *point, int row)
     return !(turned <= fmax(before, after));
 }
 
-/* Whether any row of C has turned by so much in the step. Only asked of long steps: it moves the point. */
+/* Whether any row of C has turned by so much in the step. It moves the point there and back, so that only long steps are asked. */
 static int is_unresolved(zd_guard *guard, int *status)
 {
     zd_point *point = guard->motion->point;
@@ -117,7 +119,7 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
     return sum;
 }
 
-static void see_energy(zd_guard *guard)
+static void note_energy(zd_guard *guard)
 {
     const zd_point *point = guard->motion->point;
     double kinetic = (point->known & ZD_M) ? zd_point_kinetic(point) : 0;
@@ -135,7 +137,7 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
-static int is_looked_at(const zd_guard *guard, long step)
+static int is_watched(const zd_guard *guard, long step)
 {
     return guard->checks_stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak);
 }
@@ -145,7 +147,8 @@ ZD_INLINE int evaluate_end(zd_guard *guard, long next_step)
     zd_motion *motion = guard->motion;
     zd_point *point = motion->point;
     int status = zd_point_need(point, ZD_A);
-    if (!status && (guard->watches_step || is_looked_at(guard, next_step))) status = zd_motion_accelerate(motion);   /* the next step begins with it */
+    /* The next step begins with this acceleration, so that it costs nothing. */
+    if (!status && (guard->watches_step || is_watched(guard, next_step))) status = zd_motion_accelerate(motion);
     if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;
 }
@@ -154,7 +157,7 @@ ZD_INLINE void keep(zd_guard *guard, double speed, long next_step)
 {
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
-    guard->watches_step = is_looked_at(guard, next_step);
+    guard->watches_step = is_watched(guard, next_step);
     if (guard->watches_step) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
     guard->speed = speed;
     guard->has_begun = 1;
@@ -188,7 +191,7 @@ void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_
 {
     if (guard->watches_step && !is_part) {
         estimate_omega(guard, found->moved, h);
-        if (zd_has_energy(&guard->motion->system)) see_energy(guard);
+        if (zd_has_energy(&guard->motion->system)) note_energy(guard);
     }
     keep(guard, found->speed, next_step);
 }

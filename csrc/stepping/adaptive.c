@@ -13,8 +13,11 @@
 
 #include "passage.h"
 
-enum { STIFF_AFTER = 10, NOT_STIFF_AFTER = 3 };       /* so many steps held by stability make a problem stiff; so many others end the count */
-static const double AT_THE_LIMIT = 0.95;    /* of stability */
+enum {
+    STIFF_AFTER = 10,       /* steps as long as stability allows: then the problem counts as stiff */
+    NOT_STIFF_AFTER = 3,    /* shorter steps in succession: then it no longer does */
+};
+static const double AT_THE_LIMIT = 0.95;    /* of the largest |lambda h| that is stable */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
 
 static double root_mean_square(int n, const double *x, const double *scale)
@@ -72,7 +75,7 @@ int zd_adaptive_start(zd_course *course, double *work)
     return ZD_DONE;
 }
 
-/* Counts steps as long as stability allows, once there are enough for it to be no chance. */
+/* Counts steps that are as long as stability allows, once there are enough of them to rule out chance. */
 static void watch_stiffness(zd_course *course, double lambda_h)
 {
     zd_control *control = &course->control;

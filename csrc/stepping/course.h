@@ -10,7 +10,8 @@ typedef struct zd_control { /* where steps are chosen */
     double h;               /* the next step */
     zd_pace pace;           /* where the steps have been */
     double *scale;          /* (size,): what the error is measured in */
-    int at_limit, below_limit;  /* steps that were as long as stability allows; not so, in succession */
+    int at_limit;           /* steps that were as long as stability allows */
+    int below_limit;        /* steps in succession that were shorter */
 } zd_control;
 
 typedef struct zd_course {
@@ -19,9 +20,10 @@ typedef struct zd_course {
     zd_stepper *stepper;
     zd_safeguards *safeguards;
     double end;             /* s: t1 of the settings, or where an event has ended the run */
-    long step, steps;       /* begun; to do, where they are of fixed size */
-    zd_place undivided;     /* where the step that is made in parts began */
-    int parts;              /* of the step being made, if more than one: each is corrected */
+    long step;              /* the number of the step being made, from 1 */
+    long steps;             /* how many there will be, where they are of fixed size */
+    zd_place undivided;     /* where the step began that is made in parts */
+    int parts;              /* how many the step is made in; 0: it is undivided */
     zd_control control;
 } zd_course;
 

@@ -6,7 +6,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/bracket.h"
 
-static const double SHORT = 0.25 * ZD_BRANCH_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
+static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
 static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
 
 static int land_and_judge(zd_course *course, double t1)
