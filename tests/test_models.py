@@ -162,9 +162,13 @@ def test_energy_of_the_closed_pendulum_falls_at_the_order_of_the_method(links, f
     assert orders[-1] > 3.7, errors
 
 
-@pytest.mark.parametrize("links", [4, 5, 8])
+@pytest.mark.parametrize("links", [4, 5, 8, 12, 30])
 def test_start_of_the_closed_pendulum(links):
+    """An arch, of which no link has wound up, and from which a run can start."""
     system = zd.models.closed_pendulum(links)
+    assert (np.diff(system.p0) < 0).all()
+    assert np.abs(system.p0).max() < 2.5
+    assert zd.simulate(system, 0.01, step=0.005).success
     joints = system.points(system.p0)
     assert_close(joints[0], np.zeros(2), 1e-15)
     assert_close(joints[-1], np.array([system.parameters["span"], 0.0]), 1e-11)

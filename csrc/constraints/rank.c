@@ -90,6 +90,7 @@ static void take_out(zd_rank *self, int chosen, int rank)
     double *q = self->Q + chosen * n, length = sqrt(zd_dot(n, q, q));
     for (int i = 0; i < n; i++) q[i] /= length;
     self->G[chosen * self->m + rank] = length;
+    self->was_ill_conditioned |= !(length * length > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * self->square[chosen]);
     self->square_left[chosen] = -1;
     for (int k = 0; k < self->m; k++) {
         double *other = self->Q + k * n;

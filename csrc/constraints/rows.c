@@ -7,6 +7,7 @@
 #include "limits.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
+static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
 zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_be_deficient)
 {
@@ -20,7 +21,7 @@ static int reduce(zd_point *point)
 {
     static const double region = ZD_LIMITS_REGION * ZD_LIMITS_REGION;
     zd_rank *self = point->rank;
-    self->was_ill_conditioned = 1;
+    self->was_doubtful = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
@@ -38,22 +39,29 @@ static int reduce(zd_point *point)
 }
 
 /* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
-ZD_INLINE int is_doubtful(const int n, const zd_rank *self, const double *C)
+ZD_INLINE int is_doubtful(const int n, zd_rank *self, const double *C)
 {
-    int m = self->m;
+    int m = self->m, is_ill = 0;
     double *square = self->square, *left = self->square_left;
     for (int k = 0; k < m; k++) {
         square[k] = zd_dot(n, C + k * n, C + k * n);
-        if (!(square[k] > DOUBTFUL * self->start_square[k])) return 1;
+        if (!(square[k] > DOUBTFUL * self->start_square[k])) return self->was_ill_conditioned = 1;
+        is_ill |= !(square[k] > ILL * self->start_square[k]);
     }
+    self->was_ill_conditioned |= is_ill;
     if (m < 2) return 0;
     double along = zd_dot(n, C, C + n);
-    if (m == 2) return !((1 - DOUBTFUL) * square[0] * square[1] > along * along);     /* without the divisions of what follows */
+    if (m == 2) {           /* without the divisions of what follows */
+        double both = square[0] * square[1];
+        self->was_ill_conditioned |= !((1 - ILL) * both > along * along);
+        return !((1 - DOUBTFUL) * both > along * along);
+    }
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n;
         zd_copy(n, C + k * n, q);
         for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
         left[k] = zd_dot(n, q, q);
+        if (!(left[k] > ILL * square[k])) self->was_ill_conditioned = 1;
         if (!(left[k] > DOUBTFUL * square[k])) return 1;
     }
     return 0;

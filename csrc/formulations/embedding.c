@@ -54,7 +54,8 @@ static int need_rows(const zd_embedding *self, zd_point *point)
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
 
-/* [C_H; A_q] at the point, factored; and what rounding of p makes of Phi there, in units of its size. */
+/* [C_H; A_q] at the point, factored; and what rounding makes of Phi there, in units of its size. Phi is a sum of terms that may be as
+ * large as one natural unit makes them, even where all of p is zero. */
 static int factor(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv;
@@ -68,7 +69,7 @@ static int factor(zd_embedding *self, zd_point *point)
     }
     for (int k = 0; k < self->k; k++)
         for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
-    self->rounding = 16 * 0x1p-52 * gradient * zd_max_scaled(self->nq, point->p, point->inverse_unit_p);
+    self->rounding = 16 * 0x1p-52 * gradient * fmax(1, zd_max_scaled(self->nq, point->p, point->inverse_unit_p));
     point->failed_index = zd_lu_factor(nv, self->K, self->pivots);
     return point->failed_index < nv ? ZD_SINGULAR : ZD_DONE;
 }
@@ -85,7 +86,7 @@ typedef struct problem {
 static int find_resolution(const zd_embedding *self, zd_point *point, double *resolution)
 {
     *resolution = self->rounding;
-    if (!point->rank->was_ill_conditioned) return ZD_DONE;
+    if (!point->rank->was_doubtful) return ZD_DONE;
     int status = zd_rows_find(point);
     if (!status && point->rank->lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
     return status;
@@ -165,6 +166,7 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
         return ZD_DONE;
     }
     predict(self, point, t);
+    if (self->embed && point->rank->was_ill_conditioned) give_up_own(self);
     if (!self->embed) return place_numerically(self, point, t, q);
     int status = self->embed(system->data, t, q, self->p);            /* (18) */
     if (status) give_up_own(self);

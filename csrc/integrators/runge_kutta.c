@@ -46,6 +46,7 @@ int zd_runge_kutta_step(void *memory, const zd_rate *rate, double t, double h, d
     (void)statistics;
     runge_kutta *self = memory;
     const zd_tableau *T = self->tableau;
+    self->size = rate->size;    /* it may have changed */
     for (int i = 0; i < T->stages; i++) {
         ZD_SIZED(combine, self->size, i, T->a + i * T->stages, h, self->k, y, self->stage);
         int status = rate->evaluate(rate->context, t + T->c[i] * h, self->stage, self->k + i * self->size);

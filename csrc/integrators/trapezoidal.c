@@ -149,9 +149,19 @@ static int solve_step(trapezoidal *self, zd_statistics *statistics)
     return status;
 }
 
+/* The state may have become another one. */
+static void resize(trapezoidal *self, int size)
+{
+    if (size == self->size) return;
+    self->size = size;
+    self->factored = 0;
+    memset(self->scale, 0, (size_t)size * sizeof(double));
+}
+
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
 {
     trapezoidal *self = memory;
+    resize(self, rate->size);
     size_t bytes = (size_t)self->size * sizeof *y;
     self->rate = rate;
     self->t1 = t + h;

@@ -8,7 +8,7 @@ static void stabilize(zd_motion *motion)
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (active->row->stabilize)
-            active->row->stabilize(active->self, motion->point, motion->state + active->extra, motion->point->rhs);
+            active->row->stabilize(active->self, motion->point, motion->state + motion->formulation_size + active->extra, motion->point->rhs);
     }
 }
 
@@ -33,7 +33,7 @@ static void extra_rates(const zd_motion *motion, double *ydot)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
-        if (active->extra_size) active->row->extra_rate(motion->point, ydot + active->extra);
+        if (active->extra_size) active->row->extra_rate(motion->point, ydot + motion->formulation_size + active->extra);
     }
 }
 

@@ -14,7 +14,7 @@ typedef struct zd_active {
     const zd_correction *row;
     void *self;
     int every;              /* how many steps it is made */
-    int extra;              /* where in the state that stands which it integrates along */
+    int extra;              /* where, behind the formulation's part of the state, that stands which it integrates along */
     int extra_size;
 } zd_active;
 

@@ -23,10 +23,9 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *set
 {
     int every = correction->every(settings);
     if (every <= 0) return;
-    int at = motion->formulation_size + motion->corrections_size;
     int size = correction->extra_size ? correction->extra_size(&motion->system, settings) : 0;
     void *self = correction->take(arena, &motion->system, settings);
-    motion->active[motion->corrections++] = (zd_active){correction, self, every, at, size};
+    motion->active[motion->corrections++] = (zd_active){correction, self, every, motion->corrections_size, size};
     motion->acceleration_needs |= correction->needs;
     motion->is_stabilized |= correction->stabilize != NULL;
     motion->corrections_size += size;

@@ -7,6 +7,7 @@
 #include "../point/units.h"
 #include "../registry.h"
 #include "../stepping/adaptive.h"
+#include "../stepping/variables.h"
 #include "arguments.h"
 #include "explain.h"
 #include "start.h"
@@ -22,7 +23,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_motion_take(motion, arena, system, independent, zd_formulation_of(settings->formulation), settings->on_singular);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) zd_motion_enable(motion, arena, settings, zd_correction_of(row));
     motion->tally = &run->tally;
-    zd_stepper_take(&run->stepper, arena, motion, integrator);
+    zd_variables dependent = zd_variables_take(arena, motion, integrator, settings, independent);
+    zd_stepper_take(&run->stepper, arena, motion, integrator, dependent);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, integrator->card.stability, &run->stepper.last);
     run->course = (zd_course){
         .settings = &run->settings,
@@ -32,7 +34,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .end = settings->t1,
         .undivided = zd_place_take(arena, motion),
     };
-    if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, motion, settings->t0);
+    if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
     run->output = zd_output_take(arena, settings, &run->stepper);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
     return here;

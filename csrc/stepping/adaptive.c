@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "passage.h"
+#include "variables.h"
 
 enum {
     STIFF_AFTER = 10,       /* steps as long as stability allows: then the problem counts as stiff */
@@ -27,11 +28,11 @@ static double root_mean_square(int n, const double *x, const double *scale)
     return n ? sqrt(sum / n) : 0;
 }
 
-zd_control zd_adaptive_take(zd_arena *arena, const zd_motion *motion, double t0)
+zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
     return (zd_control){
         .pace = zd_pace_take(arena, t0),
-        .scale = zd_take_doubles(arena, (size_t)motion->rate.size),
+        .scale = zd_take_doubles(arena, (size_t)stepper->capacity),
     };
 }
 
@@ -120,6 +121,10 @@ int zd_adaptive_step(zd_course *course)
         double h = bounded(course, course->control.h), t1 = h == course->end - t ? course->end : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;
         int status = attempt(course, t1 - t, t1, &norm);
+        if (zd_variables_lose_digits(course->stepper, status)) {
+            status = zd_course_use_dependent(course);
+            if (!status) status = attempt(course, t1 - t, t1, &norm);
+        }
         if (!status && norm <= 1) {
             course->control.h = h * fmin(largest, factor(course, norm));
             zd_pace_step(&course->control.pace, t1);

@@ -4,7 +4,7 @@
 
 #include "course.h"
 
-zd_control zd_adaptive_take(zd_arena *arena, const zd_motion *motion, double t0);
+zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0);
 /* Chooses the first step; work (3, size). */
 int zd_adaptive_start(zd_course *course, double *work);
 int zd_adaptive_step(zd_course *course);

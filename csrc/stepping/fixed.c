@@ -3,13 +3,22 @@
 #include "../linalg/small.h"
 #include "clock.h"
 #include "passage.h"
+#include "variables.h"
 
 enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
 
-static int make_step(zd_course *course, double h, double t1)
+static int integrate_and_land(zd_course *course, double h, double t1)
 {
     int status = zd_stepper_integrate(course->stepper, h);
     return status ? status : zd_passage_land(course, t1);
+}
+
+static int make_step(zd_course *course, double h, double t1)
+{
+    int status = integrate_and_land(course, h, t1);
+    if (!zd_variables_lose_digits(course->stepper, status)) return status;
+    status = zd_course_use_dependent(course);
+    return status ? status : integrate_and_land(course, h, t1);
 }
 
 /* From where the step began to t1, in equal parts. */

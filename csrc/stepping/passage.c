@@ -5,6 +5,7 @@
 
 #include "../constraints/rows.h"
 #include "../linalg/bracket.h"
+#include "variables.h"
 
 static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
 static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
@@ -15,6 +16,12 @@ static int land_and_judge(zd_course *course, double t1)
     double h = t1 - stepper->t;
     int status = zd_stepper_land(stepper, t1, course->step, t1 == course->end || course->parts);
     return status ? status : zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts);
+}
+
+static int integrate_and_land(zd_course *course, double h, double t1)
+{
+    int status = zd_stepper_integrate(course->stepper, h);
+    return status ? status : land_and_judge(course, t1);
 }
 
 /* A step to t from where the last one began, corrected and compared with nothing. */
@@ -61,8 +68,11 @@ static int pass(zd_course *course, double t1, double h)
     if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
     crossing->may_pass = 1;
     status = zd_stepper_return(stepper);
-    if (!status) status = zd_stepper_integrate(stepper, h);
-    if (!status) status = land_and_judge(course, t1);
+    if (!status) status = integrate_and_land(course, h, t1);
+    if (zd_variables_lose_digits(stepper, status)) {
+        status = zd_course_use_dependent(course);
+        if (!status) status = integrate_and_land(course, h, t1);
+    }
     crossing->may_pass = 0;
     return status;
 }

@@ -3,16 +3,22 @@
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/units.h"
 
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator)
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator,
+                     zd_variables dependent)
 {
     const zd_system *system = &motion->system;
-    size_t size = (size_t)motion->rate.size;
+    int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
+    size_t size = (size_t)(motion->rate.size + more);
     *self = (zd_stepper){
         .motion = motion,
+        .chosen = {motion->formulation, motion->solver, own},
+        .dependent = dependent,
+        .capacity = (int)size,
         .integrator = integrator,
         .memory = integrator->take(arena, integrator->table, system, (int)size),
         .y = zd_take_doubles(arena, size),
@@ -32,6 +38,7 @@ static void remember(zd_stepper *self, double h)
     const zd_point *point = self->motion->point;
     self->last.t = self->t;
     self->last.h = h;
+    point->rank->was_ill_conditioned = 0;
     zd_copy(self->motion->rate.size, self->y, self->last.y);
     ZD_SIZED(zd_copy, point->system->nq, point->p, self->last.p);
     ZD_SIZED(zd_copy, point->system->nv, point->v, self->last.v);
@@ -66,14 +73,6 @@ int zd_stepper_land(zd_stepper *self, double t1, long step, int forced)
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
     if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
-}
-
-int zd_stepper_make_substep(zd_stepper *self, double t)
-{
-    int status = zd_stepper_integrate(self, t - self->t);
-    if (!status) status = zd_stepper_land(self, t, 0, 1);
-    self->motion->statistics.output_steps++;
-    return status;
 }
 
 int zd_stepper_return(zd_stepper *self)

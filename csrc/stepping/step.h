@@ -6,8 +6,18 @@
 #include "../motion/motion.h"
 #include "../motion/place.h"
 
+/* A formulation, and with it what is integrated. */
+typedef struct zd_variables {
+    const zd_formulation *formulation;
+    void *solver;
+    int size;               /* of its part of the state */
+} zd_variables;
+
 typedef struct zd_stepper {
     zd_motion *motion;
+    zd_variables chosen;    /* those of the settings */
+    zd_variables dependent; /* (p, v), where those lose digits; without a formulation where none can: see variables.c */
+    int capacity;           /* the largest size of the state */
     const zd_integrator *integrator;
     void *memory;           /* the integrator's */
     double *y;              /* the integrated state: the formulation's, what corrections add, the energy input (28) */
@@ -16,7 +26,8 @@ typedef struct zd_stepper {
 } zd_stepper;
 
 /* Lays out the stepper in place, and gives the motion its state. */
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator);
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator,
+                     zd_variables dependent);
 /* From t to t + h as the integrator does it, and no more. */
 int zd_stepper_make(zd_stepper *self, double h);
 /* y from t to t + h, where the step began being remembered. */

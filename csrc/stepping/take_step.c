@@ -3,15 +3,24 @@
 #include "../constraints/rank.h"
 #include "adaptive.h"
 #include "fixed.h"
+#include "variables.h"
+
+int zd_course_use_dependent(zd_course *course)
+{
+    int status = zd_variables_use_dependent(course->stepper);
+    return status || !course->safeguards->guard.has_begun ? status : zd_safeguards_begin(course->safeguards, course->step + 1);
+}
 
 int zd_course_take_step(zd_course *course)
 {
     zd_motion *motion = course->motion;
     zd_rank *rank = motion->point->rank;
     course->step++;
-    int status = course->settings->step > 0 ? zd_fixed_step(course) : zd_adaptive_step(course);
+    int status = zd_variables_use_chosen(course->stepper);
+    if (status) return status;
+    status = course->settings->step > 0 ? zd_fixed_step(course) : zd_adaptive_step(course);
     if (rank->was_deficient) motion->statistics.rank_drops++;
-    rank->was_deficient = rank->was_ill_conditioned = 0;
+    rank->was_deficient = rank->was_doubtful = 0;
     if (!status) motion->statistics.steps++;
     return status;
 }

@@ -1,0 +1,73 @@
+/* What is integrated near a bifurcation.
+ *
+ * Formulations in independent velocities find v = D u from p. As near as s to a bifurcation, where all but s of a row of C follows from
+ * the others, what p is off by across the branch turns D by 1 / s of it, and so the velocity; and the acceleration by 1 / s^2. Where p
+ * itself comes from q, it is off by 1 / s of the rounding of Phi. So these lose digits that a formulation keeps whose v is part of the
+ * state, and steps whose error is to be small creep: no step is so short that its noise would be smaller.
+ *
+ * A step that comes near one is made in (p, v) by (8) instead, and then so are the next, until one is not near; the projection after each
+ * of them holds the constraints. Where nothing does that, all stays as it was chosen.
+ */
+#include "variables.h"
+
+#include <string.h>
+
+#include "../constraints/rank.h"
+
+extern const zd_formulation zd_augmented;
+
+static int is_held(const zd_projection *projection)
+{
+    return projection->every == 1 && projection->positions && projection->velocities;
+}
+
+zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const zd_integrator *integrator, const zd_settings *settings,
+                               const zd_system *independent)
+{
+    int loses = motion->formulation->settle && zd_constraints(independent);
+    if (!loses || integrator->step_of_motion || !is_held(&settings->projection)) return (zd_variables){NULL, NULL, 0};
+    return (zd_variables){&zd_augmented, zd_augmented.take(arena, independent), zd_augmented.state_size(independent)};
+}
+
+int zd_variables_lose_digits(const zd_stepper *stepper, int status)
+{
+    const zd_motion *motion = stepper->motion;
+    return stepper->dependent.formulation && motion->formulation == stepper->chosen.formulation && motion->point->rank->was_ill_conditioned
+        && status != ZD_CALLBACK;
+}
+
+/* In place of the others; of the state, what is integrated along. */
+static void use(zd_stepper *stepper, const zd_variables *variables, const double *along)
+{
+    zd_motion *motion = stepper->motion;
+    int size = motion->rate.size - motion->formulation_size;
+    memmove(stepper->y + variables->size, along, (size_t)size * sizeof *along);
+    motion->formulation = variables->formulation;
+    motion->solver = variables->solver;
+    motion->drifts_from = variables->formulation->drifts_from;
+    motion->formulation_size = variables->size;
+    motion->rate.size = variables->size + size;
+    motion->point->known &= ~(ZD_FACTORED | ZD_ACCELERATED);
+    zd_motion_attach(motion, stepper->y);
+}
+
+int zd_variables_use_dependent(zd_stepper *stepper)
+{
+    zd_motion *motion = stepper->motion;
+    const zd_last *last = &stepper->last;
+    motion->statistics.repartitions++;
+    stepper->t = last->t;
+    zd_point_move(motion->point, last->t, last->p, last->v);
+    use(stepper, &stepper->dependent, last->y + motion->formulation_size);
+    /* So near to a bifurcation, the constraints can be satisfied far better than is asked for, and have to be. */
+    int status = zd_motion_correct(motion, 0, 1);
+    return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);
+}
+
+int zd_variables_use_chosen(zd_stepper *stepper)
+{
+    zd_motion *motion = stepper->motion;
+    if (motion->formulation == stepper->chosen.formulation || motion->point->rank->was_ill_conditioned) return ZD_DONE;
+    use(stepper, &stepper->chosen, stepper->y + motion->formulation_size);
+    return motion->formulation->leave(motion->solver, motion->point, stepper->y);
+}
