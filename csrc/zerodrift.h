@@ -98,7 +98,7 @@ typedef struct zd_statistics {
     long stiff;                 /* steps, of those looked at, that stability rather than the error asked for held down */
     long implicit_iterations;   /* Newton iterations of implicit integrators */
     long embedding_iterations;  /* Newton iterations for p = g(q) */
-    long repartitions;          /* changes of the independent variables between steps */
+    long repartitions;          /* changes of the independent variables between steps, or to (p, v) near a bifurcation */
     long rank;                  /* of C; less than m where constraints are redundant */
     long rank_drops;            /* steps in which it was less for a while */
     double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */

@@ -76,3 +76,29 @@ def test_a_light_link_costs_no_digits(formulation, mass, monkeypatch):
         found = np.concatenate(zd.acceleration(bar, p, v, formulation=formulation))
         for rows in (slice(0, 3), slice(3, 5)):
             assert_close(found[rows], expected[rows], tol.EXACT)
+
+
+# ---- where all coordinates are exactly zero, their size is that of a natural unit ----
+
+
+def test_a_start_at_zero_that_a_constraint_moves(formulation):
+    system = zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
+                       constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))
+    sol = zd.simulate(system, 1.0, step=0.01, formulation=formulation)
+    assert_close(sol.p, np.stack([0 * sol.t, 0.3 * np.sin(sol.t)], axis=1), 1e-11)
+
+
+@pytest.mark.parametrize("speed", [1e-9, 1e-5, 1.0])
+def test_displacements_from_zero(speed, formulation):
+    """A pendulum by its displacements: however small they are, Phi is summed from terms of the size of its length."""
+    away = zd.System(2, mass=np.eye(2), potential=0.0, p0=[0.0, 0.0], v0=[0.0, speed],
+                     constraints=lambda p: np.array([(1 + p[0]) ** 2 + p[1] ** 2 - 1]))
+    sol = zd.simulate(away, 1.0, step=0.01, formulation=formulation)
+    assert_close(sol.p, np.stack([np.cos(speed * sol.t) - 1, np.sin(speed * sol.t)], axis=1), 1e-9)
+
+
+def test_tools_take_a_start_at_zero():
+    system = zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
+                       constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))
+    reference = zd.reference(system, 1.0, error=1e-9)
+    assert_close(reference.solution.p[-1], np.array([0.0, 0.3 * np.sin(1.0)]), 1e-9)

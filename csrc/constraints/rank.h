@@ -17,7 +17,7 @@ struct zd_rank {
     int is_started;         /* whether it is known which rows are redundant */
     int was_deficient;      /* whether fewer than that have counted at a point of this step */
     int was_doubtful;       /* whether rows had to be orthogonalized at a point of this step, as they might be dependent */
-    int was_ill_conditioned;    /* whether so little of a row was left in this step that v = D u lost digits: see variables.c */
+    int was_ill_conditioned;    /* whether so little of a row was left in this step that v = D u lost digits: see stepping/variables.c */
     int *redundant;         /* (m,): whether the row was redundant at the start */
     int independent;        /* how many rows are, at the point */
     int *row;               /* (m,): these rows, holonomic ones first, then those that follow from them */
@@ -45,7 +45,7 @@ struct zd_rank {
 #define ZD_LIMITS_REGION 0x1p-13
 /* Rows of which this share is left in the plain metric are independent for certain. */
 #define ZD_DOUBTFUL 0x1p-10
-/* Where less than this share of a row is left, it determines velocities with noticeably fewer digits: see variables.c. */
+/* Where less than this share of a row is left, it determines velocities with noticeably fewer digits: see stepping/variables.c. */
 #define ZD_ILL_CONDITIONED 0x1p-6
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);

@@ -1,4 +1,5 @@
 /* (19) and (22): independent coordinates q and independent velocities. Nothing can be violated.
+ * Near a bifurcation, where q and u lose digits, a run integrates (p, v) instead: stepping/variables.c.
  *
  * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22).
  */

@@ -73,7 +73,7 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
         points=[tuple(joint) for joint in joints],
         name="closed_pendulum",
     )
-    # The arch ends up to a quarter of the chain away from the pin. In the mass metric the last links, which move most easily, would go
+    # The arch ends a quarter of the chain away from the pin. In the mass metric the last links, which move most easily, would go
     # all that way and wind up; in that of the angles all of them turn a little.
-    arch, widest = np.linspace(LEAN, -0.75 * LEAN, n), Projection(metric="identity", max_iterations=100)
-    return system.starting(*project(system, arch, np.zeros(n), projection=widest))
+    arch, evenly = np.linspace(LEAN, -0.75 * LEAN, n), Projection(metric="identity", max_iterations=100)
+    return system.starting(*project(system, arch, np.zeros(n), projection=evenly))
