@@ -5,6 +5,8 @@
 #ifndef ZD_PYTHON_INTERFACE_H
 #define ZD_PYTHON_INTERFACE_H
 
+#include <stddef.h>
+
 #include "../zerodrift.h"
 
 #define ZD_WRITTEN_IN_PYTHON static
