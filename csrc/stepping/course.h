@@ -39,9 +39,9 @@ static inline int zd_course_is_corrected(const zd_course *course)
     return zd_motion_is_corrected(course->motion, course->step) || course->stepper->t == course->end || course->parts;
 }
 
-/* take_step.c: the step again, in (p, v), with safeguards that may have seen its end already. */
+/* Back to where the step began, to make it in (p, v), with safeguards that may have seen its end already. */
 int zd_course_use_dependent(zd_course *course);
-/* The next step, of fixed size or as the error asked for allows. */
+/* take_step.c: the next step, of fixed size or as the error asked for allows. */
 int zd_course_take_step(zd_course *course);
 
 #endif

@@ -5,12 +5,6 @@
 #include "fixed.h"
 #include "variables.h"
 
-int zd_course_use_dependent(zd_course *course)
-{
-    int status = zd_variables_use_dependent(course->stepper);
-    return status || !course->safeguards->guard.has_begun ? status : zd_safeguards_begin(course->safeguards, course->step + 1);
-}
-
 int zd_course_take_step(zd_course *course)
 {
     zd_motion *motion = course->motion;
