@@ -20,6 +20,7 @@ int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
 int zd_default_row(enum zd_table table);    /* the one to take where nothing else is asked for */
 int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
+int zd_formulation_suits(const zd_system *system, int formulation);
 
 const zd_kind *zd_kind_of(int row);
 
@@ -135,6 +136,18 @@ int zd_run_redundant(const zd_run *run, int *rows);
 const double *zd_run_sizes(const zd_run *run);
 double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step of fixed size */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
+
+/* ---- a system that is off by rounding, to see what that does to its motion ---- */
+
+/* Factors near 1 of what the system is evaluated at, and of what it then writes. Entries of M come in equal pairs. */
+typedef struct zd_perturbation {
+    const zd_system *system;
+    double t;
+    const double *p, *v;    /* (nq,), (nv,) */
+    zd_terms terms;         /* of A, M, d, f, C, Phi_t, xi; NULL: as they are. The others always are. */
+} zd_perturbation;
+
+zd_system zd_perturbed(const zd_perturbation *perturbation);      /* it refers to the perturbation and to its system */
 
 /* ---- the same operations outside a run; each writes a sentence into `message` where it fails ---- */
 

@@ -13,6 +13,9 @@ typedef struct independent {
     double *pdot;               /* (nq,) */
 } independent;
 
+/* p = g(q) leaves out what ties surplus coordinates. */
+static int suits(const zd_system *system) { return system->nq == system->nv; }
+
 static void *take(zd_arena *arena, const zd_system *system)
 {
     independent self = {
@@ -40,7 +43,7 @@ static int leave(void *memory, zd_point *point, double *y)
 {
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
-    if (point->system->nq != point->system->nv) return ZD_UNSUITED;     /* p = g(q) leaves out what ties surplus coordinates */
+    if (!suits(point->system)) return ZD_UNSUITED;
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
     if (changed && !point->system->mn && !point->terms.A) {     /* (19): u is qdot */
@@ -65,6 +68,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
 const zd_formulation zd_independent = {
     .card = {"independent", "Independent coordinates and velocities: no constraint can be violated.", "(19), (22)", 0},
     .drifts_from = 0,
+    .suits = suits,
     .state_size = state_size,
     .take = take,
     .factor = zd_minimal_factor,

@@ -89,7 +89,7 @@ const zd_kind zd_chaplygin_sleigh = {
              "Bloch, section 1.7", 0},
     .system = {
         .nq = N, .nv = N, .mn = 1,
-        .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA,
+        .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },

@@ -210,7 +210,7 @@ const zd_kind zd_four_bar = {
              "section 4.1", 0},
     .system = {
         .nq = N, .nv = N, .mh = 2,
-        .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = zd_four_bar_evaluate,
         .embed = embed,

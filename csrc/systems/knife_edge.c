@@ -84,7 +84,7 @@ const zd_kind zd_knife_edge = {
     .card = {"knife_edge", "Knife edge on an inclined plane: one nonholonomic constraint.", "Bloch, section 1.6", 0},
     .system = {
         .nq = N, .nv = N, .mn = 1,
-        .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA,
+        .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },

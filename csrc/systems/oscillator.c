@@ -54,7 +54,7 @@ const zd_kind zd_oscillator = {
     .card = {"oscillator", "Mass on a spring, without constraints: the paper's example 2.", "section 4.2", 0},
     .system = {
         .nq = 1, .nv = 1,
-        .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
     },
     .parameters = sizeof parameter / sizeof parameter[0],

@@ -81,7 +81,7 @@ const zd_kind zd_pendulum = {
     .card = {"pendulum", "Point mass on a massless rod, in Cartesian coordinates.", "IFToMM benchmark A01", 0},
     .system = {
         .nq = N, .nv = N, .mh = 1,
-        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
     },
     .parameters = sizeof parameter / sizeof parameter[0],

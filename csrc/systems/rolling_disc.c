@@ -172,7 +172,7 @@ const zd_kind zd_rolling_disc = {
     .card = {"rolling_disc", "Thin disc that rolls, leans and spins on a plane.", "Bloch, section 1.5", 0},
     .system = {
         .nq = N, .nv = N, .mh = 1, .mn = 2,
-        .provides = ZD_A | ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_A | ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
         .failure = "the disc fell flat, where yaw and spin are the same turn; if it should have swung round, try a smaller step",

@@ -140,7 +140,7 @@ const zd_kind zd_slider_crank = {
     .card = {"slider_crank", "Slider-crank with a spring, a damper and a constant force.", "SUNDIALS idaSlCrank", 0},
     .system = {
         .nq = N, .nv = N, .mh = 2,
-        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER,
+        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER | ZD_TIMELESS,
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
     },

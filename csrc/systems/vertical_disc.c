@@ -100,7 +100,7 @@ const zd_kind zd_vertical_disc = {
     .card = {"vertical_disc", "Disc that rolls on a plane and is kept upright.", "Bloch, section 1.4", 0},
     .system = {
         .nq = N, .nv = N, .mn = 2,
-        .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },

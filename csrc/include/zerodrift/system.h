@@ -72,7 +72,8 @@ enum zd_term {
     ZD_POWER = 512,    /* Edot of (28): power of the forces in f that V does not describe, and dV/dt at fixed p */
     ZD_COMPLEMENT = 1024,   /* D of (14), C D = 0; a system need not have it: absent, it is found from C by (16) */
     ZD_GAMMA = 2048,        /* what vdot has besides D udot, (15); goes with D */
-    ZD_MOVED = 4096    /* said to the system, not asked of it: t or p differ from its last call with this scratch */
+    ZD_MOVED = 4096,   /* said to the system, not asked of it: t or p differ from its last call with this scratch */
+    ZD_TIMELESS = 8192 /* said by the system among what it provides: none of its terms depends on t but through p and v */
 };
 
 typedef struct zd_terms {

@@ -21,6 +21,7 @@ from .base import (
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
+from .perturbed import perturbed
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
@@ -28,7 +29,7 @@ __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
     "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library",
-    "kind_at", "kinds", "load_data", "numba_signature", "probe", "project", "settings", "step", "terms_of",
+    "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

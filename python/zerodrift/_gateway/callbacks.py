@@ -128,13 +128,15 @@ class PythonCore(CoreSystem):
     """A system whose terms `write` computes.
 
     ``write(want, t, arrays)`` fills the arrays of the terms whose bits are in `want`, from `arrays["p"]` and `arrays["v"]`;
-    ``write.not_finite(name, t, value)`` is the error for a term that came out not finite.
+    ``write.not_finite(name, t, value)`` is the error for a term that came out not finite. `timeless` says that no term depends
+    on t.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
-                 variables: Iterable[Variable]) -> None:
+                 variables: Iterable[Variable], *, timeless: bool = False) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
+        system.provides = lib.ZD_TIMELESS if timeless else 0
         for name in names:
             system.provides |= TERMS[name][0]
         system.evaluate = lib.zd_evaluate_in_python

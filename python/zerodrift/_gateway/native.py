@@ -22,13 +22,15 @@ class NativeCore(CoreSystem):
     """A system whose terms the function at `address`, a `zd_evaluate`, computes.
 
     Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; the function receives
-    `data`, and memory for `scratch` doubles of its own. `keep` is whatever must live as long as the system.
+    `data`, and memory for `scratch` doubles of its own. `keep` is whatever must live as long as the system. `timeless` says
+    that no term depends on t.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None,
-                 variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None) -> None:
+                 variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None, timeless: bool = False) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
+        system.provides = lib.ZD_TIMELESS if timeless else 0
         for name in names:
             system.provides |= TERMS[name][0]
         system.scratch, system.failure = scratch, FAILURE

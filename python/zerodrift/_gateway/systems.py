@@ -66,7 +66,7 @@ class CoreSystem:
         self.nq, self.nv, self.mh, self.mn = system.nq, system.nv, system.mh, system.mn
         self.m = self.mh + self.mn
         self.r = self.nv - self.m
-        self.provides = system.provides
+        self.provides, self.timeless = system.provides & ~lib.ZD_TIMELESS, bool(system.provides & lib.ZD_TIMELESS)
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
 
     error: BaseException | None = None      # what a system written in Python raised
@@ -78,6 +78,10 @@ class CoreSystem:
     def suits(self, integrator: int) -> bool:
         """Whether that row of the table of integrators can take the system."""
         return bool(lib.zd_suits(self.c, integrator))
+
+    def suits_formulation(self, formulation: int) -> bool:
+        """Whether that row of the table of formulations can take the system."""
+        return bool(lib.zd_formulation_suits(self.c, formulation))
 
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v)."""

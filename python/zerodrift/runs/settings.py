@@ -161,16 +161,21 @@ def _table(name: str) -> CardTable:
 _FORMULATIONS, _INTEGRATORS, _CORRECTIONS = _table("formulations"), _table("integrators"), _table("corrections")
 
 
-def formulations() -> dict[str, _gateway.Card]:
-    """The formulations there are, by name.
+def formulations(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
+    """The formulations there are, by name, or those that can take a system.
 
     Examples
     --------
     >>> import zerodrift as zd
     >>> zd.formulations()["schur"].equations
     '(13), (27)'
+    >>> "independent" in zd.formulations(zd.systems.four_bar())
+    True
     """
-    return CardTable(_FORMULATIONS)
+    if system is None:
+        return CardTable(_FORMULATIONS)
+    core = core_of(system)
+    return CardTable({name: card for row, (name, card) in enumerate(_FORMULATIONS.items()) if core.suits_formulation(row)})
 
 
 def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:

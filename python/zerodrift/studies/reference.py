@@ -1,33 +1,67 @@
-"""`reference`: a motion whose error is known, from runs that differ in step and in formulation.
+"""`reference`: a motion whose error is known, from runs that could have contradicted it.
 
-A method of order k that halves its step divides its error by 2^k: the difference of two such runs is then nearly the error
-of the coarser one, and far above that of the finer. Near round-off nothing of this holds. There the runs differ because
-they round differently, and so do runs of another formulation, which integrates other variables with other matrices.
+The motion is computed with fixed steps by the integrator of highest order, and the step is halved until two such runs do not
+come closer any more. What is certified is ten times the *largest* of its differences from four other runs, each of which has
+another reason to disagree:
+
+* one with half the steps, for a step that is still too long: its truncation error is 2^8 times as large;
+* one with the same steps, whose start, arguments and terms are all off by one or two units of rounding, always the same way:
+  what rounding does that every step, method and formulation shares, and how the motion multiplies it;
+* one by another method, an extrapolated midpoint rule, with two thirds of the steps, in another formulation if there are
+  constraints, rounded off in yet another way: for errors of a method, its coefficients, and of a formulation. Without constraints
+  all formulations do the same arithmetic, and would only seem to agree;
+* one with five thirds of the steps, rounded off in a third way: it is finer than what it checks, and shares few of its instants.
+  In time, its points of evaluation are more than three times as dense as those of the first.
+
+Each is compared with the motion at all rows that both have. The differences cannot all be small by luck, as they are not
+rounded alike. To this is added what no run shows: times are doubles, and the steps and coefficients that are multiplied by
+rates are, too, which may shift the motion by two roundings of the time that has passed. What none of this can exclude is
+said in `Reference.caveats`.
 """
 
 from __future__ import annotations
 
+import contextlib
+import dataclasses
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from ..errors import UnreachableTolerance, ZerodriftError
 from ..runs import settings
 from ..runs.diagnosis import unwarned
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, core_of
 
-SAFETY = 10         # the certified error, in units of the largest difference: rounding that all runs share is not seen in that
-STALL_RATIO = 4     # halving the step has stalled where it divides the error by less than this, perhaps for round-off
-MOST_STALLS = 2     # refinement ends after so many stalls; a single one may be chance, as where an error passes through zero
+SAFETY = 10         # the certified error, in units of the largest difference
+ROUNDING = np.finfo(float).eps
+STALL_RATIO = 4     # halving the step has stalled where it divides the difference by less than this, perhaps for rounding
+SMOOTH_RATIO = 8    # where it divides the difference by less than this, far above rounding, terms are not smooth for the steps
+MOST_STALLS = 2     # refinement ends after so many stalls that rounding does not explain, unless a smaller error is wanted
+EXPLAINED = 30      # a difference of at most so many times what rounding was seen to do is rounding
 RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
 PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
-REFINEMENTS = 12    # the largest number of times that this number of steps is doubled
-SPACING = 4 * np.finfo(float).eps       # part of the motion's size; doubles cannot express a smaller error
+REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
+FORGOTTEN = 3       # the motion has forgotten its start where rounding alone makes another one of it in so many refinements in a row
+UNIT = 3            # numbers of steps are multiples of this, as two and five thirds of them are taken
+GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
+LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
+SPACING = 4 * ROUNDING      # part of the motion's size; doubles cannot express a smaller error
+
+TIME = ("terms depend on t, and no max_step was said: what acts for less than the time between the instants at which they were "
+        "evaluated, some {apart:.2g} s, may have been missed")
+ROUNDED = ("the difference between runs stops falling at round-off and at the tolerance of corrections, which this motion "
+           "multiplies")
+SLOWLY = "halving the steps divides the differences"
+SMOOTH = (SLOWLY + " by {ratio:.2g} only, where smooth terms give up to 256: the terms jump or "
+          "have corners, or change faster than the steps, and the error is a multiple of the differences that were seen")
+SENSITIVE = ("the motion multiplies roundings by some {growth:.1g}: the error follows the growth that was seen in these runs, "
+             "and no bound of it was proved")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -37,35 +71,42 @@ class Reference:
     Attributes
     ----------
     solution : Solution
-        The motion, of the finest run.
+        The motion.
     error : float
-        Bound of ``abs(p - exact)`` at every row, each coordinate in its own unit.
+        Bound of ``abs(p - exact)`` at every row, each coordinate in its own unit: what follows from the start, the parameters and
+        the times of the rows, taken as the doubles they are.
     velocity_error : float
         The same of v.
-    differences : tuple of Difference(steps, formulation, p, v)
-        The evidence: the largest differences in p and v between the solution's formulation with so many steps and with half
-        of them, and between it and the other formulation with as many.
+    differences : tuple of Difference(steps, formulation, p, v, integrator, rounded)
+        The evidence: for each of the other runs its steps and formulation, the largest differences in p and v from the solution,
+        its integrator, and whether its terms were off by rounding.
+    caveats : tuple of str
+        What was not excluded, a sentence each; empty: nothing that is known of.
     """
 
     solution: Solution
     error: float
     velocity_error: float
     differences: tuple[Difference, ...]
+    caveats: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         lines = [f"Reference of {self.solution.system.name}: |error of p| <= {self.error:.2g}, "
                  f"|error of v| <= {self.velocity_error:.2g}, {len(self.solution.t)} rows"]
-        lines += [f"  {d.steps:8} steps, {d.formulation:12}  differ by {d.p:.2g} in p, {d.v:.2g} in v" for d in self.differences]
-        return "\n".join(lines)
+        lines += [f"  {d.steps:8} steps, {d.formulation:12} {d.integrator:14} {'rounded otherwise, ' if d.rounded else '':19}"
+                  f"differ by {d.p:.2g} in p, {d.v:.2g} in v" for d in self.differences]
+        return "\n".join(lines + [f"  not excluded: {caveat}" for caveat in self.caveats])
 
 
 class Difference(NamedTuple):
-    """How far a run is from the one it is compared with."""
+    """How far a run is from the solution."""
 
     steps: int
     formulation: str
     p: float
     v: float
+    integrator: str
+    rounded: bool
 
 
 def reference(
@@ -74,15 +115,18 @@ def reference(
     p0: Any = None,
     v0: Any = None,
     *,
-    error: float | None = 1e-12,
+    error: float | None = None,
+    first_step: float | None = None,
+    max_step: float | None = None,
     t_eval: Any = None,
-    formulations: tuple[str, str] = ("augmented", "independent"),
+    formulations: tuple[str, str] | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
 ) -> Reference:
     """A motion with a certified error.
 
-    The integrator of the highest order halves its fixed step until two runs agree, and a run of a second formulation agrees
-    with both. The error certified is ten times the largest difference between them.
+    The integrator of the highest order halves its fixed step until the runs agree. Runs with other steps, by another method, in
+    another formulation, and with everything off by rounding are compared with it; the error certified is ten times the
+    largest difference, and what the rounding of time may add.
 
     Parameters
     ----------
@@ -92,20 +136,23 @@ def reference(
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
         Start; left out: the system's own.
-    error : float or None
-        Largest error of any coordinate at any row, each in its own unit. None: the smallest that can be certified.
+    error : float, optional
+        Largest error of any coordinate at any row, each in its own unit. Left out: what can be certified.
+    first_step, max_step : float, optional
+        In s, as in `simulate`: the first step of the run that finds how many the motion needs, and the largest of any run. Where
+        something acts for a short time, a `max_step` of that time is needed for it to be seen.
     t_eval : array_like (k,), optional
         Times to save. Left out: every step, and then values at any other time are there, too: `zerodrift.plot.error` and
         `zerodrift.compare.difference` take them by a shorter step of the same method.
-    formulations : (str, str)
-        That of the solution, and that of the check.
+    formulations : (str, str), optional
+        That of the solution, and that of the check. Left out: of those that can take the system, the first and the last.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
         As in `simulate`. Near singular positions a smaller ``Projection(tol=...)`` may allow a smaller error.
 
     Returns
     -------
     Reference
-        It may be given wherever a reference is asked for.
+        It may be given wherever a reference is asked for. Its `caveats` say what was not excluded.
 
     Raises
     ------
@@ -125,83 +172,189 @@ def reference(
     >>> ref = zd.reference(zd.systems.oscillator(mass=1.0, stiffness=4.0, x0=0.1), 2.0, error=1e-12)
     >>> bool(abs(ref.solution.p[:, 0] - 0.1 * np.cos(2 * ref.solution.t)).max() <= ref.error <= 1e-12)
     True
+    >>> ref.caveats
+    ()
     """
-    span = _check.span(t_span)
     wanted = None if error is None else _check.number("error", error, above=0)
-    first, second = _two_formulations(formulations)
-    method = max(settings.integrators().values(), key=lambda card: card.order).name
-    options = {"integrator": method, "stabilization": stabilization}
-    with unwarned():
-        probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=first, **options)
-    size = float(np.abs(probe.p).max())
-    if wanted is not None and wanted < SPACING * size:
-        raise UnreachableTolerance(f"error must be at least {SPACING * size:.2g}, the spacing of doubles at the size of this "
-                                   f"motion, not {wanted:g}")
-
-    def run(steps: int, formulation: str) -> Solution:
-        return simulate(system, span, p0, v0, step=(span[1] - span[0]) / steps, formulation=formulation, t_eval=t_eval,
-                        **options)
-
-    found = _refine(run, probe.stats["steps"], wanted, size, (first, second), 2 if t_eval is None else 1)
+    pairs = _pairs(system, formulations)
+    bounds = {"first_step": first_step, "max_step": max_step}
+    motion = _Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
+    if wanted is not None and wanted < SPACING * motion.size:
+        raise UnreachableTolerance(f"error must be at least {SPACING * motion.size:.2g}, the spacing of doubles at the size of "
+                                   f"this motion, not {wanted:g}")
+    found = _Search(motion, pairs, wanted).found()
     if wanted is not None and not found.error <= wanted:
-        raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: the difference between runs stops falling at "
-                                   "round-off and at the tolerance of corrections, which this motion multiplies; what can be "
-                                   f"certified is {found.error:.2g}")
+        why = next((caveat for caveat in found.caveats if caveat.startswith(SLOWLY)), ROUNDED)
+        raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: {why}; what can be certified is {found.error:.2g}")
     return found
 
 
-def _two_formulations(formulations: Any) -> tuple[str, str]:
+def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
+    """Formulations of the motion and of the checks: those given, or those to be tried, one pair after the other."""
+    if formulations is None:
+        first, *others = settings.formulations(system)
+        return [(first, other) for other in reversed(others)] if system.m and others else [(first, first)]
     names = tuple(formulations)
     if len(names) != 2 or names[0] == names[1]:
         raise ValueError(f"formulations must be two different formulations, not {formulations!r}")
     for name in names:
         settings.formulation_row(name)
-    return names
+    return [names]
 
 
-def _refine(run, steps, wanted, size, formulations, stride) -> Reference:
-    """Halve the step until the error is certified, or does not fall any more."""
-    best, previous, coarse, stalls = None, math.inf, None, 0
-    for _ in range(REFINEMENTS):
-        fine = _attempt(run, steps, formulations[0])
-        if fine and coarse:
-            found = _certify(run, steps, fine, coarse, formulations, stride)
-            best = found if best is None or found.error < best.error else best
-            if wanted is not None and best.error <= wanted:
-                return best
-            stalls += found.error * STALL_RATIO > previous and found.error < RESOLVED * size
-            if stalls == MOST_STALLS:
-                return best
-            previous = found.error
-        coarse, steps = fine, 2 * steps
-    if best is None or best.error > RESOLVED * size:
-        raise UnreachableTolerance(f"no error can be certified: runs still differ with {steps // 2} steps; the motion takes "
-                                   "shorter ones, or multiplies round-off until nothing is left. Ask for a shorter t_span")
-    return best
+class _Perturbed(BaseSystem):
+    """A system that is off by rounding."""
+
+    def __init__(self, system: BaseSystem, seed: int) -> None:
+        self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
+        self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
+        self._core = _gateway.perturbed(core_of(system), ROUNDING, seed)
+
+    def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
+        """A state off by a rounding or two."""
+        return x * (1.0 + ROUNDING * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
 
 
-def _certify(run, steps, fine, coarse, formulations, stride) -> Reference:
-    """What the run of twice the step and that of the other formulation say."""
-    differences = [_difference(steps, formulations[0], fine, coarse, stride),
-                   _difference(steps, formulations[1], fine, _attempt(run, steps, formulations[1]), 1)]
-    p, v = (max(getattr(d, name) for d in differences) for name in "pv")
-    spacing = SPACING * np.array([np.abs(fine.p).max(), np.abs(fine.v).max()])
-    return Reference(fine, max(SAFETY * p, spacing[0]), max(SAFETY * v, spacing[1]), tuple(differences))
+@dataclass(frozen=True)
+class _Way:
+    """How a run is made: its steps, equations and method, and how it is rounded (0: as it comes)."""
+
+    steps: int
+    formulation: str
+    integrator: str
+    rounding: int = 0
 
 
-def _attempt(run, steps, formulation) -> Solution | None:
-    """A run; None where its steps were too long for it."""
-    try:
+class _Motion:
+    """What is to be known: runs of it, and how large and fast it is."""
+
+    def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
+        self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
+        self.start = system._start(p0, v0)
+        self.bounded = bounds["max_step"] is not None
+        cards = sorted(settings.integrators(system).values(), key=lambda card: -card.order)     # as they stand, where equal
+        self.method, self.other = cards[0].name, cards[1].name
         with unwarned():
-            return run(steps, formulation)
-    except ZerodriftError as error:
-        if error.solution is None:      # it did not even start
-            raise
-        return None
+            probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
+                             stabilization=stabilization, **bounds)
+        self.size = float(np.abs(probe.p).max())
+        most = math.ceil((span[1] - span[0]) / bounds["max_step"]) if self.bounded else 1
+        self.steps = UNIT * math.ceil(max(probe.stats["steps"], most) / UNIT)
+        self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
+
+    def run(self, way: _Way, rows: int | None = None) -> Solution | None:
+        """A run, of which so many rows after the first are saved; None where its steps were too long for it."""
+        system, (p0, v0) = self.system, self.start
+        if way.rounding:
+            system = _Perturbed(system, way.rounding)
+            p0, v0 = (system.shifted(x, way.rounding + i) for i, x in enumerate((p0, v0)))
+        saved = {"save_every": way.steps // (rows or way.steps)} if self.t_eval is None else {"t_eval": self.t_eval}
+        try:
+            with unwarned():
+                return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
+                                formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization, **saved)
+        except ZerodriftError as error:
+            if error.solution is None:      # it did not even start
+                raise
+            return None
+
+    def difference(self, way: _Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
+        """How far that run is from the motion of so many steps, at the rows that both have."""
+        rows = math.gcd(steps, way.steps)
+        run = run or self.run(way, rows)
+        apart = [math.inf, math.inf]
+        if run is not None:
+            every, its = (1, 1) if self.t_eval is not None else (steps // rows, (len(run.t) - 1) // rows)
+            apart = [float(np.abs(getattr(motion, name)[::every] - getattr(run, name)[::its]).max()) for name in "pv"]
+        return Difference(way.steps, way.formulation, *apart, way.integrator, way.rounding > 0)
 
 
-def _difference(steps: int, formulation: str, fine: Solution, other: Solution | None, stride: int) -> Difference:
-    if other is None:
-        return Difference(steps, formulation, math.inf, math.inf)
-    return Difference(steps, formulation, *(float(np.abs(getattr(fine, name)[::stride] - getattr(other, name)).max())
-                                            for name in "pv"))
+def _shift(t: np.ndarray, x: np.ndarray) -> float:
+    """The most that a rounding of the time, and of the time that has passed, makes of x."""
+    rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
+    return float(ROUNDING * (rates * (np.abs(t) + t - t[0])[1:]).max())
+
+
+class _Search:
+    """Halves the step until the error is certified, or does not fall any more."""
+
+    def __init__(self, motion: _Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
+        self.motion, self.pairs, self.wanted = motion, pairs, wanted or 0.0
+
+    def found(self) -> Reference:
+        """What can be certified: with enough steps for the error that is wanted, or as many as rounding allows."""
+        motion, steps, stalls, forgotten = self.motion, self.motion.steps, 0, 0
+        previous, coarse, best = math.inf, None, None
+        for doublings in range(REFINEMENTS):
+            fine, last = motion.run(self._way(steps)), steps
+            if fine and coarse:
+                halved = motion.difference(self._way(steps // 2), fine, steps, coarse)
+                forgotten = forgotten + 1 if halved.p > RESOLVED * motion.size and self._is_forgotten(fine, steps) else 0
+                if forgotten == FORGOTTEN:
+                    break
+                stalled = STALL_RATIO * halved.p >= previous
+                enough = stalled or SAFETY * halved.p <= self.wanted or doublings == REFINEMENTS - 1
+                if previous < math.inf and halved.p <= RESOLVED * motion.size and enough:
+                    best = self._certified(fine, steps, halved, previous)
+                    stalls += stalled
+                    if best.error <= self.wanted or (stalled and self._is_final(best, stalls)):
+                        break
+                previous = halved.p
+            coarse, steps = fine, 2 * steps
+        if best is None or best.error > max(RESOLVED * motion.size, self.wanted):
+            raise UnreachableTolerance(f"no error can be certified: runs still differ with {last} steps; the motion takes "
+                                       "shorter ones, or multiplies round-off until nothing is left. Ask for a shorter t_span")
+        return best
+
+    def _way(self, steps: int) -> _Way:
+        return _Way(steps, self.pairs[0][0], self.motion.method)
+
+    def _certified(self, fine: Solution, steps: int, halved: Difference, previous: float) -> Reference:
+        """What all runs say of that of so many steps."""
+        motion, method = self.motion, self.motion.method
+        differences = [halved, motion.difference(_Way(steps, self.pairs[0][0], method, rounding=1), fine, steps),
+                       self._by_other_method(fine, steps)]
+        differences.append(motion.difference(_Way(5 * steps // UNIT, self.pairs[0][1], method, rounding=3), fine, steps))
+        errors = [SAFETY * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
+                  for name, shift in zip("pv", motion.shift, strict=True)]
+        found = Reference(fine, *errors, tuple(differences))
+        return dataclasses.replace(found, caveats=tuple(self._caveats(found, steps, previous)))
+
+    def _by_other_method(self, fine: Solution, steps: int) -> Difference:
+        """In the first of the other formulations that can follow the motion; those that cannot are not asked again."""
+        while len(self.pairs) > 1:
+            with contextlib.suppress(ZerodriftError):
+                difference = self._other_method(fine, steps)
+                if math.isfinite(difference.p):
+                    return difference
+            del self.pairs[0]
+        return self._other_method(fine, steps)
+
+    def _other_method(self, fine: Solution, steps: int) -> Difference:
+        return self.motion.difference(_Way(2 * steps // UNIT, self.pairs[0][1], self.motion.other, rounding=2), fine, steps)
+
+    def _is_forgotten(self, fine: Solution, steps: int) -> bool:
+        """Whether rounding alone makes another motion of it. With steps that are much too long, it may by chance."""
+        rounded = self.motion.difference(_Way(steps, self.pairs[0][0], self.motion.method, rounding=1), fine, steps)
+        return RESOLVED * self.motion.size < rounded.p < math.inf
+
+    def _is_final(self, found: Reference, stalls: int) -> bool:
+        """Whether shorter steps are of no use, or help so little that only an error which is wanted is worth them."""
+        return self._is_rounding(found) or (stalls >= MOST_STALLS and not self.wanted and found.error <= RESOLVED * self.motion.size)
+
+    def _is_rounding(self, found: Reference) -> bool:
+        """Whether runs differ by what rounding was seen to do, or may do where each step rounds the same way."""
+        size, steps = self.motion.size, max(d.steps for d in found.differences)
+        seen = found.differences[1].p + self.motion.shift[0] + SPACING * size
+        return max(d.p for d in found.differences) <= EXPLAINED * seen + steps * ROUNDING / 2 * size
+
+    def _caveats(self, found: Reference, steps: int, previous: float) -> Iterator[str]:
+        motion = self.motion
+        halved, rounded, _, finer = (d.p for d in found.differences)
+        if not (core_of(motion.system).timeless or motion.bounded):
+            yield TIME.format(apart=(motion.span[1] - motion.span[0]) / steps * LARGEST_GAP)
+        if not self._is_rounding(found) and (SMOOTH_RATIO * halved > previous or SMOOTH_RATIO * finer > halved):     # the last is the error itself
+            yield SMOOTH.format(ratio=min(previous / halved, halved / finer))
+        own = ROUNDING * motion.size + motion.shift[0]
+        if rounded > GROWTH * own:
+            yield SENSITIVE.format(growth=rounded / own)

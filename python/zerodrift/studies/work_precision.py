@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import Interrupted, StabilityWarning
+from ..errors import Interrupted, SingularSystem, StabilityWarning
 from ..runs import settings
 from ..runs.diagnosis import doubts, unwarned
+from ..runs.operations import acceleration
 from ..runs.progress import progress_of
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
@@ -236,8 +237,8 @@ def work_precision(
     True
     """
     span = _check.span(t_span)
-    formulations = _names("formulations", settings.formulations(), formulations)
-    taken = settings.integrators(system)
+    taken, able = settings.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
+    formulations = _names("formulations", settings.formulations(), able)
     integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)
     stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
     steps = default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
@@ -318,6 +319,18 @@ def _largest(values: np.ndarray | None) -> float:
     return float(np.abs(values).max()) if values is not None and values.size else np.nan
 
 
+def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[str]:
+    """The formulations that can take the system where it starts: some invert a mass matrix that may be singular."""
+    def can(name: str) -> bool:
+        try:
+            acceleration(system, *system._start(p0, v0), span[0], name)
+        except SingularSystem:
+            return False
+        return True
+
+    return [name for name in settings.formulations(system) if can(name)]
+
+
 def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
     """Those chosen of a table, or all."""
     if isinstance(chosen, str):
@@ -334,5 +347,6 @@ def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: I
 def default_steps(system, span, p0, v0) -> list[float]:
     """Fixed steps around the mean one of an accurate run, in s."""
     method = max(settings.integrators().values(), key=lambda card: card.order).name
-    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method, formulation="augmented")
+    probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,
+                     formulation=next(iter(settings.formulations(system))))
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

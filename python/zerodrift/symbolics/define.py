@@ -153,5 +153,6 @@ def _derive(definition: Definition, say: Progress) -> Code:
         coordinates=definition.coordinate_names, velocities=definition.velocity_names,
         constraints=definition.constraint_names, parameters=tuple(definition.values),
         sizes=(given.nq, given.nv, len(given.holonomic), len(given.nonholonomic)), provides=tuple(terms),
+        timeless=all(operation.arguments[0] != "t" for operation in lowering.operations if operation.code == "leaf"),
         constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
         drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source())

@@ -29,6 +29,7 @@ class Code:
     parameters: tuple[str, ...]
     sizes: tuple[int, int, int, int]    # nq, nv, mh, mn
     provides: tuple[str, ...]
+    timeless: bool                      # no term depends on t
     constants: int                      # that follow from the parameters
     scratch: int
     c_source: str
@@ -73,7 +74,7 @@ class SymbolicSystem(BaseSystem):
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
         return _gateway.NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
-                                   scratch=code.scratch, keep=self._library)
+                                   scratch=code.scratch, keep=self._library, timeless=code.timeless)
 
     def _data(self) -> np.ndarray:
         """What the compiled function receives: the parameters, and the constants that follow from them."""
@@ -85,7 +86,8 @@ class SymbolicSystem(BaseSystem):
 
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
-        return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities))
+        return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
+                                   timeless=code.timeless)
 
     @property
     def c_source(self) -> str:

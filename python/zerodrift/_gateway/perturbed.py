@@ -1,0 +1,47 @@
+"""Systems that are off by rounding."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import TERMS, doubles
+from .systems import CoreSystem
+
+NAMES = ("A", "M", "d", "f", "C", "Phi_t", "xi")    # the terms that are perturbed: those the motion follows from
+
+
+class PerturbedCore(CoreSystem):
+    """Another system, whose arguments t (1,), p (nq,), v (nv,) and terms are multiplied by factors, one for each entry."""
+
+    def __init__(self, inner: CoreSystem, factors: dict[str, np.ndarray]) -> None:
+        self.inner, self.factors = inner, factors
+        memory = {name: doubles(array, array.size) for name, array in factors.items()}
+        terms = ffi.new("zd_terms *", {name: ffi.cast("double *", memory[name]) for name in NAMES if name in memory})
+        self._kept = memory, inner
+        self._perturbation = ffi.new("zd_perturbation *", {
+            "system": inner.c, "t": factors["t"][0], "p": memory["p"], "v": memory["v"], "terms": terms[0]})
+        super().__init__(ffi.new("zd_system *", lib.zd_perturbed(self._perturbation)), self._kept)
+
+    def for_run(self) -> PerturbedCore:
+        """The same with the inner system for one run."""
+        return PerturbedCore(self.inner.for_run(), self.factors)
+
+    @property
+    def error(self) -> BaseException | None:
+        """What a callable raised."""
+        return self.inner.error
+
+
+def perturbed(inner: CoreSystem, size: float, seed: int) -> PerturbedCore:
+    """A system whose arguments and terms are off by one or two times `size`, relative, each by chance up or down."""
+    chance = np.random.default_rng(seed)
+
+    def draw(*shape: int) -> np.ndarray:
+        return 1.0 + size * chance.choice([-2.0, -1.0, 1.0, 2.0], shape)
+
+    shapes = {name: tuple(getattr(inner, each) for each in TERMS[name][1]) for name in NAMES if inner.provides & TERMS[name][0]}
+    factors = {"t": draw(1), "p": draw(inner.nq), "v": draw(inner.nv), **{name: draw(*shape) for name, shape in shapes.items()}}
+    upper = np.triu(factors["M"])
+    factors["M"] = upper + np.triu(upper, 1).T
+    return PerturbedCore(inner, factors)
