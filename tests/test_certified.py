@@ -5,9 +5,13 @@ import pickle
 
 import numpy as np
 import pytest
+import sympy as sp
 
+import certain_motions
+import taylor
 import zerodrift as zd
 from support import SYSTEMS
+from taylor import mp
 from test_references import definition, number, table
 from zerodrift.studies import compare
 
@@ -82,13 +86,26 @@ def test_every_system_has_a_reference_that_a_better_one_confirms(system, error):
     assert ref.error <= error
 
 
-def test_the_evidence_is_from_another_step_and_another_formulation():
+def test_the_evidence_is_from_other_steps_methods_formulations_and_roundings():
     ref = zd.reference(BAR, 1.0, error=1e-8)
-    step, formulation = ref.differences
-    assert (step.formulation, formulation.formulation) == ("augmented", "independent")
-    assert ref.error >= 10 * max(step.p, formulation.p)
-    assert ref.solution.stats["steps"] == step.steps
+    halved, rounded, method, finer = ref.differences
+    assert ref.solution.stats["steps"] == 2 * halved.steps == rounded.steps
+    assert (3 * halved.steps, 3 * method.steps, 3 * finer.steps) == tuple(k * ref.solution.stats["steps"] / 2 for k in (3, 4, 10))
+    assert method.integrator == "extrapolation"
+    assert {d.integrator for d in ref.differences} == {"dop853", "extrapolation"}
+    assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "independent", "independent"]
+    assert [d.rounded for d in ref.differences] == [False, True, True, True]
+    assert ref.error >= 10 * max(d.p for d in ref.differences) > 0
+    assert ref.caveats == ()
     assert "four_bar" in repr(ref)
+    assert "extrapolation" in repr(ref)
+
+
+def test_without_constraints_no_formulation_is_taken_for_another():
+    """All of them do the same arithmetic there; the runs differ all the same."""
+    ref = zd.reference(zd.systems.oscillator(), 1.0)
+    assert {d.formulation for d in ref.differences} == {"augmented"}
+    assert min(d.p for d in ref.differences) > 0
 
 
 def test_other_formulations_and_corrections_may_be_chosen():
@@ -96,6 +113,84 @@ def test_other_formulations_and_corrections_may_be_chosen():
     ref = zd.reference(BAR, 1.0, error=1e-8, **options)
     assert ref.solution.settings["formulation"] == "nullspace"
     assert ref.solution.settings["stabilization"] == zd.Projection(tol=1e-13)
+
+
+# ---- what used to be certified with too little ----
+
+
+def test_rounding_that_every_step_shares_is_seen():
+    """Minutes of the oscillator: k / m is rounded once and for all, and the phase is off in proportion to time."""
+    mass, stiffness = 0.1, 0.3
+    ref = zd.reference(zd.systems.oscillator(mass=mass, stiffness=stiffness, x0=1.0), 500.0)
+    rows = np.linspace(0, len(ref.solution.t) - 1, 100).astype(int)
+    rate = mp.sqrt(mp.mpf(stiffness) / mp.mpf(mass))
+    exact = [mp.cos(rate * mp.mpf(float(t))) for t in ref.solution.t[rows]]
+    true = max(float(abs(mp.mpf(float(x)) - e)) for x, e in zip(ref.solution.p[rows, 0], exact, strict=True))
+    assert 1e-14 < true <= ref.error <= 100 * true
+
+
+def test_a_chaotic_motion_says_that_it_is():
+    """Henon and Heiles over 200 s, against its Taylor series."""
+    start = [0.0, -0.040137511547818916, 0.520452873225992, 0.022581898380487825]
+
+    def right_side(t, s):
+        x, y, u, v = s
+        return [u, v, -1 * x - 2 * (x * y), y * y - x * x - y]
+
+    system = certain_motions.henon_system().starting(start[:2], start[2:])
+    ref = zd.reference(system, 200.0, t_eval=[200.0])
+    exact = taylor.solution(right_side, start, 0, [200.0])[0]
+    true = max(float(abs(mp.mpf(float(a)) - b)) for a, b in zip(ref.solution.p[-1], exact[:2], strict=True))
+    assert 1e-9 < true <= ref.error <= 100 * true
+    assert "multiplies roundings" in ref.caveats[0]
+    assert ref.caveats[0] in repr(ref)
+
+
+def test_a_short_blow_is_seen_with_a_max_step_and_not_excluded_without():
+    """One newton second within a millisecond or two, on a free mass."""
+    system = certain_motions.pulse_system().with_parameters(w=0.0, T=0.33, s=1e-3)
+    ref = zd.reference(system, 1.0, max_step=1e-3, t_eval=[0.2, 0.5, 1.0])
+    assert np.abs(ref.solution.p[:, 0] - [0.2, 0.5 + 0.17, 1 + 0.67]).max() <= ref.error < 1e-10
+    assert ref.caveats == ()
+    assert min(d.steps for d in ref.differences) >= 1000
+    missed = zd.reference(system, 1.0, t_eval=[0.2, 0.5, 1.0])
+    assert "no max_step was said" in missed.caveats[0]
+    steps = [d.steps for d in missed.differences]
+    assert max(steps) >= 3 * min(steps)
+
+
+def test_the_first_step_may_be_said():
+    """Of the run that finds how many steps there are; none that is too long is believed."""
+    refs = [zd.reference(BAR, 1.0, error=1e-8, first_step=h) for h in (1e-6, 0.01)]
+    assert refs[0].solution.stats["steps"] >= refs[1].solution.stats["steps"]
+    assert max(ref.error for ref in refs) <= 1e-8
+
+
+def test_a_force_with_corners_is_named(monkeypatch):
+    """Dry friction: the motion is known piece by piece, x'' = -x - 0.1 sign(x')."""
+    x, v = sp.symbols("x v")
+    system = zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, potential=x**2 / 2, force=[-sp.sign(v) / 10], p0=[1.0], v0=[0.0])
+    for error in (1e-2, 1e-3, None):
+        ref = zd.reference(system, 4.0, error=error, t_eval=[1.0, 3.0, 4.0])
+        exact = np.where(ref.solution.t < np.pi, 0.1 + 0.9 * np.cos(ref.solution.t), -0.1 + 0.7 * np.cos(ref.solution.t))
+        assert np.abs(ref.solution.p[:, 0] - exact).max() <= ref.error <= (error or 1e-2)
+        assert "jump or have corners" in ref.caveats[0]
+    monkeypatch.setattr("zerodrift.certified.REFINEMENTS", 9)
+    with pytest.raises(zd.UnreachableTolerance, match=r"corners.* what can be certified is"):
+        zd.reference(system, 4.0, error=1e-6, t_eval=[1.0, 3.0, 4.0])
+
+
+def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
+    """Where nobody chose it. `schur` cannot take a coordinate without mass."""
+    system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=lambda p: np.array([-p[0], 0.0]), p0=[1.0, 1.0],
+                       constraints=lambda p: np.array([p[1] - p[0]**2]))
+    names = ("augmented", "nullspace", "schur")
+    monkeypatch.setattr("zerodrift.settings.formulations", lambda system=None: dict.fromkeys(names))
+    ref = zd.reference(system, 1.0)
+    assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "nullspace", "nullspace"]
+    assert np.abs(ref.solution.p[:, 0] - np.cos(ref.solution.t)).max() <= ref.error < 1e-12
+    with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
+        zd.reference(system, 1.0, formulations=("augmented", "schur"))
 
 
 # ---- what it is used for ----
@@ -167,6 +262,8 @@ def test_a_motion_that_ends_is_refused():
     ({"formulations": ("schur", "newton")}, "formulation must be one of"),
     ({"formulations": ("schur", "schur")}, "two different formulations"),
     ({"formulations": "schur"}, "two different formulations"),
+    ({"max_step": 0.0}, "max_step must be at least"),
+    ({"first_step": -1.0}, "first_step must be at least"),
 ])
 def test_bad_arguments(options, message):
     with pytest.raises(ValueError, match=message):

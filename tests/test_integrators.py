@@ -96,3 +96,21 @@ def test_rk4_on_the_oscillator_is_its_polynomial():
     step = sum(np.linalg.matrix_power(z, k) / f for k, f in enumerate((1, 1, 2, 6, 24)))
     sol = zd.simulate(zd.systems.oscillator(), 10.0, step=0.1)
     assert_close(np.hstack([sol.p, sol.v]), [np.linalg.matrix_power(step, k) @ (0.1, 0) for k in range(101)], tol.STEPPED)
+
+
+def test_extrapolation_is_nevilles_of_the_midpoint_rule(system):
+    """The tableau of T_jk in NumPy, by the recurrence of Aitken and Neville, on (1), (8)."""
+    t, y = steps_of(system, "extrapolation")
+    expected, h, parts = y[0], t[1], (2, 4, 6, 8)
+    for k in range(len(t) - 1):
+        columns = []
+        for n in parts:
+            before, now = expected, expected + h / n * rate(system, t[k], expected)
+            for j in range(1, n):
+                before, now = now, before + 2 * h / n * rate(system, t[k] + j * h / n, now)
+            columns.append(now)
+        for level in range(1, len(parts)):
+            columns = [columns[j + 1] + (columns[j + 1] - columns[j]) / ((parts[j + level] / parts[j])**2 - 1)
+                       for j in range(len(columns) - 1)]
+        expected = columns[0]
+        assert_close(y[k + 1], expected, tol.STEPPED)

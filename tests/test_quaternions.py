@@ -53,6 +53,51 @@ def test_a_body_held_to_turn_about_one_axis(name):
     assert np.abs(sol.position_violation).max() <= 1e-12
 
 
+# ---- tools that choose formulations themselves ----
+
+
+def test_the_core_says_which_formulations_suit():
+    assert list(zd.formulations(body())) == SUITED
+    assert list(zd.formulations(zd.systems.rolling_disc())) == FORMULATIONS
+
+
+def test_a_reference_of_a_body():
+    ref = zd.reference(body(), 2.0)
+    assert np.abs(ref.solution.v - precession(ref.solution.t)).max() <= ref.velocity_error < 1e-12
+
+
+def test_work_precision_takes_what_suits():
+    found = zd.work_precision(body(), 0.5, integrators=["rk4"], steps=[0.1], rounds=1)
+    assert [row.setting.formulation for row in found.rows] == SUITED
+    assert all(row.success and row.error < 1e-4 for row in found.rows)
+
+
+@pytest.mark.parametrize("chosen", [None, ["schur"]])
+def test_tuning_a_body(chosen):
+    tuning = zd.tune(body(), 0.5, error=1e-6, formulations=chosen, integrators=["rk4"], rounds=1)
+    sol = zd.simulate(body(), 0.5, **tuning.settings)
+    assert np.abs(sol.v[-1] - precession(sol.t)[-1]).max() < 1e-5
+
+
+def test_the_stability_of_a_body():
+    found = zd.stability_map(body(), 0.5, steps=[0.05], values=[1.0])
+    assert all(found.survived(way).all() and found.error(way).max() < 1e-4 for way in found.rows)
+
+
+def test_a_singular_mass_matrix_suits_those_that_do_not_invert_it():
+    """The second coordinate has no mass, and the first decides where it is: x = cos t."""
+    def force(p):
+        return np.array([-p[0], 0.0])
+
+    system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=force, constraints=lambda p: np.array([p[1] - p[0]**2]),
+                       p0=[1.0, 1.0])
+    found = zd.work_precision(system, 0.5, integrators=["rk4"], steps=[0.1], rounds=1)
+    assert [row.setting.formulation for row in found.rows] == [name for name in FORMULATIONS if name != "schur"]
+    assert all(row.error < 1e-4 for row in found.rows)
+    with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
+        zd.work_precision(system, 0.5, formulations=["schur"], integrators=["rk4"], steps=[0.1], rounds=1)
+
+
 def test_independent_coordinates_say_what_they_need():
     with pytest.raises(zd.UnsuitedFormulation, match="needs as many coordinates as velocities, and there are 4 and 3"):
         zd.simulate(body(), 1.0, step=0.1, formulation="independent")
