@@ -175,7 +175,7 @@ def test_a_force_with_corners_is_named(monkeypatch):
         exact = np.where(ref.solution.t < np.pi, 0.1 + 0.9 * np.cos(ref.solution.t), -0.1 + 0.7 * np.cos(ref.solution.t))
         assert np.abs(ref.solution.p[:, 0] - exact).max() <= ref.error <= (error or 1e-2)
         assert "jump or have corners" in ref.caveats[0]
-    monkeypatch.setattr("zerodrift.certified.REFINEMENTS", 9)
+    monkeypatch.setattr("zerodrift.studies.reference.REFINEMENTS", 9)
     with pytest.raises(zd.UnreachableTolerance, match=r"corners.* what can be certified is"):
         zd.reference(system, 4.0, error=1e-6, t_eval=[1.0, 3.0, 4.0])
 
@@ -185,7 +185,7 @@ def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
     system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=lambda p: np.array([-p[0], 0.0]), p0=[1.0, 1.0],
                        constraints=lambda p: np.array([p[1] - p[0]**2]))
     names = ("augmented", "nullspace", "schur")
-    monkeypatch.setattr("zerodrift.settings.formulations", lambda system=None: dict.fromkeys(names))
+    monkeypatch.setattr("zerodrift.runs.settings.formulations", lambda system=None: dict.fromkeys(names))
     ref = zd.reference(system, 1.0)
     assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "nullspace", "nullspace"]
     assert np.abs(ref.solution.p[:, 0] - np.cos(ref.solution.t)).max() <= ref.error < 1e-12

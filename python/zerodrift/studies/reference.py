@@ -47,7 +47,7 @@ EXPLAINED = 30      # a difference of at most so many times what rounding was se
 RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
 PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
 REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
-FORGOTTEN = 3       # the motion has forgotten its start where rounding alone makes another one of it in so many refinements in a row
+FORGOTTEN = 3       # a motion has forgotten its start where rounding alone makes another one of it, so many refinements in a row
 UNIT = 3            # numbers of steps are multiples of this, as two and five thirds of them are taken
 GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
 LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
@@ -230,7 +230,7 @@ class _Motion:
 
     def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
-        self.start = system._start(p0, v0)
+        self.start = system._state_or_start(p0, v0)
         self.bounded = bounds["max_step"] is not None
         cards = sorted(settings.integrators(system).values(), key=lambda card: -card.order)     # as they stand, where equal
         self.method, self.other = cards[0].name, cards[1].name
@@ -340,7 +340,8 @@ class _Search:
 
     def _is_final(self, found: Reference, stalls: int) -> bool:
         """Whether shorter steps are of no use, or help so little that only an error which is wanted is worth them."""
-        return self._is_rounding(found) or (stalls >= MOST_STALLS and not self.wanted and found.error <= RESOLVED * self.motion.size)
+        enough = stalls >= MOST_STALLS and found.error <= RESOLVED * self.motion.size
+        return self._is_rounding(found) or (enough and not self.wanted)
 
     def _is_rounding(self, found: Reference) -> bool:
         """Whether runs differ by what rounding was seen to do, or may do where each step rounds the same way."""
@@ -353,8 +354,9 @@ class _Search:
         halved, rounded, _, finer = (d.p for d in found.differences)
         if not (core_of(motion.system).timeless or motion.bounded):
             yield TIME.format(apart=(motion.span[1] - motion.span[0]) / steps * LARGEST_GAP)
-        if not self._is_rounding(found) and (SMOOTH_RATIO * halved > previous or SMOOTH_RATIO * finer > halved):     # the last is the error itself
-            yield SMOOTH.format(ratio=min(previous / halved, halved / finer))
+        ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
+        if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
+            yield SMOOTH.format(ratio=min(ratios))
         own = ROUNDING * motion.size + motion.shift[0]
         if rounded > GROWTH * own:
             yield SENSITIVE.format(growth=rounded / own)

@@ -323,7 +323,7 @@ def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> li
     """The formulations that can take the system where it starts: some invert a mass matrix that may be singular."""
     def can(name: str) -> bool:
         try:
-            acceleration(system, *system._start(p0, v0), span[0], name)
+            acceleration(system, *system._state_or_start(p0, v0), span[0], name)
         except SingularSystem:
             return False
         return True

@@ -109,8 +109,9 @@ class System(BaseSystem):
         writer = _Writer(functions, *sizes)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
         self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None)
+        timeless = not any("t" in function.state_arguments for function in functions.values())
         self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
-                                         timeless=not any("t" in function.wants for function in functions.values()))
+                                         timeless=timeless)
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
 
