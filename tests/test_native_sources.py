@@ -77,6 +77,7 @@ def test_a_library_that_describes_its_system(bar_library, bar, formulation):
     mine = zd.native(bar_library, symbol="four_bar")
     assert (mine.coordinates, mine.velocities, mine.constraints) == (bar.coordinates, bar.velocities, bar.constraints)
     assert np.array_equal(mine.points(mine.p0), bar.points(bar.p0))
+    assert mine._core.timeless      # ZD_TIMELESS is among what it provides
     options = {"step": 0.02, "formulation": formulation, "energy": True}
     assert_same_bits(zd.simulate(mine, 2.0, **options), zd.simulate(bar, 2.0, **options))
 
