@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import certain_motions
+import certain_motions_free
 import taylor
 import zerodrift as zd
 from support import SYSTEMS
@@ -137,7 +137,7 @@ def test_a_chaotic_motion_says_that_it_is():
         x, y, u, v = s
         return [u, v, -1 * x - 2 * (x * y), y * y - x * x - y]
 
-    system = certain_motions.henon_system().starting(start[:2], start[2:])
+    system = certain_motions_free.henon_system().starting(start[:2], start[2:])
     ref = zd.reference(system, 200.0, t_eval=[200.0])
     exact = taylor.solution(right_side, start, 0, [200.0])[0]
     true = max(float(abs(mp.mpf(float(a)) - b)) for a, b in zip(ref.solution.p[-1], exact[:2], strict=True))
@@ -148,7 +148,7 @@ def test_a_chaotic_motion_says_that_it_is():
 
 def test_a_short_blow_is_seen_with_a_max_step_and_not_excluded_without():
     """One newton second within a millisecond or two, on a free mass."""
-    system = certain_motions.pulse_system().with_parameters(w=0.0, T=0.33, s=1e-3)
+    system = certain_motions_free.pulse_system().with_parameters(w=0.0, T=0.33, s=1e-3)
     ref = zd.reference(system, 1.0, max_step=1e-3, t_eval=[0.2, 0.5, 1.0])
     assert np.abs(ref.solution.p[:, 0] - [0.2, 0.5 + 0.17, 1 + 0.67]).max() <= ref.error < 1e-10
     assert ref.caveats == ()
