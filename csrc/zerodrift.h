@@ -77,6 +77,7 @@ typedef struct zd_settings {
     zd_baumgarte baumgarte;
     zd_energy energy;
     enum zd_on_singular on_singular;
+    int given_jacobian;             /* whether somebody wrote C and Phi_t down beside Phi: they are then compared now and then */
 } zd_settings;
 
 /* ---- a run ---- */
@@ -102,6 +103,10 @@ typedef struct zd_statistics {
     long repartitions;          /* changes of the independent variables between steps, or to (p, v) near a bifurcation */
     long rank;                  /* of C; less than m where constraints are redundant */
     long rank_drops;            /* steps in which it was less for a while */
+    long unresolved;            /* looks at steps of fixed size that showed a part of the motion which they do not resolve */
+    double unresolved_time;     /* s: of the first */
+    double part_error;          /* what successive steps miss of the motion of one part: the most, in natural units */
+    long part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is */
     double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */
 } zd_statistics;
 
@@ -134,7 +139,7 @@ int zd_run_redundant(const zd_run *run, int *rows);
 /* (mh,): the size of each row of Phi at the start: what the largest of its coordinates' natural motions makes of it, one radian
  * of an angle or the mechanism's own length. */
 const double *zd_run_sizes(const zd_run *run);
-double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step of fixed size */
+double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
 /* ---- a system that is off by rounding, to see what that does to its motion ---- */

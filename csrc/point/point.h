@@ -31,7 +31,7 @@ typedef struct zd_point {
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
     double *inverse_size;       /* (m,): 1 / size */
     int measured;           /* whether these are known */
-    int failed_index;            /* the coordinate or row that a failed factorization names */
+    int failed_index, failed_column;    /* the coordinate or row that a failed factorization names; of an asymmetric M, the column, too */
     double residual_left;   /* what a failed iteration was left with */
 } zd_point;
 

@@ -25,7 +25,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_take(arena, motion, integrator, settings, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, dependent);
-    zd_safeguards_take(&run->safeguards, arena, motion, settings, integrator->card.stability, &run->stepper.last);
+    zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->course = (zd_course){
         .settings = &run->settings,
         .motion = motion,

@@ -17,6 +17,22 @@ static const char *name_of(int term)
     return names[i];
 }
 
+static void describe_asymmetry(const zd_point *point, char *to, size_t size)
+{
+    const int n = point->system->nv, i = point->failed_index, j = point->failed_column;
+    const double *M = point->terms.M;
+    snprintf(to, size, "the mass matrix is not symmetric: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", i, j, M[i * n + j], j, i, M[j * n + i]);
+}
+
+static void describe_jacobian(const zd_run *run, char *to, size_t size)
+{
+    const zd_consistency *found = &run->safeguards.consistency;
+    char of[48] = "Phi_t";
+    if (found->column < run->motion.system.nv) snprintf(of, sizeof of, "the Jacobian, for velocity %d,", found->column);
+    snprintf(to, size, "row %d of %s is not the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
+             found->row, of, found->given, found->found);
+}
+
 /* What the mass matrix or the constraints have; returns whether it was that. */
 static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
@@ -28,7 +44,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
                                                   "hold what has no mass"
                                                 : "");
         break;
-    case ZD_NOT_SYMMETRIC: snprintf(to, size, "the mass matrix is not symmetric (row %d)", failed_index); break;
+    case ZD_NOT_SYMMETRIC: describe_asymmetry(run->motion.point, to, size); break;
+    case ZD_NOT_JACOBIAN: describe_jacobian(run, to, size); break;
     case ZD_DEPENDENT_ROWS:
         snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", failed_index);
         break;
@@ -147,6 +164,18 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 }
 
 /* Numbers that are not finite often show first as a failed factorization: their cause is named, and not that. */
+/* Whether an iteration failed that has no chance with a wrong Jacobian, as it is there, or where the step began. */
+static int is_for_jacobians(zd_run *run, int status)
+{
+    zd_consistency *consistency = &run->safeguards.consistency;
+    const zd_last *last = &run->stepper.last;
+    if (status != ZD_NO_CONVERGENCE && status != ZD_NO_STEP && status != ZD_NO_EMBEDDING) return 0;
+    if (!consistency->compares || !last->h) return 0;
+    if (zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN) return 1;
+    zd_point_move(run->motion.point, last->t, last->p, last->v);
+    return zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN;
+}
+
 static int cause_of(zd_run *run, int status, double *t)
 {
     zd_point *point = run->motion.point;
@@ -155,6 +184,7 @@ static int cause_of(zd_run *run, int status, double *t)
     int finite = zd_point_is_finite(point);
     int term = zd_run_not_finite(run, finite ? status : ZD_NOT_FINITE, t);
     if (term) point->failed_index = term;
+    if (!term && finite && is_for_jacobians(run, status)) return ZD_NOT_JACOBIAN;
     return term ? ZD_BAD_TERM : finite ? status : ZD_NOT_FINITE;
 }
 

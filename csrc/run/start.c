@@ -14,7 +14,6 @@
 #include "../stepping/adaptive.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
-static const double SYMMETRY_TOLERANCE = 1e-12;     /* of the largest entry of M */
 static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
 
 typedef struct workspace {
@@ -74,19 +73,6 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
-static int check_symmetry(zd_point *point)
-{
-    int n = point->system->nv;
-    const double *M = point->terms.M;
-    double largest = zd_max_abs(n * n, M);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < i; j++) {
-            point->failed_index = i;
-            if (!(fabs(M[i * n + j] - M[j * n + i]) <= SYMMETRY_TOLERANCE * largest)) return ZD_NOT_SYMMETRIC;
-        }
-    return ZD_DONE;
-}
-
 static double unit(int n, const double *M, int i)
 {
     return M[i * n + i] > 0 ? sqrt(M[i * n + i]) : 1;
@@ -114,7 +100,7 @@ static int check_mass(zd_run *run, double *factor)
 {
     zd_point *point = run->motion.point;
     int n = run->motion.system.nv, status = zd_point_need(point, ZD_M);
-    if (!status) status = check_symmetry(point);
+    if (!status) status = zd_consistency_mass(point);
     if (status) return status;
     point->failed_index = zd_cholesky(n, point->terms.M, factor);
     if (point->failed_index == n) return ZD_DONE;
@@ -147,6 +133,7 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     int status = !zd_suits(&motion->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
                : zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
     if (!status) status = check_mass(run, work->factor);
+    if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);

@@ -12,7 +12,7 @@
  *
  * Second, it has to be short enough for the method to be stable. In an instability the fastest part of the motion outgrows all others;
  * then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is compared in every eighth step only, and in every
- * step once one was found too long.
+ * step once one was found too long. What else is looked at only then, in steps that are chosen, too, is in safeguards.c.
  */
 #include "guard.h"
 
@@ -139,7 +139,7 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
 
 static int is_watched(const zd_guard *guard, long step)
 {
-    return guard->checks_stability && (step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak);
+    return step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak;
 }
 
 ZD_INLINE int evaluate_end(zd_guard *guard, long next_step)
@@ -187,13 +187,15 @@ int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found
     return evaluate_end(guard, next_step);
 }
 
-void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_step, int is_part)
+void zd_guard_watch(zd_guard *guard, double moved, double h)
 {
-    if (guard->watches_step && !is_part) {
-        estimate_omega(guard, found->moved, h);
-        if (zd_has_energy(&guard->motion->system)) note_energy(guard);
-    }
-    keep(guard, found->speed, next_step);
+    if (guard->checks_stability) estimate_omega(guard, moved, h);
+    if (zd_has_energy(&guard->motion->system)) note_energy(guard);
+}
+
+void zd_guard_keep(zd_guard *guard, double speed, long next_step)
+{
+    keep(guard, speed, next_step);
 }
 
 double zd_guard_omega_h(const zd_guard *guard)

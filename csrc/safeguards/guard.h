@@ -11,7 +11,7 @@ typedef struct zd_guard {
     const zd_last *last;    /* the step */
     int has_begun;          /* whether there is anything to compare with */
     int checks_branch, checks_stability;    /* which of the two comparisons are made */
-    int watches_step;       /* whether the stability of the step is looked at */
+    int watches_step;       /* whether the step is one that is looked at closely */
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
     double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
@@ -32,9 +32,10 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
 int zd_guard_begin(zd_guard *guard, long step);
 /* Compares where a step of size h has led with where its velocities lead; ZD_BRANCH if these differ. */
 int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found);
-/* Keeps the end of the step as the beginning of the next. Counts it if the step is longer than the method is stable for; but not the
- * part of one, which may be given up yet. */
-void zd_guard_keep(zd_guard *guard, const zd_detour *found, double h, long next_step, int is_part);
+/* Whether the step, in which the motion has moved by so much, is longer than the method is stable for; and how fast it is. */
+void zd_guard_watch(zd_guard *guard, double moved, double h);
+/* Keeps the end of the step as the beginning of the next. */
+void zd_guard_keep(zd_guard *guard, double speed, long next_step);
 double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */
 
 #endif

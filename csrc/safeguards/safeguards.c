@@ -1,19 +1,29 @@
 #include "safeguards.h"
 
-void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability,
+void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
                         const zd_last *last)
 {
-    self->guard = zd_guard_take(arena, motion, settings, stability, last);
+    self->guard = zd_guard_take(arena, motion, settings, method->stability, last);
     self->crossing = zd_crossing_take(arena, motion, last);
     self->crossing.rate0 = self->guard.pdot;
     self->crossing.rate1 = self->guard.rate;
     self->crossing.constraints_hold = self->guard.checks_branch;
+    if (settings->step > 0) self->resolution = zd_resolution_take(arena, motion, method->order, last, self->guard.vdot);
+    self->consistency = zd_consistency_take(arena, motion, settings);
 }
 
 int zd_safeguards_begin(zd_safeguards *self, long step)
 {
     int status = zd_guard_begin(&self->guard, step);
     return status ? status : zd_crossing_begin(&self->crossing);
+}
+
+/* What is looked at now and then only: stability, energy, each part by itself, and the system's own consistency. */
+static int look_closely(zd_safeguards *self, double moved, double h, long step)
+{
+    zd_guard_watch(&self->guard, moved, h);
+    if (self->guard.checks_stability) zd_resolution_look(&self->resolution, h, step);
+    return zd_consistency_look(&self->consistency, step);
 }
 
 int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_part)
@@ -23,6 +33,7 @@ int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_pa
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
     if (!status) status = zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
-    zd_guard_keep(&self->guard, &found, h, next_step, is_part);
-    return ZD_DONE;
+    if (self->guard.watches_step && !is_part) status = look_closely(self, found.moved, h, next_step - 1);
+    zd_guard_keep(&self->guard, found.speed, next_step);
+    return status;
 }

@@ -111,6 +111,12 @@ static double factor(const zd_course *course, double norm)
     return fmin(LARGEST, fmax(SMALLEST, wanted));
 }
 
+/* What a shorter step does not help against. */
+static int is_final(int status)
+{
+    return status == ZD_CALLBACK || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC || status == ZD_NOT_JACOBIAN;
+}
+
 int zd_adaptive_step(zd_course *course)
 {
     const long most = course->settings->max_steps;
@@ -130,7 +136,7 @@ int zd_adaptive_step(zd_course *course)
             zd_pace_step(&course->control.pace, t1);
             return ZD_DONE;
         }
-        if (status == ZD_CALLBACK || status == ZD_BIFURCATION) return status;
+        if (is_final(status)) return status;
         course->motion->statistics.rejected++;
         course->control.h = h * (status ? AFTER_FAILURE : factor(course, norm));
         largest = 1;

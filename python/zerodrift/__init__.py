@@ -20,6 +20,7 @@ from .errors import (
     CorrectionWarning,
     Diverged,
     InconsistentStart,
+    InconsistentSystem,
     Interrupted,
     NoCompilerWarning,
     SingularSystem,
@@ -41,7 +42,7 @@ from .systems.callables import System
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "Interrupted", "NoCompilerWarning",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted", "NoCompilerWarning",
     "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
     "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "models", "native",

@@ -33,6 +33,10 @@ class UnsuitedIntegrator(ZerodriftError, ValueError):
     """The integrator cannot take this system."""
 
 
+class InconsistentSystem(ZerodriftError, ValueError):
+    """What a system says of itself does not fit together: the Jacobian it brings is not that of its constraints."""
+
+
 class SingularSystem(ZerodriftError, ArithmeticError):
     """The mass matrix is not positive definite where it has to be, or the constraints are dependent or contradict each other."""
 
@@ -66,7 +70,8 @@ class CorrectionWarning(UserWarning):
 
 
 class AccuracyWarning(UserWarning):
-    """The energy balance shows that steps were too long: what was computed satisfies the constraints, but is not the motion."""
+    """The energy balance, or one part of the motion, shows that steps were too long: what was computed satisfies the constraints,
+    but is not the motion."""
 
 
 class StabilityWarning(UserWarning):

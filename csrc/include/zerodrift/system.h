@@ -54,7 +54,8 @@ enum zd_status {
     ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
     ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
     ZD_BIFURCATION_PASSED = -21,    /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
-    ZD_TOO_MANY_STEPS = -22   /* settings->max_steps were taken */
+    ZD_TOO_MANY_STEPS = -22,  /* settings->max_steps were taken */
+    ZD_NOT_JACOBIAN = -23     /* C or Phi_t are not the derivatives of Phi */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */

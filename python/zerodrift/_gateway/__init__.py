@@ -17,6 +17,7 @@ from .base import (
     default,
     doubles,
     error_of,
+    is_length,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
@@ -29,7 +30,7 @@ __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
     "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library",
-    "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
+    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

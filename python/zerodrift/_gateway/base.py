@@ -21,6 +21,7 @@ ERRORS = {
     lib.ZD_NOT_DEFINITE: errors.SingularSystem,
     lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
     lib.ZD_DEPENDENT_ROWS: errors.SingularSystem,
+    lib.ZD_NOT_JACOBIAN: errors.InconsistentSystem,
     lib.ZD_BIFURCATION: errors.Bifurcation,
     lib.ZD_BIFURCATION_PASSED: errors.Bifurcation,
     lib.ZD_CONTRADICTION: errors.SingularSystem,
@@ -82,9 +83,13 @@ DIMENSIONLESS = ("", "1", "rad", "deg")
 
 
 def lengths(variables: Iterable[Variable]) -> Any:
-    """`zd_system.lengths`: which variables are lengths or their rates, namely all but pure numbers and the rates of these."""
-    pure = {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
-    return ffi.new("int[]", [variable.unit not in pure for variable in variables])
+    """`zd_system.lengths`: which variables are lengths or their rates."""
+    return ffi.new("int[]", [is_length(variable) for variable in variables])
+
+
+def is_length(variable: Variable) -> bool:
+    """Whether a variable is a length or the rate of one: all are, but pure numbers and the rates of these."""
+    return variable.unit not in {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
 
 
 RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}

@@ -83,6 +83,7 @@ class Run:
     def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None) -> None:
         self._core = core = core.for_run()
         self._watcher = watcher
+        options.given_jacobian = core.given_jacobian
         if watcher:
             options.events = watcher.c
         status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)

@@ -70,6 +70,7 @@ class CoreSystem:
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
 
     error: BaseException | None = None      # what a system written in Python raised
+    given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
     def for_run(self) -> CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""

@@ -8,7 +8,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
+from ..systems.base import core_of
 from . import settings
 from .solution import Solution
 
@@ -65,27 +67,37 @@ def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    error, correction = _relative_energy_errors(solution)
-    if error > LARGEST_ENERGY_ERROR:
-        yield AccuracyWarning, f"the energy balance is off by {error:.2g} of the largest kinetic energy: {TOO_COARSE}"
-    if correction > LARGEST_ENERGY_CORRECTION:
-        yield AccuracyWarning, f"energy corrections were up to {correction:.2g} of the largest kinetic energy: {TOO_COARSE}"
+    found = list(_numerical_energy(solution))
+    if not found and not solution.stats["too_long"] and solution.stats["unresolved"]:
+        found = [_unresolved_part(solution)]        # otherwise the same has been said of the whole mechanism
+    for sentence in found:
+        yield AccuracyWarning, f"{sentence}: {TOO_COARSE}"
 
 
-def _relative_energy_errors(solution: Solution) -> tuple[float, float]:
-    """The largest error of the energy balance and its largest single correction, as parts of the largest kinetic energy.
-
-    Both are 0 where they are no more than rounding.
-    """
+def _numerical_energy(solution: Solution) -> Iterator[str]:
+    """What integration and corrections did to the energy, in sentences, where it is more than rounding and more than allowed."""
     violation = solution.energy_violation
     if violation is None or not len(violation):
-        return 0.0, 0.0
-    errors = max(violation.max(), -violation.min()), solution.stats["energy_corrected"]
+        return
+    error, correction = max(violation.max(), -violation.min()), solution.stats["energy_corrected"]
     # The saved rows may all be at turning points; the statistics look in between, too.
     kinetic = max(solution.kinetic_energy.max(), solution.stats["largest_kinetic"])
-    if max(errors) <= LARGEST_ENERGY_ERROR * kinetic:
-        return 0.0, 0.0
-    if not np.isfinite(kinetic + errors[0]) or not kinetic:
-        return np.inf, 0.0
     rounding = ENERGY_ROUNDING * (kinetic + np.abs(solution.potential_energy).max())
-    return tuple(float(error / kinetic) if error > rounding else 0.0 for error in errors)
+    if not kinetic:
+        if error > rounding:
+            yield f"the energy balance is off by {error:.2g} J, and nothing was seen to move"
+        return
+    if not error < max(LARGEST_ENERGY_ERROR * kinetic, rounding):       # true also where a number is infinite or not a number
+        yield f"the energy balance is off by {error / kinetic:.2g} of the largest kinetic energy"
+    if correction > max(LARGEST_ENERGY_CORRECTION * kinetic, rounding):
+        yield f"energy corrections were up to {correction / kinetic:.2g} of the largest kinetic energy"
+
+
+def _unresolved_part(solution: Solution) -> str:
+    """Which part of the motion the steps do not resolve."""
+    stats, system = solution.stats, solution.system
+    has_rates = core_of(system).provides & _gateway.TERMS["A"][0]      # then the core compares velocities, not coordinates
+    part = (system.velocities if has_rates else system.coordinates)[stats["part"]]
+    unit = "of the mechanism's length" if _gateway.is_length(part) else "rad"
+    return (f"the steps do not resolve the motion of {part.name!r}: errors of {stats['part_error']:.2g} {unit} add up in it, "
+            f"noticed first at t = {stats['unresolved_time']:.6g}")

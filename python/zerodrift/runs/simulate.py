@@ -108,7 +108,9 @@ def simulate(
     Raises
     ------
     ZerodriftError
-        Or one of its subclasses, where the start is inconsistent, a correction or an implicit step fails, the motion diverges.
+        Or one of its subclasses, where the start is inconsistent, a correction or an implicit step fails, the motion diverges,
+        the mass matrix is not symmetric (`SingularSystem`), or a Jacobian that was given is not that of the constraints
+        (`InconsistentSystem`).
     Interrupted
         On Ctrl-C.
     ValueError, TypeError
@@ -119,6 +121,7 @@ def simulate(
     AccuracyWarning
         Where the energy balance is off by more than 0.5 % of the largest kinetic energy, or was before a single correction by
         more than 2 %: what was computed satisfies the constraints, but is not the motion. It takes a system with a potential.
+        Or where steps of fixed size do not resolve the motion of one part, however light it is; the part is named.
     StabilityWarning
         Where steps were longer than the integrator is stable for, or stability held chosen steps down.
     CorrectionWarning

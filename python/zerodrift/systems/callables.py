@@ -41,7 +41,8 @@ class System(BaseSystem):
     constraints : callable -> (mh,)
         Phi of (3). It may depend on t.
     jacobian : callable -> (mh, nq)
-        dPhi/dp. Left out: derived exactly from `constraints`.
+        dPhi/dp. Left out: derived exactly from `constraints`. Given, runs compare it with differences of `constraints` now and
+        then.
     nonholonomic : callable -> (mn, nv)
         The rows C_NH of (4).
     xi : callable -> (mh + mn,)
@@ -112,6 +113,7 @@ class System(BaseSystem):
         timeless = not any("t" in function.state_arguments for function in functions.values())
         self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
                                          timeless=timeless)
+        self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
 

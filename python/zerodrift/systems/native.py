@@ -144,6 +144,7 @@ class Native(BaseSystem):
         self.constraints = tuple(Variable(row, "") for row in rows)
         self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
                                          keep=found.keep, scratch=_check.count("scratch", scratch, least=0))
+        self._core.given_jacobian = True
         self.name = name or "native system"
         self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, self.nq))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
@@ -174,7 +175,7 @@ class NativeKind(SystemOfKind):
     def __init__(self, found: _gateway.Function, kind: _gateway.Kind, parameters: dict[str, Any]) -> None:
         super().__init__(kind, parameters)
         self._found = found
-        self._core.keep = found.keep
+        self._core.keep, self._core.given_jacobian = found.keep, True
         _check_at_start(self)
 
     def __repr__(self) -> str:

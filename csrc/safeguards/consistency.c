@@ -1,0 +1,190 @@
+/* Whether a system stays what it says it is: M of (2) symmetric, and C and Phi_t of (5) the derivatives of Phi.
+ *
+ * Both are looked at now and then, M where it is known anyway. Derivatives are compared only where somebody wrote them down beside Phi,
+ * as those that are derived cannot be wrong; in one direction (s, w) of time and velocities at a time, another each time:
+ *
+ *     C w + Phi_t s = (Phi(t + e s, p + e A w) - Phi(t - e s, p - e A w)) / 2e + O(e^2).
+ *
+ * Where that does not hold, the difference quotient is trusted only if others agree with it, from either side and with other e: a Phi
+ * that has kinks, or is rounded coarsely, says nothing.
+ */
+#include "consistency.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "../linalg/norms.h"
+
+static const double ROUNDING = 1e-12;       /* of the largest entry of M, */
+static const double ASYMMETRY = 1e-9;       /* or of the most that an entry of a mass matrix can be beside its diagonal: both are nothing */
+static const double SHORT = 0x1p-17;        /* e, in natural units */
+static const double WRONG = 1e-3;           /* of the size of a row; Jacobians by differences are off by less */
+static const double AGREEMENT = 0.1;        /* of what is wrong: quotients that differ by less agree */
+enum { COMPARE_EVERY = 64 };                /* steps; and at 0, 1, 2, 4, 8 ... of them */
+
+/* ---- M ---- */
+
+static int is_symmetric(const zd_point *point, int i, int j)
+{
+    const int n = point->system->nv;
+    const double *M = point->terms.M;
+    double off = fabs(M[i * n + j] - M[j * n + i]);
+    return off <= ROUNDING * zd_max_abs(n * n, M) || off <= ASYMMETRY * sqrt(fabs(M[i * n + i] * M[j * n + j]));
+}
+
+int zd_consistency_mass(zd_point *point)
+{
+    const int n = point->system->nv;
+    const double *M = point->terms.M;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            if (M[i * n + j] == M[j * n + i] || is_symmetric(point, i, j)) continue;
+            point->failed_index = i;
+            point->failed_column = j;
+            return ZD_NOT_SYMMETRIC;
+        }
+    return ZD_DONE;
+}
+
+/* ---- C and Phi_t ---- */
+
+zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings)
+{
+    const zd_system *system = &motion->system;
+    size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh;
+    if (!settings->given_jacobian || !mh) return (zd_consistency){.motion = motion, .compares = 0};
+    return (zd_consistency){
+        .motion = motion,
+        .compares = 1,
+        .slowest = 1 / (settings->t1 - settings->t0),
+        .direction = zd_take_doubles(arena, nv + 1),
+        .pdot = zd_take_doubles(arena, nq),
+        .p = zd_take_doubles(arena, nq),
+        .Phi = zd_take_doubles(arena, mh),
+        .quotient = zd_take_doubles(arena, mh),
+        .central = zd_take_doubles(arena, mh),
+        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+    };
+}
+
+/* What stands between -1 and 1 at this place of a sequence that looks random and is always the same. */
+static double scattered(uint64_t place)
+{
+    uint64_t bits = (place + 1) * UINT64_C(0x9E3779B97F4A7C15);
+    bits = (bits ^ (bits >> 29)) * UINT64_C(0xBF58476D1CE4E5B9);
+    return (double)(bits >> 11) * 0x1p-52 - 1;
+}
+
+/* What goes with a step of one in the direction of velocity i, or of time, which is the last: so much that all of them weigh alike. */
+static double unit(const zd_consistency *self, int i)
+{
+    const zd_point *point = self->motion->point;
+    if (i < self->motion->system.nv) return point->unit[i];
+    return 1 / (zd_max_scaled(self->motion->system.nv, point->v, point->inverse_unit) + self->slowest);
+}
+
+/* Phi, on its own memory, at so much of the direction from where the point is: which stays as it is. */
+static int evaluate(zd_consistency *self, double e)
+{
+    const zd_point *point = self->motion->point;
+    zd_terms terms = point->terms;
+    terms.Phi = self->Phi;
+    terms.scratch = self->scratch;
+    for (int i = 0; i < self->motion->system.nq; i++) self->p[i] = point->p[i] + e * self->pdot[i];
+    self->motion->statistics.evaluations++;
+    double t = point->t + e * self->direction[self->motion->system.nv];
+    return self->motion->system.evaluate(self->motion->system.data, ZD_PHI | ZD_MOVED, t, self->p, point->v, &terms) ? ZD_CALLBACK : ZD_DONE;
+}
+
+/* quotient <- (Phi at b - Phi at a) / (b - a), along the direction */
+static int differentiate(zd_consistency *self, double a, double b)
+{
+    int status = evaluate(self, a);
+    if (status) return status;
+    for (int k = 0; k < self->motion->system.mh; k++) self->quotient[k] = -self->Phi[k];
+    status = evaluate(self, b);
+    for (int k = 0; k < self->motion->system.mh; k++) self->quotient[k] = (self->quotient[k] + self->Phi[k]) / (b - a);
+    return status;
+}
+
+static double entry(const zd_consistency *self, int k, int i)
+{
+    const zd_terms *terms = &self->motion->point->terms;
+    return i < self->motion->system.nv ? terms->C[k * self->motion->system.nv + i] : terms->Phi_t ? terms->Phi_t[k] : 0;
+}
+
+/* What C and Phi_t make of the direction in this row; and its size, the largest that one of its entries alone makes of a unit, or has. */
+static double given(const zd_consistency *self, int k, double *size)
+{
+    double sum = 0;
+    *size = self->motion->point->size[k];
+    for (int i = 0; i <= self->motion->system.nv; i++) {
+        sum += entry(self, k, i) * self->direction[i];
+        *size = fmax(*size, fabs(entry(self, k, i)) * unit(self, i));
+    }
+    return sum;
+}
+
+/* What the direction is for the coordinates. */
+static void turn(zd_consistency *self)
+{
+    zd_point_rate(self->motion->point, self->direction, self->pdot);
+}
+
+/* Whether all quotients along the direction agree with this one, which is so far from what is given. */
+static int is_sure(zd_consistency *self, int k, double quotient, double off, int *status)
+{
+    static const double ends[][2] = {{0, SHORT}, {-SHORT, 0}, {0, SHORT / 16}, {-SHORT / 16, 0}, {-16 * SHORT, 16 * SHORT}};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        *status = differentiate(self, ends[i][0], ends[i][1]);
+        if (*status || !(fabs(self->quotient[k] - quotient) <= AGREEMENT * fabs(off))) return 0;
+    }
+    return 1;
+}
+
+/* Names the entry of the row that is off most. */
+static int name_entry(zd_consistency *self, int k)
+{
+    double worst = 0;
+    for (int i = 0; i <= self->motion->system.nv; i++) {
+        for (int j = 0; j <= self->motion->system.nv; j++) self->direction[j] = j == i ? unit(self, i) : 0;
+        turn(self);
+        int status = differentiate(self, -SHORT, SHORT);
+        if (status) return status;
+        double off = fabs(self->quotient[k] - entry(self, k, i) * unit(self, i));
+        if (!(off > worst)) continue;
+        worst = off;
+        self->row = k;
+        self->column = i;
+        self->given = entry(self, k, i);
+        self->found = self->quotient[k] / unit(self, i);
+    }
+    return ZD_NOT_JACOBIAN;
+}
+
+int zd_consistency_jacobian(zd_consistency *self, long step)
+{
+    if (!self->compares) return ZD_DONE;
+    int n = self->motion->system.nv, status = zd_point_need(self->motion->point, ZD_A | ZD_C | ZD_PHI_T);
+    if (status) return status;
+    for (int i = 0; i <= n; i++) self->direction[i] = unit(self, i) * scattered((uint64_t)step * (uint64_t)(n + 1) + (uint64_t)i);
+    turn(self);
+    status = differentiate(self, -SHORT, SHORT);
+    memcpy(self->central, self->quotient, (size_t)self->motion->system.mh * sizeof(double));
+    for (int k = 0; !status && k < self->motion->system.mh; k++) {
+        double size, quotient = self->central[k], off = given(self, k, &size) - quotient;
+        if (fabs(off) > WRONG * fmax(size, fabs(quotient)) && is_sure(self, k, quotient, off, &status)) status = name_entry(self, k);
+    }
+    return status;
+}
+
+/* ---- after a step ---- */
+
+int zd_consistency_look(zd_consistency *self, long step)
+{
+    int status = (self->motion->point->known & ZD_M) ? zd_consistency_mass(self->motion->point) : ZD_DONE;
+    if (status || !self->compares) return status;
+    int due = step % COMPARE_EVERY == 0 || (step & (step - 1)) == 0;
+    return due ? zd_consistency_jacobian(self, step) : ZD_DONE;
+}

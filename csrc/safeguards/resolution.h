@@ -1,0 +1,23 @@
+/* Whether steps of fixed size resolve each part of the motion. */
+#ifndef ZD_RESOLUTION_H
+#define ZD_RESOLUTION_H
+
+#include "../motion/motion.h"
+#include "../motion/place.h"
+
+typedef struct zd_resolution {  /* (nv,): what the steps miss of each coordinate's motion, in natural units */
+    zd_motion *motion;
+    const zd_last *last;    /* the step */
+    const double *vdot0;    /* (nv,): where it began */
+    int rates;              /* whether velocities take the place of coordinates, as these have other rates */
+    int order;              /* of the method */
+    double weight;          /* what the error is of what is missed */
+    double *error, *way;    /* of the last steps: errors, path */
+    double *at, *least, *most;  /* where it is; how far it has got to either side */
+    long step;              /* the last that was looked at */
+} zd_resolution;
+
+zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0);
+void zd_resolution_look(zd_resolution *self, double h, long step);      /* the acceleration is known at both ends of the step */
+
+#endif
