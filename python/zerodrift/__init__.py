@@ -42,8 +42,8 @@ from .systems.callables import System
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted", "NoCompilerWarning",
-    "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted",
+    "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
     "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "models", "native",
     "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",

@@ -71,7 +71,8 @@ class CorrectionWarning(UserWarning):
 
 class AccuracyWarning(UserWarning):
     """The energy balance, or one part of the motion, shows that steps were too long: what was computed satisfies the constraints,
-    but is not the motion."""
+    but is not the motion.
+    """
 
 
 class StabilityWarning(UserWarning):

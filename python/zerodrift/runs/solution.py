@@ -54,9 +54,9 @@ class Solution:
         `largest_kinetic`, in J, are looked at every few steps; `energy_corrected`, in J, is the largest error of the energy
         balance that a single correction has taken out. `part_error` is what steps of fixed size, about a thousand in succession,
         miss of the motion of one coordinate (or, where `kinematics` is given, velocity), estimated, in rad or parts of the
-        mechanism's length; `part` is the one where it is most, `unresolved` how many looks found more of it than 0.03 and a
-        thousandth of the way, `unresolved_time`, in s, the first of these. Of the constraints, `rank` are independent, `redundant` lists rows
-        that follow from the others, and in `rank_drops` steps the rank was less for a while.
+        mechanism's length; `part` is the one where it is most. `unresolved` says how many looks found more of it than 0.03
+        and a thousandth of the way, `unresolved_time`, in s, when it was first. Of the constraints, `rank` are independent,
+        `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool

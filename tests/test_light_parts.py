@@ -1,0 +1,142 @@
+"""Parts that are too light for the energy balance: where steps do not resolve their motion, it is said which; else nothing is."""
+
+import warnings
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import zerodrift as zd
+from test_models import MODELS
+
+OMEGA = 20.0        # of the light part
+UNTOLD = 0.01       # rad: who is off by less is not warned of,
+LOST = 0.5          # and who is off by more is
+
+
+def listened(*arguments, **options):
+    """A run, and what is said of it; of a part, and of anything."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        sol = zd.simulate(*arguments, **options)
+    sentences = [str(warning.message) for warning in said]
+    return sol, [sentence for sentence in sentences if "do not resolve the motion of" in sentence], sentences
+
+
+@pytest.fixture(scope="module")
+def rods():
+    """Two rods in series, of 16 kg and 7e-5 kg, and where they are after 4 s."""
+    (a, b, u, w), (L1, L2, m1, m2) = sp.symbols("a b u w"), (1.516, 1.353, 16.3, 6.8e-5)
+    x, y = (L1 * f(a) + L2 / 2 * f(b) for f in (sp.cos, sp.sin))
+    vx, vy = (sp.diff(e, a) * u + sp.diff(e, b) * w for e in (x, y))
+    system = zd.symbolic(
+        [a, b], speeds=[u, w], kinetic=m1 * L1**2 * u**2 / 6 + m2 * (vx**2 + vy**2) / 2 + m2 * L2**2 * w**2 / 24,
+        potential=9.81 * (m1 * L1 / 2 * sp.sin(a) + m2 * y), p0=[-1.414, -2.206], v0=[-9.373, 5.643])
+    exact, check = (zd.simulate(system, 4.0, rtol=r, atol=r, integrator="dop853").p[-1] for r in (1e-13, 1e-10))
+    assert np.abs(exact - check).max() < 1e-6
+    return system, exact
+
+
+@pytest.mark.parametrize("h", [0.0158, 0.002])
+def test_a_light_rod_that_is_lost_is_named(rods, integrator, h):
+    """As the energy balance, within 0.1 %, shows nothing of it: 29 rad were lost in silence."""
+    system, exact = rods
+    with np.errstate(all="ignore"):
+        sol, said, _ = listened(system, 4.0, step=h, integrator=integrator, on_failure="return")
+    off = np.abs(sol.p[-1] - exact)
+    if integrator in ("heun", "midpoint", "rattle", "trapezoidal") and h > 0.01:
+        assert off[1] > 0.05 > off[0]
+        assert len(said) == 1
+        assert said[0].startswith("the steps do not resolve the motion of 'b': errors of 0.")
+        assert f"noticed first at t = {sol.stats['unresolved_time']:.6g}" in said[0]
+        assert sol.stats["part"] == 1
+    if off.max() < UNTOLD:
+        assert not said
+
+
+def oscillators(kinematics=False, amplitude=1.0, unit=1.0, **options):
+    """A heavy slow mass and a light fast one, which are not connected."""
+    stiffness = np.array([10.0, 1e-6 * OMEGA**2])
+    if kinematics:
+        options["kinematics"] = np.eye(2)
+    return zd.System(["heavy", "light"], mass=np.diag([10.0, 1e-6]), force=lambda p: -stiffness * p,
+                     potential=lambda p: stiffness @ p**2 / 2, p0=unit * np.array([1.0, amplitude]), **options)
+
+
+@pytest.mark.parametrize("kinematics", [False, True])
+@pytest.mark.parametrize("omega_h", [0.01, 0.03, 0.1, 0.3, 0.6])
+def test_against_the_closed_form(integrator, omega_h, kinematics):
+    """With a kinematic matrix it is the velocity that is weighed, and named."""
+    system, h = oscillators(kinematics), omega_h / OMEGA
+    if integrator not in zd.integrators(system):
+        pytest.skip("it takes no kinematic matrix")
+    sol, named, said = listened(system, 600 * h, step=h, integrator=integrator)
+    off = np.abs(sol.p[:, 1] - np.cos(OMEGA * sol.t)).max()
+    if off < UNTOLD:
+        assert not said
+    if off > LOST:
+        assert said
+    if sol.stats["unresolved"]:
+        assert sol.stats["part"] == 1
+        assert said
+    assert all(("'v1'" if kinematics else "'light'") in sentence for sentence in named)
+
+
+def test_what_is_missed_is_the_error():
+    """Of an oscillation in which errors add up: the trapezoidal rule is late by (omega h)^3 / 12 a step."""
+    h = 0.3 / OMEGA
+    sol, _, _ = listened(oscillators(), 100 * h, step=h, integrator="trapezoidal")
+    late = 100 * 0.3**3 / 12
+    assert abs(sol.stats["part_error"] / late - 2 / np.pi) < 0.15     # the mean of |sin|: and some of it is forgotten
+
+
+def test_units_make_no_difference():
+    h = 0.2 / OMEGA
+    one, two = (listened(oscillators(unit=unit, units=["m", "m"]), 500 * h, step=h, integrator="heun") for unit in (1.0, 1e3))
+    assert abs(one[0].stats["part_error"] / two[0].stats["part_error"] - 1) < 1e-9
+    assert "of the mechanism's length" in one[1][0]
+
+
+def test_small_vibrations_may_go_unresolved():
+    """Nothing can be off by more than it moves."""
+    h = 1.0 / OMEGA
+    sol, said, _ = listened(oscillators(amplitude=1e-3), 5000 * h, step=h, integrator="trapezoidal")
+    assert not said
+    assert sol.stats["part_error"] < 5e-3
+
+
+def test_long_runs_are_doubted_no_more_than_short_ones():
+    h = 0.15 / OMEGA
+    short, long = (listened(oscillators(), n * h, step=h, integrator="trapezoidal", save_every=n)[0] for n in (3000, 30_000))
+    assert 0 < short.stats["part_error"] <= long.stats["part_error"] < 1.2 * short.stats["part_error"]
+
+
+def test_what_is_resolved_is_not_warned_of(system, integrator):
+    """Every built-in system with every integrator: silence, wherever the motion is right."""
+    for steps in (25, 100, 400):
+        with np.errstate(all="ignore"):
+            sol, said, _ = listened(system, 1.0, step=1.0 / steps, integrator=integrator, on_failure="return")
+        if not said:
+            continue
+        exact = zd.simulate(system, 1.0, rtol=1e-10, atol=1e-10, integrator="dop853", t_eval=sol.t)
+        size = min(1.0, np.ptp(exact.p, axis=0).max())
+        off = np.abs(sol.p - exact.p).max() / size
+        assert off > UNTOLD, f"off by {off:.2g} with steps of 1 / {steps} s"
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_nor_are_models(name):
+    model = MODELS[name]()
+    h = 2e-5 if name == "andrews" else 2e-3
+    for integrator in zd.integrators(model):
+        if zd.integrators()[integrator].order > 1:
+            _, said, _ = listened(model, 100 * h, step=h, integrator=integrator)
+            assert not said
+
+
+def test_chaos_that_is_resolved_is_not_warned_of():
+    """A closed chain that loses a digit every second: two runs part, and nothing is wrong with the steps of either."""
+    chain = zd.models.closed_pendulum(5)
+    one, two = (listened(chain, 5.0, step=h, integrator="dop853") for h in (2e-3, 2.5e-3))
+    assert not one[1]
+    assert not two[1]
