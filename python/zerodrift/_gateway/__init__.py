@@ -30,7 +30,8 @@ __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
     "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library",
-    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
+    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step",
+    "terms_of",
 ]
 
 check_fingerprint()
