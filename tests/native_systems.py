@@ -4,15 +4,14 @@ import ctypes
 import os
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import ROOT
 
-HERE = Path(__file__).resolve().parent
-PENDULUM = HERE / "native" / "pendulum.c"
+PENDULUM = ROOT / "tests" / "native" / "pendulum.c"
 COMPILER = shutil.which(os.environ.get("CC", "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 
@@ -36,7 +35,7 @@ def compile_text(text, library, *options):
 
 def compile_four_bar(library):
     """The built-in one as the library of a user."""
-    source = HERE.parent / "csrc" / "systems" / "four_bar.c"
+    source = ROOT / "csrc" / "systems" / "four_bar.c"
     text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n'
     return compile_text(text, library, "-O3", "-Wno-pedantic")
 

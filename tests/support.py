@@ -1,13 +1,19 @@
 """What several tests need: the systems there are, consistent states of theirs, and the paper's equations in plain NumPy."""
 
+
+
+
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+import pytest
 
 import tolerances as tol
 import zerodrift as zd
 from zerodrift import _gateway
 
+ROOT = Path(__file__).resolve().parent.parent
 FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators())
 
 
@@ -160,3 +166,39 @@ def observed_order(system, t_end=0.5, coarsest=10, refinements=8, **options):
             before = difference
         states = now
     return order
+
+
+ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
+        "energy_input", "energy_violation", "iterations")
+
+
+def assert_same_bits(one, other, rows=slice(None)):
+    """Every array of two solutions, the first at `rows`."""
+    for name in ROWS:
+        a, b = getattr(one, name), getattr(other, name)
+        assert (a is None) == (b is None), name
+        assert a is None or name == "iterations" or a[rows].tobytes() == b.tobytes(), name
+
+
+MODELS = {"andrews": zd.models.andrews, "bicycle": zd.models.bicycle, "slider_crank": zd.models.slider_crank,
+          "closed_pendulum": zd.models.closed_pendulum, "closed_pendulum of 7": lambda: zd.models.closed_pendulum(7)}
+
+
+def along_manifold(C, nv):
+    """D: the motions along the manifold, C D = 0."""
+    return np.linalg.svd(C)[2][len(C):].T if len(C) else np.eye(nv)
+
+
+def with_energy(system):
+    if not system.has_energy:
+        pytest.skip("declares no potential")
+    return system
+
+
+def handed(**changed):
+    """Settings of the core, right but for what is changed."""
+    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
+    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
+    for name in set(changed) & {"projection", "baumgarte", "energy"}:
+        changed[name] = options.get(name, {}) | changed[name]
+    return _gateway.settings(options | changed)

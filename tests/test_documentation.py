@@ -1,18 +1,20 @@
 """What the documentation shows, runs: examples of docstrings, and the Python code of the README."""
 
+
+
 import doctest
 import importlib
 import pkgutil
 import re
-from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
 import pytest
 
 import zerodrift
+from support import ROOT
 
-README = Path(__file__).resolve().parent.parent / "README.md"
+README = ROOT / "README.md"
 MODULES = [module.name for module in pkgutil.walk_packages(zerodrift.__path__, "zerodrift.")
            if not module.name.endswith(("__main__", "_core"))]
 
@@ -39,3 +41,15 @@ def test_the_code_of_the_readme_runs(capsys):
     printed = capsys.readouterr().out
     assert "left the range of doubles" in printed
     assert "nothing wrong" in printed
+
+
+def test_the_examples_of_the_docstrings():
+    import doctest
+    import importlib
+    import pkgutil
+
+    rooms = [importlib.import_module(f"zerodrift.{room}") for room in ("runs", "studies", "systems")]
+    names = [name for room in rooms for _, name, _ in pkgutil.iter_modules(room.__path__, f"{room.__name__}.")]
+    tried = [doctest.testmod(importlib.import_module(name)) for name in names]
+    assert sum(result.attempted for result in tried) >= 20
+    assert not sum(result.failed for result in tried)

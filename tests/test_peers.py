@@ -2,15 +2,15 @@
 
 import importlib
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from support import ROOT
 
-PEERS = Path(__file__).resolve().parent / "bench" / "peers"
+PEERS = ROOT / "tests" / "bench" / "peers"
 SETTINGS = {    # module: package, of each kind of method one setting that is no work
     "scipy": ("scipy", [("DOP853", 1e-6), ("LSODA", 1e-7)]),
     "sundials": ("sksundae", [("CVODE Adams", 1e-8), ("IDA", 1e-7)]),

@@ -6,11 +6,11 @@ import shutil
 import subprocess
 import sys
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from support import ROOT
+
 CSRC = ROOT / "csrc"
 CC = os.environ.get("CC", "cc")
 LONGEST = 40        # lines of a function

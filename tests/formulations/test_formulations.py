@@ -6,7 +6,7 @@ from mpmath import mp
 
 import tolerances as tol
 import zerodrift as zd
-from support import SYSTEMS, assert_close, condition, consistent_states, motion, numbers, saddle_matrix, solved
+from support import assert_close, condition, consistent_states, motion, numbers, saddle_matrix, solved
 
 
 def test_accelerations_and_multipliers_solve_8(system, formulation):
@@ -45,23 +45,6 @@ def test_constraints_in_other_units_change_nothing(formulation):
         again, larger = zd.acceleration(small, p, v, t, formulation=formulation)
         assert_close(again, vdot, tol.STEPPED)
         assert_close(larger, 1000 * multipliers, tol.STEPPED)
-
-
-def test_the_tables_introduce_their_rows():
-    for table in (zd.formulations(), zd.integrators(), zd.corrections()):
-        assert table
-        for name, card in table.items():
-            assert card.name == name
-            assert card.summary.endswith(".")
-            assert card.equations
-            assert card.summary in repr(table)
-    assert all(card.order >= 1 for card in zd.integrators().values())
-    assert set(zd.systems.__all__) == {system.name for system in SYSTEMS.values()}
-
-
-def test_a_table_handed_out_is_a_copy():
-    zd.formulations().clear()
-    assert zd.formulations()
 
 
 @pytest.mark.parametrize("mass", [3.0, 1e-2, 1e-4, 1e-6, 1e-9])

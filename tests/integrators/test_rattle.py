@@ -5,10 +5,10 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from four_bar_in_python import force as weight
+from four_bar_in_python import four_bar as bar_in_python
+from spinning_body import body
 from support import SYSTEMS, along, assert_close, consistent_states, difference, motion, numbers
-from test_custom import force as weight
-from test_custom import four_bar as bar_in_python
-from test_quaternions import body
 
 HOLONOMIC = {name: system for name, system in SYSTEMS.items() if "rattle" in zd.integrators(system)}
 each = pytest.mark.parametrize("mechanism", HOLONOMIC.values(), ids=HOLONOMIC)

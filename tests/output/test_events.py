@@ -11,8 +11,8 @@ from scipy.special import ellipk
 
 import tolerances as tol
 import zerodrift as zd
+from four_bar_in_python import four_bar as bar_in_python
 from support import SYSTEMS, assert_close
-from test_custom import four_bar as bar_in_python
 from zerodrift.runs import simulate as simulation
 from zerodrift.runs.diagnosis import unwarned
 

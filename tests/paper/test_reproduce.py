@@ -63,20 +63,6 @@ def test_the_command_prints_the_table_and_where_things_are(folder, capsys, monke
     assert str(folder / "again") in printed
 
 
-def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
-    (tmp_path / "file").write_text("in the way")
-    assert __main__.main(["reproduce", "--out", str(tmp_path / "file")]) == 1
-    assert __main__.main(["reproduce", "--out", str(tmp_path / "file" / "below")]) == 1
-    assert f"cannot write to {tmp_path / 'file'}" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("arguments", [[], ["draw"], ["reproduce", "here"]])
-def test_the_command_explains_itself(arguments):
-    run = subprocess.run([sys.executable, "-m", "zerodrift", *arguments], capture_output=True, text=True, check=False)
-    assert run.returncode == 2
-    assert "usage: python -m zerodrift" in run.stderr
-
-
 def test_neither_scipy_nor_pandas_is_needed():
     code = ("import sys; sys.modules['scipy'] = sys.modules['pandas'] = None\n"
             "from zerodrift.paper import reproduce; reproduce.compute()")

@@ -1,5 +1,10 @@
 """Every drawing function on every built-in system, and what each must say when it cannot draw."""
 
+
+import matplotlib as mpl
+
+mpl.use("Agg")
+
 import dataclasses
 
 import matplotlib
@@ -261,3 +266,37 @@ def test_animation_is_in_real_time(bar):
 def test_animation_refuses_times_that_make_no_sense(bar, name):
     with pytest.raises(ValueError, match=f"{name} must be greater than 0"):
         plot.animate(bar, **{name: 0.0})
+
+
+BAR = zd.systems.four_bar()
+SOL = zd.simulate(BAR, 0.1, step=0.01)
+WRONG = [None, "sol", 1.5, BAR]
+
+
+@pytest.mark.parametrize("wrong", WRONG, ids=["None", "str", "float", "system"])
+@pytest.mark.parametrize("name", ["motion", "violation", "energy", "energy_violation", "animate", "work_precision",
+                                  "stability_map"])
+def test_plots_of_what_is_none(name, wrong):
+    with pytest.raises(TypeError, match=r"^(sol|result) must be (a Solution|what zd)"):
+        getattr(zd.plot, name)(wrong)
+
+
+@pytest.mark.parametrize("wrong", [None, "sol", 1.5])
+def test_drawings_and_errors_of_what_is_none(wrong):
+    with pytest.raises(TypeError, match="system_or_solution must be a system or a Solution, not"):
+        zd.plot.mechanism(wrong)
+    with pytest.raises(TypeError, match="sol must be a Solution"):
+        zd.plot.error(wrong, SOL)
+    with pytest.raises(TypeError, match="reference must be a Reference, a Solution or a callable"):
+        zd.plot.error(SOL, wrong)
+
+
+@pytest.mark.parametrize("wrong", [SOL, "ax", 3, BAR], ids=["Solution", "str", "int", "system"])
+def test_axes_that_are_none(wrong):
+    for draw in (zd.plot.motion, zd.plot.violation, zd.plot.energy, zd.plot.energy_violation, zd.plot.mechanism):
+        with pytest.raises(TypeError, match="ax must be matplotlib's Axes, or left out for a new figure, not") as refused:
+            draw(SOL, ax=wrong)
+        assert "\n" not in str(refused.value)
+        assert len(str(refused.value)) < 200
+    with pytest.raises(TypeError, match="names must be names of coordinates"):
+        zd.plot.motion(SOL, SOL)

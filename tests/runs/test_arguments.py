@@ -5,16 +5,8 @@ import pytest
 from zerodrift._core import ffi
 
 import zerodrift as zd
+from support import handed
 from zerodrift import _gateway
-
-
-def handed(**changed):
-    """Settings of the core, right but for what is changed."""
-    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
-    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
-    for name in set(changed) & {"projection", "baumgarte", "energy"}:
-        changed[name] = options.get(name, {}) | changed[name]
-    return _gateway.settings(options | changed)
 
 
 def created(options, core=None):
@@ -91,35 +83,6 @@ def test_an_energy_correction_without_potential_is_refused_by_the_core():
         _gateway.step(core, handed(energy={"every": 1}), np.zeros(1), np.zeros(1))
 
 
-@pytest.mark.parametrize("times", [None, np.array([0.05, 0.07, 0.5, 1.0])], ids=["steps", "times"])
-def test_records_of_any_size_hold_the_same_rows(bar, times):
-    """One row at a time, and none: the start is saved once."""
-    options = handed() if times is None else handed(t_eval=times)
-    least = 1 if times is None else len(times)
-    rows = []
-    for capacity in (least, 50):
-        run, collected = _gateway.Run(bar._core, options, bar.p0, bar.v0), []
-        assert run.advance(_gateway.Record(bar._core, 0), 1.0) == _gateway.FULL
-        status = _gateway.FULL
-        while status == _gateway.FULL:
-            record = _gateway.Record(bar._core, capacity)
-            status = run.advance(record, 1.0)
-            collected.append(record.take())
-        assert status == _gateway.DONE
-        rows.append({name: np.concatenate([part[name] for part in collected]) for name in collected[0]})
-    assert len(rows[0]["t"]) == (11 if times is None else 4)
-    for name in rows[0]:
-        assert rows[0][name].tobytes() == rows[1][name].tobytes()
-
-
-@pytest.mark.parametrize("size", [1e160, 1e200, 1e300])
-def test_steps_that_cannot_be_small_enough_end_the_run(size):
-    """Accelerations whose square is no double asked for a first step of zero, and then another."""
-    system = zd.System(1, mass=[[1.0]], force=[size], p0=[0.0], v0=[1.0])
-    with pytest.raises((zd.StepFailed, zd.Diverged)):
-        zd.simulate(system, 1.0, rtol=1e-6, integrator="dop853", p0=[1.0])
-
-
 def test_a_start_that_is_not_finite_is_refused_by_the_core():
     core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
     for p, v in ((np.nan, 0.0), (0.0, np.inf)):
@@ -146,8 +109,3 @@ def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():
     options = handed(integrator=list(zd.integrators()).index("rattle"))
     with pytest.raises(zd.ZerodriftError, match="rattle"):
         _gateway.step(edge._core, options, edge.p0.copy(), edge.v0.copy())
-
-
-def test_a_disc_that_lies_flat_is_refused():
-    with pytest.raises(ValueError, match="lean must be between -pi/2 and pi/2"):
-        zd.systems.rolling_disc(lean=2.0)

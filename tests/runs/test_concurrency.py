@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from test_runs import assert_same_bits
+from support import assert_same_bits
 from watched import At, pendulum
 from zerodrift.runs import simulate as simulation
 

@@ -1,11 +1,5 @@
 """Each failure of a run, reached: its exception, its sentence with numbers, and what was computed before it."""
 
-import os
-import signal
-import sys
-import threading
-import time
-import types
 
 import numpy as np
 import pytest
@@ -153,82 +147,3 @@ def test_every_error_is_one_of_ours():
     assert issubclass(zd.SingularSystem, ArithmeticError)
     assert isinstance(_gateway.error_of(-10, "unknown"), zd.ZerodriftError)
     assert zd.ZerodriftError.solution is None
-
-
-def test_records_beyond_memory(bar):
-    with pytest.raises(MemoryError, match=r"^\d+ saved rows need [\d.e+]+ GiB; save fewer with save_every$"):
-        zd.simulate(bar, 1e4, step=1e-10)
-
-
-# ---- the keyboard ----
-
-
-def interrupted(bar, after=0.15, **options):
-    """A long run, Ctrl-C after a while: what came back, and how long that took."""
-    sent = []
-
-    def press():
-        time.sleep(after)
-        sent.append(time.perf_counter())
-        os.kill(os.getpid(), signal.SIGINT)
-
-    threading.Thread(target=press).start()
-    try:
-        result = zd.simulate(bar, 1e5, step=1e-3, save_every=1000, **options)
-    except KeyboardInterrupt as error:
-        result = error
-    return result, time.perf_counter() - sent[0]
-
-
-def test_ctrl_c_keeps_what_was_computed(bar):
-    error, _ = interrupted(bar)
-    assert isinstance(error, zd.errors.Interrupted)
-    sol = error.solution
-    assert str(error) == sol.message == "interrupted from the keyboard"
-    assert not sol.success
-    assert sol.status > 0
-    assert 1 < len(sol.t) < 1e5
-    assert_close(sol.p, zd.simulate(bar, sol.t[-1], step=1e-3, save_every=1000).p, tol.CONVERGED)
-
-
-def test_ctrl_c_may_return(bar):
-    sol, _ = interrupted(bar, on_failure="return", integrator="trapezoidal")
-    assert sol.message == "interrupted from the keyboard"
-    assert len(sol.t) > 1
-
-
-def test_ctrl_c_is_heard_at_once(bar):
-    """The best of a few: a busy machine may delay any one of them."""
-    assert min(interrupted(bar)[1] for _ in range(3)) <= tol.KEYBOARD
-
-
-def test_an_exception_of_the_progress_callable_surfaces(bar):
-    def show(part):
-        raise ZeroDivisionError("mine")
-
-    with pytest.raises(ZeroDivisionError, match="mine"):
-        motion(bar, 1.0, 20, progress=show)
-
-
-def test_the_bar_of_tqdm_is_closed(bar, monkeypatch):
-    """Also where the run fails."""
-    calls = []
-
-    class Bar:
-        def __init__(self, **options):
-            self.n = 0
-
-        def refresh(self):
-            calls.append(self.n)
-
-        def close(self):
-            calls.append("closed")
-
-    module = types.ModuleType("tqdm.auto")
-    module.tqdm = Bar
-    monkeypatch.setitem(sys.modules, "tqdm", types.ModuleType("tqdm"))
-    monkeypatch.setitem(sys.modules, "tqdm.auto", module)
-    with pytest.raises(zd.Diverged):
-        zd.simulate(bar, 8.0, step=0.05, stabilization=None, progress=True)
-    assert calls[-1] == "closed"
-    assert 0.9 < calls[-2] < 1

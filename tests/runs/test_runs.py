@@ -1,28 +1,14 @@
 """Runs: the same bits whatever the slicing, threads and saving; time; and what a run costs, counted."""
 
-import sys
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from support import FORMULATIONS, INTEGRATORS, assert_close, motion
+from support import FORMULATIONS, INTEGRATORS, assert_same_bits, motion
 from zerodrift.runs import simulate as simulation
-
-ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
-        "energy_input", "energy_violation", "iterations")
-
-
-def assert_same_bits(one, other, rows=slice(None)):
-    """Every array of two solutions, the first at `rows`."""
-    for name in ROWS:
-        a, b = getattr(one, name), getattr(other, name)
-        assert (a is None) == (b is None), name
-        assert a is None or name == "iterations" or a[rows].tobytes() == b.tobytes(), name
-
 
 # ---- repeatability ----
 
@@ -77,16 +63,6 @@ def test_threads_with_different_settings_do_not_meet(bar):
         assert_same_bits(one, other)
 
 
-@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
-@pytest.mark.parametrize("every", [2, 7, 100, 1000])
-def test_saving_less_changes_no_bit(system, formulation, integrator, every):
-    options = {"formulation": formulation, "integrator": integrator}
-    full, sparse = motion(system, 1.0, 100, **options), motion(system, 1.0, 100, save_every=every, **options)
-    rows = sorted({*range(0, 101, every), 100})
-    assert_same_bits(full, sparse, rows)
-    assert sparse.stats["steps"] == 100
-
-
 def test_looking_at_every_row_costs_nothing(system, formulation):
     """Multipliers are recorded from what the next step needs anyway."""
     full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
@@ -111,50 +87,7 @@ def test_a_million_steps_are_as_good_as_the_first(bar, energy):
         assert size[-1] <= 20 * size[:100].max()
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
-def test_a_long_run_takes_no_more_memory(bar):
-    sizes = []
-
-    def look(part):
-        sizes.append(int(Path("/proc/self/statm").read_text().split()[1]))
-
-    zd.simulate(bar, 500.0, step=1e-3, save_every=10**5, progress=look)
-    assert len(sizes) > 3
-    assert sizes[-1] - sizes[1] < 64        # pages, a thousandth of what half a million rows take
-
-
 # ---- time ----
-
-
-@pytest.mark.parametrize("t_span", [1.0, 1, (0, 1), [0.0, 1.0], np.array([0, 1]), np.float32(1)], ids=repr)
-def test_forms_of_t_span(t_span):
-    sol = zd.simulate(zd.systems.oscillator(), t_span, step=0.25)
-    assert sol.t_span == (0.0, 1.0)
-    assert sol.t.tolist() == [0, 0.25, 0.5, 0.75, 1]
-
-
-def test_time_is_not_accumulated(bar):
-    sol = zd.simulate(bar, (3.0, 4.0), step=0.01)
-    assert sol.t.tolist() == [3.0 + k * 0.01 for k in range(100)] + [4.0]
-
-
-def test_a_shorter_last_step(system, integrator):
-    """It ends where asked, and is the step that a run from there would take."""
-    sol = zd.simulate(system, 0.1, step=0.03, integrator=integrator)
-    assert sol.t.tolist() == [0, 0.03, 0.06, 3 * 0.03, 0.1]
-    last = zd.simulate(system, (sol.t[3], 0.1), sol.p[3], sol.v[3], step=0.03, integrator=integrator)
-    assert last.t.tolist() == [sol.t[3], 0.1]
-    assert_close(last.p[-1], sol.p[-1], tol.STEPPED)
-    assert_close(last.v[-1], sol.v[-1], tol.STEPPED)
-
-
-@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
-@pytest.mark.parametrize(("end", "step", "steps"), [(1.0, 0.1, 10), (0.3, 0.1, 3), (8.0, 0.05, 160), (1.0, 1 / 3, 3),
-                                                    (1.0, 2.0, 1), (1.0, 0.0999999, 11), (1.0, 0.15, 7)])
-def test_a_whole_number_of_steps_is_recognized(end, step, steps):
-    sol = zd.simulate(zd.systems.oscillator(), end, step=step)
-    assert sol.stats["steps"] == steps == len(sol.t) - 1
-    assert sol.t[-1] == end
 
 
 def test_a_run_starts_where_it_is_told(system):

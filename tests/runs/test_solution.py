@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import motion
-from test_runs import ROWS, assert_same_bits
+from support import ROWS, assert_same_bits, motion
 from zerodrift.runs.solution import Described
 
 

@@ -7,8 +7,7 @@ import pytest
 
 import zerodrift as zd
 from native_systems import compile_text, needs_compiler
-from support import SYSTEMS, motion
-from test_models import MODELS
+from support import MODELS, SYSTEMS, motion
 
 WAYS = {"fixed": {"step": 0.01}, "chosen": {"rtol": 1e-8, "atol": 1e-8, "integrator": "dop853"}}
 WRONG_ROW = r"row 0 of the Jacobian, for velocity 1, is not the derivative of the constraint"

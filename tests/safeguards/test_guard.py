@@ -5,14 +5,9 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS, motion
+from turning_cranks import LENGTHS, side
 
-LENGTHS = [(1, 0.3, 1, 0.6), (1, 0.4, 0.9, 0.8), (1, 0.2, 1.05, 0.5)]       # cranks turn all the way around: branches never meet
 TRIALS = 250
-
-
-def side(sol):
-    """Which assembly each row is: the sign of sin(alpha_3 - alpha_2), which on these mechanisms cannot change."""
-    return np.sign(np.sin(sol.p[:, 2] - sol.p[:, 1]))
 
 
 def random_runs(seed, trials, **options):

@@ -16,7 +16,7 @@ import zerodrift as zd
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
-from test_large_steps import LENGTHS, side  # noqa: E402
+from turning_cranks import LENGTHS, side  # noqa: E402
 from units import MECHANISMS, Units, run  # noqa: E402
 
 RESULTS = HERE.parent / "bench" / "results" / "extremes.md"

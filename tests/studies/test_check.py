@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from test_custom import bias, force, four_bar, jacobian, potential, xi
+from four_bar_in_python import bias, force, four_bar, jacobian, potential, xi
 
 
 def test_built_in_systems_are_right(system):

@@ -10,9 +10,9 @@ import sympy as sp
 import certain_motions_free
 import taylor
 import zerodrift as zd
+from reference_files import definition, number, table
 from support import SYSTEMS
 from taylor import mp
-from test_references import definition, number, table
 from zerodrift.studies import compare
 
 ERRORS = (1e-6, 1e-9, 1e-11, None)

@@ -19,7 +19,7 @@ from sympy.physics.mechanics import (
 import tolerances as tol
 import zerodrift as zd
 from support import SYSTEMS, assert_close, consistent_states
-from test_symbolic import GRAVITY, GROUND, LENGTHS, MASSES, VALUES, rolling_disc
+from symbolic_counterparts import GRAVITY, GROUND, LENGTHS, MASSES, VALUES, rolling_disc
 
 T = dynamicsymbols._t
 FROM_ABSOLUTE = np.array([[1, 0, 0], [-1, 1, 0], [0, -1, 1.0]])     # angles of joints from those of links

@@ -19,8 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import zerodrift as zd
-from support import FORMULATIONS
-from test_runs import assert_same_bits
+from support import FORMULATIONS, assert_same_bits
 from watched import At, pendulum, throw
 from zerodrift.systems import jets
 

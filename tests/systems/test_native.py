@@ -12,8 +12,7 @@ import pytest
 
 import zerodrift as zd
 from native_systems import COMPILER, GIVEN, PENDULUM, built_in, compile_library, compile_text, motion, needs_compiler, pendulum
-from support import assert_close
-from test_runs import assert_same_bits
+from support import assert_close, assert_same_bits
 from zerodrift.compiled import BIT, SLOT
 
 pytestmark = needs_compiler

@@ -1,10 +1,6 @@
 """Motions against solutions from elsewhere: closed forms and files in tests/references/, whose README says where from."""
 
-import csv
-import json
 from functools import cache
-from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,38 +8,8 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
+from reference_files import ROUND_OFF, definition, end, falls_at_order_four, number, table
 from support import assert_close
-
-FOLDER = Path(__file__).parent / "references"
-ROUND_OFF = 1e-10   # what the finest step leaves: truncation has fallen to the round-off of some 1e4 steps
-
-
-def definition(name):
-    return json.loads((FOLDER / f"{name}.json").read_text())
-
-
-def table(name):
-    with open(FOLDER / f"{name}_ref.csv") as file:
-        rows = list(csv.DictReader(file))
-    return {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
-
-
-def number(text):
-    return np.array(text, dtype=float)
-
-
-def falls_at_order_four(steps, errors):
-    """Errors at falling steps: overall at order four until they are at round-off, and always falling."""
-    clear = [(h, error) for h, error in zip(steps, errors, strict=True) if error > ROUND_OFF]
-    (first, coarse), (last, fine) = clear[0], clear[-1]
-    assert np.log(coarse / fine) / np.log(first / last) > 3.5, errors
-    assert all(fine < max(coarse, ROUND_OFF) for coarse, fine in pairwise(errors)), errors
-    assert errors[-1] < ROUND_OFF, errors
-
-
-def end(system, t_end, step, **options):
-    return zd.simulate(system, t_end, step=step, save_every=10**6, **options)
-
 
 # ---- knife edge ----
 

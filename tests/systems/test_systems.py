@@ -1,5 +1,6 @@
 """Every system against derivatives of itself: (1)-(6), (28), and Lagrange's equations."""
 
+
 import numpy as np
 import pytest
 
@@ -142,3 +143,8 @@ def test_parameters_may_be_changed(system):
         system.with_parameters({key: value}, **{key: 1.01 * value})
     with pytest.raises(TypeError, match="changes must be a dict"):
         system.with_parameters([value])
+
+
+def test_a_disc_that_lies_flat_is_refused():
+    with pytest.raises(ValueError, match="lean must be between -pi/2 and pi/2"):
+        zd.systems.rolling_disc(lean=2.0)

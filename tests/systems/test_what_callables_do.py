@@ -9,23 +9,9 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from native_systems import pendulum as native_pendulum
-from support import FORMULATIONS, assert_close
+from bead import MASKED, bead
 from watched import At, throw
 from zerodrift import compare
-
-MASKED = np.ma.array([1.0, 0.0], mask=[False, True])
-
-
-def bead(**changes):
-    """A mass on a circle, with everything that callables can be handed; its constraints are differentiated."""
-    given = {
-        "mass": lambda p, m: m * np.eye(2), "force": lambda t, p, v, m, pull: m * pull, "bias": lambda v: np.zeros(2),
-        "constraints": lambda p: np.array([p @ p - 1.0]) / 2, "kinematics": lambda p: np.eye(2),
-        "potential": lambda p, m, pull: -m * (pull @ p), "power": lambda v: 0.0,
-        "parameters": {"m": 2.0, "pull": np.array([0.0, -9.81])}, "p0": [1.0, 0.0]}
-    return zd.System(["x", "y"], **{key: value for key, value in (given | changes).items() if value is not None})
-
 
 # ---- what is kept ----
 
@@ -170,86 +156,6 @@ def test_arrays_that_change_later_do_not_change_the_system():
         system.parameters["pull"][0] = 1.0
 
 
-# ---- names ----
-
-
-@pytest.mark.parametrize("name", ["t", "p", "v"])
-def test_a_parameter_cannot_take_the_place_of_the_state(name, library):
-    for make in (lambda: bead(parameters={"m": 1.0, "pull": np.zeros(2), name: np.zeros(2)}),
-                 lambda: native_pendulum(library, parameters={name: 1.0}),
-                 lambda: zd.native(library, symbol="pendulum", parameters={name: 1.0})):
-        with pytest.raises(ValueError, match=f"parameters cannot have '{name}': t, p, v are time, coordinates and velocities"):
-            make()
-    with pytest.raises(ValueError, match=f"parameter must be one of 'm', 'pull', not '{name}'"):
-        bead().with_parameters(**{name: 1.0})
-
-
-def test_a_kind_whose_parameter_is_named_as_the_state_is_refused(library, monkeypatch):
-    kind_at = zd._gateway.kind_at
-
-    def renamed(address):
-        kind = kind_at(address)
-        kind.parameters = (kind.parameters[0]._replace(name="v"), *kind.parameters[1:])
-        return kind
-
-    monkeypatch.setattr(zd._gateway, "kind_at", renamed)
-    with pytest.raises(ValueError, match=r"zd_kind_pendulum of .*: parameters cannot have 'v'"):
-        zd.native(library, symbol="pendulum")
-
-
-def test_no_built_in_parameter_has_the_name_of_the_state():
-    assert not {p.name for kind in zd._gateway.kinds().values() for p in kind.parameters} & {"t", "p", "v"}
-
-
-@pytest.mark.parametrize("name", ["x", "x_dot", "t", "other"])
-def test_a_symbolic_parameter_has_a_name_of_its_own(name):
-    from sympy import Symbol
-    from sympy.physics.mechanics import dynamicsymbols
-
-    x = dynamicsymbols("x")
-    for key in (name, Symbol(name, positive=True)):
-        given = {"kinetic": Symbol("m") * x.diff() ** 2, "parameters": {"m": 1.0, key: 1.0}, "p0": [1.0]}
-        if name == "other":
-            assert zd.symbolic([x], **given).parameters["other"] == 1.0
-        else:
-            with pytest.raises(ValueError, match=f"parameter {name} is a coordinate, a velocity or time"):
-                zd.symbolic([x], **given)
-
-
-@pytest.mark.parametrize(("parameters", "error", "message"), [
-    ([1, 2], TypeError, r"parameters must be a dict of values by name, not \[1, 2\]"),
-    ("m", TypeError, "parameters must be a dict of values by name, not 'm'"),
-    ({1: 2.0}, TypeError, "parameters must have strings for names, not 1"),
-    ({"m": "2.0"}, TypeError, "parameter 'm' must be a number, an array of numbers or an object that is no string, not '2.0'"),
-    ({"m": np.array(["2.0"])}, TypeError, "parameter 'm' must be a number, an array of numbers or an object that is no string"),
-    ({"m": MASKED}, ValueError, "parameter 'm' must have no masked entries"),
-])
-def test_what_are_no_parameters(parameters, error, message):
-    with pytest.raises(error, match=message):
-        bead(parameters=parameters)
-
-
-def test_parameters_of_other_doors_are_a_dict(library):
-    from sympy import Symbol
-    from sympy.physics.mechanics import dynamicsymbols
-
-    x = dynamicsymbols("x")
-    for make in (lambda: native_pendulum(library, parameters=[1, 2]),
-                 lambda: zd.native(library, symbol="pendulum", parameters="x"),
-                 lambda: zd.symbolic([x], kinetic=Symbol("m") * x.diff() ** 2, parameters=[1, 2])):
-        with pytest.raises(TypeError, match="parameters must be a dict of "):
-            make()
-
-
-def test_any_object_but_a_string_may_be_a_parameter():
-    def profile(t):
-        return np.array([0.0, -9.81])
-
-    parameters = {"m": 2.0, "pull": np.array([0.0, -9.81]), "profile": profile}
-    system = bead(force=lambda t, m, profile: m * profile(t), parameters=parameters)
-    assert (zd.simulate(system, 0.2, step=0.02).p == zd.simulate(bead(), 0.2, step=0.02).p).all()
-
-
 # ---- what is no callable, and no value ----
 
 
@@ -310,20 +216,6 @@ def test_what_a_callable_may_return(value):
 def test_numbers_too_large_are_not_finite():
     with pytest.raises(ValueError, match="force is not finite at t = 0"):
         bead(force=lambda: [10**400, 0]).evaluate()
-
-
-@pytest.mark.parametrize("value", [[None], ["1"], [1j], np.ma.array([1.0], mask=True)], ids=repr)
-def test_what_constraints_return_with_derivatives_is_judged(value):
-    def constraints(p):
-        return value if p.dtype == object else np.array([p @ p - 1.0])
-
-    with pytest.raises((TypeError, ValueError), match="constraints must return real numbers"):
-        bead(constraints=constraints).evaluate()
-
-
-def test_complex_numbers_within_derivatives_are_refused():
-    with pytest.raises(TypeError, match="constraints must return real numbers"):
-        bead(constraints=lambda p: np.array([p[0] * (1j if p.dtype == object else 1.0)])).evaluate()
 
 
 @pytest.mark.parametrize("call", [
@@ -395,40 +287,6 @@ def test_an_order_to_stop_is_no_failed_run(error, on_failure):
         zd.simulate(bead(force=force), 1.0, step=0.02, on_failure=on_failure)
     assert caught.value is error
     assert len(error.solution.t) > 3
-
-
-# ---- where there are no derivatives ----
-
-
-def test_a_power_that_has_its_second_derivative_at_zero_only_as_a_whole():
-    """|x|^3 + |y|^3 = 1 from (1, 0), written (x^2)^1.5: the same as with its Jacobian and xi in closed form."""
-    def rows(p):
-        return 3 * np.array([abs(p) * p])
-
-    written = bead(constraints=lambda p: np.array([(p[0] ** 2) ** 1.5 + (p[1] ** 2) ** 1.5 - 1]), v0=[0.0, 1.0])
-    closed = bead(constraints=lambda p: np.array([np.sum(abs(p) ** 3) - 1]), jacobian=rows,
-                  xi=lambda p, v: -np.array([6 * abs(p) @ v**2]), v0=[0.0, 1.0])
-    assert (written.evaluate().xi == closed.evaluate().xi).all()
-    for formulation in FORMULATIONS:
-        a, b = (zd.simulate(system, 0.5, step=0.01, formulation=formulation) for system in (written, closed))
-        assert_close(a.p, b.p, 1e-9)
-
-
-@pytest.mark.parametrize("row", [
-    lambda x, y: np.sqrt(y**2), lambda x, y: np.hypot(y, 0 * x), lambda x, y: y**0.5, lambda x, y: (y - 1e-3) ** 1.5,
-    lambda x, y: 1 / y, lambda x, y: np.log(y), lambda x, y: np.arcsin(x + y), lambda x, y: y**-1.0, lambda x, y: np.cbrt(y),
-    lambda x, y: (-2.0) ** (x / 3 + y), lambda x, y: np.exp(1000 * (x + y))])
-def test_a_derivative_that_does_not_exist_names_the_constraints(row):
-    """Where NumPy's value is not finite either, that is said of the value."""
-    with np.errstate(all="ignore"), pytest.raises(ValueError, match=r"constraints.* is not finite at t = 0: "):
-        bead(constraints=lambda p: np.array([row(p[0], p[1])])).evaluate()
-
-
-def test_a_branch_that_is_not_taken_may_have_no_derivative():
-    """``np.where`` computes both, 1/y at y = 0 too."""
-    system = bead(constraints=lambda p: np.where(p[1:] > 0.5, 1 / p[1:], p[:1] - 1))
-    with np.errstate(all="ignore"):
-        assert system.evaluate().C.tolist() == [[1.0, 0.0]]
 
 
 # ---- deep down, and from many threads ----

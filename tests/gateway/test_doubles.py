@@ -1,0 +1,28 @@
+"""What the gateway hands to the core: contiguous doubles, of the right number, and nothing else."""
+
+
+import numpy as np
+import pytest
+
+from zerodrift import _gateway
+
+
+@pytest.mark.parametrize(("array", "message"), [
+    (np.zeros(3, dtype=np.float32), r"expected 3 contiguous float64 values, got float32 of shape \(3,\)"),
+    (np.zeros(3, dtype=np.int64), "expected 3 contiguous float64 values, got int64"),
+    (np.zeros(3, dtype=">f8"), "expected 3 contiguous float64 values, got >f8"),
+    (np.zeros(6)[::2], "expected 3 contiguous float64 values, got float64"),
+    (np.zeros(4), r"expected 3 contiguous float64 values, got float64 of shape \(4,\)"),
+    (np.zeros((3, 3)).T[:1], r"expected 3 contiguous float64 values, got float64 of shape \(1, 3\)"),
+])
+def test_the_gateway_takes_contiguous_doubles_only(array, message):
+    with pytest.raises(TypeError, match=message):
+        _gateway.doubles(array, 3)
+
+
+def test_the_gateway_writes_to_writable_memory_only():
+    array = np.zeros(3)
+    array.flags.writeable = False
+    assert len(_gateway.doubles(array, 3)) == 3
+    with pytest.raises(TypeError, match="expected a writable array"):
+        _gateway.doubles(array, 3, writable=True)

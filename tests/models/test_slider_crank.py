@@ -1,0 +1,25 @@
+"""The slider-crank of `zd.models` against the built-in one."""
+
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from reference_files import table
+from support import assert_close
+
+
+def test_slider_crank_is_the_built_in_one(formulation):
+    """Which loses energy as the reference file says."""
+    mine, built_in = zd.models.slider_crank(), zd.systems.slider_crank()
+    assert_close(mine.p0, built_in.p0, 1e-15)
+    sols = [zd.simulate(system, 10.0, step=0.0025, save_every=100, formulation=formulation) for system in (mine, built_in)]
+    assert_close(sols[0].p, sols[1].p, 1e-10)
+    assert_close(sols[0].energy_input, sols[1].energy_input, 1e-10)
+    reference = table("sundials_slider_crank")
+    assert_close(sols[0].p, np.stack([reference[name] for name in ("q", "x", "p")], axis=1), 1e-9)
+
+
+def test_a_slider_crank_that_cannot_turn():
+    with pytest.raises(ValueError, match=r"rod must be longer than the crank of 0\.5 m, not 0\.4"):
+        zd.models.slider_crank(rod=0.4)

@@ -1,0 +1,39 @@
+"""The record of a run: the same rows whatever its size and however few are saved."""
+
+
+import numpy as np
+import pytest
+
+from support import assert_same_bits, handed, motion
+from zerodrift import _gateway
+
+
+@pytest.mark.parametrize("times", [None, np.array([0.05, 0.07, 0.5, 1.0])], ids=["steps", "times"])
+def test_records_of_any_size_hold_the_same_rows(bar, times):
+    """One row at a time, and none: the start is saved once."""
+    options = handed() if times is None else handed(t_eval=times)
+    least = 1 if times is None else len(times)
+    rows = []
+    for capacity in (least, 50):
+        run, collected = _gateway.Run(bar._core, options, bar.p0, bar.v0), []
+        assert run.advance(_gateway.Record(bar._core, 0), 1.0) == _gateway.FULL
+        status = _gateway.FULL
+        while status == _gateway.FULL:
+            record = _gateway.Record(bar._core, capacity)
+            status = run.advance(record, 1.0)
+            collected.append(record.take())
+        assert status == _gateway.DONE
+        rows.append({name: np.concatenate([part[name] for part in collected]) for name in collected[0]})
+    assert len(rows[0]["t"]) == (11 if times is None else 4)
+    for name in rows[0]:
+        assert rows[0][name].tobytes() == rows[1][name].tobytes()
+
+
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
+@pytest.mark.parametrize("every", [2, 7, 100, 1000])
+def test_saving_less_changes_no_bit(system, formulation, integrator, every):
+    options = {"formulation": formulation, "integrator": integrator}
+    full, sparse = motion(system, 1.0, 100, **options), motion(system, 1.0, 100, save_every=every, **options)
+    rows = sorted({*range(0, 101, every), 100})
+    assert_same_bits(full, sparse, rows)
+    assert sparse.stats["steps"] == 100

@@ -1,0 +1,38 @@
+"""What every system can do: to begin with, print what it is."""
+
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import SYSTEMS
+
+mpl.use("Agg")
+
+BAR = zd.systems.four_bar()
+
+
+@pytest.mark.parametrize("kind", SYSTEMS)
+def test_a_printed_system_says_what_it_is(kind):
+    system = SYSTEMS[kind]
+    text = str(system)
+    assert text.startswith(f"{system.name}\n")
+    for variable in (*system.coordinates, *system.velocities, *system.constraints):
+        assert (f"{variable.name} [{variable.unit}]" if variable.unit else variable.name) in text
+    for name in system.parameters:
+        assert f"{name} = " in text
+    assert f"freedom       {system.nv - system.m}\n" in text      # of the built-in ones, no row follows from others
+    assert repr(system) != text
+
+
+def test_printed_systems_of_all_kinds():
+    twice = zd.System(["x", "y"], mass=np.eye(2), units=["m", "m"], p0=[1.0, 0.0], parameters={"L": 1.0},
+                      constraints=lambda p, L: np.array([p @ p - L, 2 * (p @ p - L)]))
+    assert "x [m], y [m]" in str(twice)
+    assert "freedom       1, as 1 rows follow from others at the start" in str(twice)
+    assert "L = 1.0" in str(twice)
+    nowhere = zd.System(["x", "y"], mass=np.eye(2), constraints=lambda p: np.array([p @ p - 1.0]))
+    assert "freedom       at least 1" in str(nowhere)
+    assert "gravity = 9.81 m/s^2" in str(BAR)
+    assert "coordinates" in str(zd.models.slider_crank())

@@ -1,0 +1,49 @@
+"""The command line, `python -m zerodrift`: what it refuses, in words that name what is wrong."""
+
+import os
+
+import matplotlib as mpl
+
+from zerodrift.__main__ import main
+
+mpl.use("Agg")
+
+import subprocess
+import sys
+
+import matplotlib
+import pytest
+
+from zerodrift import __main__
+
+matplotlib.use("Agg")
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
+    (tmp_path / "file").write_text("in the way")
+    assert __main__.main(["reproduce", "--out", str(tmp_path / "file")]) == 1
+    assert __main__.main(["reproduce", "--out", str(tmp_path / "file" / "below")]) == 1
+    assert f"cannot write to {tmp_path / 'file'}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [[], ["draw"], ["reproduce", "here"]])
+def test_the_command_explains_itself(arguments):
+    run = subprocess.run([sys.executable, "-m", "zerodrift", *arguments], capture_output=True, text=True, check=False)
+    assert run.returncode == 2
+    assert "usage: python -m zerodrift" in run.stderr
+
+
+@pytest.mark.parametrize("folder", ["", "  ", "a\0b"], ids=["empty", "blank", "null"])
+def test_folders_that_are_none(folder, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["reproduce", "--out", folder])
+    assert end.value.code == 2
+    assert "--out" in capsys.readouterr().err
+
+
+def test_a_backend_that_is_none(tmp_path):
+    done = subprocess.run([sys.executable, "-m", "zerodrift", "reproduce", "--out", str(tmp_path)], capture_output=True,
+                          text=True, env=os.environ | {"MPLBACKEND": "nonsense"})
+    assert done.returncode == 1
+    assert "MPLBACKEND" in done.stderr
+    assert "Traceback" not in done.stderr

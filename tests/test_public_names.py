@@ -1,0 +1,45 @@
+"""The names that the package and its modules offer, and what importing it brings along."""
+
+
+
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib as mpl
+import pytest
+
+import zerodrift as zd
+
+mpl.use("Agg")
+
+PACKAGE = Path(zd.__file__).parent
+
+
+def public_modules():
+    """Those that `zerodrift` names, and those from which its documentation imports."""
+    named = {f"zerodrift.{name}" for name in zd.__all__ if type(getattr(zd, name)) is type(zd)}
+    written = "".join(path.read_text() for path in [*PACKAGE.rglob("*.py"), PACKAGE.parents[1] / "README.md"] if path.is_file())
+    imported = re.findall(r"(?:>>> |^|    )(?:from|import) (zerodrift(?:\.[a-z]\w*)*)", written, flags=re.MULTILINE)
+    packages = {f"zerodrift.{path.parent.name}" for path in PACKAGE.glob("[a-z]*/__init__.py") if "__all__" in path.read_text()}
+    return sorted({"zerodrift", *named, *imported, *packages})
+
+
+@pytest.mark.parametrize("name", public_modules())
+def test_completion_shows_only_what_is_public(name):
+    module = importlib.import_module(name)
+    assert set(dir(module)) == set(module.__all__)
+    assert all(hasattr(module, public) for public in module.__all__)
+
+
+def test_the_module_has_what_it_lists():
+    assert all(hasattr(zd, name) for name in zd.__all__ if name != "plot")
+    with pytest.raises(AttributeError, match="module 'zerodrift' has no attribute 'System2'"):
+        _ = zd.System2
+
+
+def test_matplotlib_waits_until_something_is_drawn():
+    code = "import sys, zerodrift as zd; zd.simulate(zd.systems.four_bar(), 1, step=0.05); print('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"
