@@ -1,6 +1,5 @@
 """A mass on a circle, written in Python with everything that callables can be handed."""
 
-
 import numpy as np
 
 import zerodrift as zd

@@ -1,7 +1,8 @@
 """Random motions that are known to thirty digits: closed forms, and Taylor series of minimal equations by `taylor`.
 
-What `zd.reference` certifies is compared with them, by test_certificates.py for a few and by stress/certificates.py for as many
-as it is told to. A family draws its numbers, and says the system, its start, how long, and what is exact at a time.
+What `zd.reference` certifies is compared with them, by studies/test_reference_of_known_motions.py for a few, and by
+stress/certificates.py for as many as it is told to. A family draws its numbers, and says the system, its start, how long, and
+what is exact at a time.
 """
 
 from time import perf_counter

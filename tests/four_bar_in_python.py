@@ -1,6 +1,5 @@
 """The paper's four-bar written in NumPy, term by term: what systems in Python are tested with."""
 
-
 import numpy as np
 
 import zerodrift as zd

@@ -1,4 +1,4 @@
-"""Random systems whose constraints are dependent, by construction: what test_rank.py compares a few hundred of, and
+"""Random systems whose constraints are dependent, by construction: what constraints/test_rank.py compares a few hundred of, and
 stress/random_systems.py as many as it is told to.
 """
 

@@ -1,7 +1,4 @@
-"""What several tests need: the systems there are, consistent states of theirs, and the paper's equations in plain NumPy."""
-
-
-
+"""What several tests need: the systems there are, states of theirs, the paper's equations in plain NumPy, and comparisons."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,6 +52,12 @@ def numbers(system, t, p, v):
         A=np.eye(system.nq) if e.A is None else e.A, M=e.M, force=or_zeros(e.f, system.nv) - or_zeros(e.d, system.nv),
         Phi=or_zeros(e.Phi, system.mh), C=or_zeros(e.C, system.m, system.nv), Phi_t=or_zeros(e.Phi_t, system.m),
         xi=or_zeros(e.xi, system.m), V=float(or_zeros(e.V)), power=float(or_zeros(e.power)))
+
+
+def with_energy(system):
+    if not system.has_energy:
+        pytest.skip("declares no potential")
+    return system
 
 
 # ---- states ----
@@ -128,6 +131,11 @@ def rate(system, t, y, alpha=0.0, beta=0.0):
     return np.concatenate([e.A @ v, solved(e.M, e.C, e.force, xi)[0]])
 
 
+def along_manifold(C, nv):
+    """D: the motions along the manifold, C D = 0."""
+    return np.linalg.svd(C)[2][len(C):].T if len(C) else np.eye(nv)
+
+
 def difference(function, x, h=1e-3):
     """The derivative of a function of one number, by five points."""
     return (8 * (function(x + h) - function(x - h)) - (function(x + 2 * h) - function(x - 2 * h))) / (12 * h)
@@ -138,6 +146,9 @@ def along(function, *directed):
     return difference(lambda s: function(*(x + s * direction for x, direction in directed)), 0.0)
 
 
+# ---- comparisons ----
+
+
 def assert_close(actual, desired, tolerance, scale=0.0, what=""):
     """|actual - desired| <= tolerance * the largest of scale, |actual| and |desired|."""
     actual, desired = np.asarray(actual), np.asarray(desired)
@@ -145,6 +156,30 @@ def assert_close(actual, desired, tolerance, scale=0.0, what=""):
     size = max(scale, np.abs(desired).max(initial=0), np.abs(actual).max(initial=0))
     error = np.abs(actual - desired).max(initial=0)
     assert error <= tolerance * size, f"{what} off by {error:.3g}, of {size:.3g} (allowed: {tolerance:.1g})"
+
+
+ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
+        "energy_input", "energy_violation", "iterations")
+
+
+def assert_same_bits(one, other, rows=slice(None)):
+    """Every array of two solutions, the first at `rows`."""
+    for name in ROWS:
+        a, b = getattr(one, name), getattr(other, name)
+        assert (a is None) == (b is None), name
+        assert a is None or name == "iterations" or a[rows].tobytes() == b.tobytes(), name
+
+
+# ---- runs ----
+
+
+def handed(**changed):
+    """The core's own settings, right but for what is changed."""
+    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
+    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
+    for name in set(changed) & {"projection", "baumgarte", "energy"}:
+        changed[name] = options.get(name, {}) | changed[name]
+    return _gateway.settings(options | changed)
 
 
 def motion(system, t_end, steps, **options):
@@ -166,39 +201,3 @@ def observed_order(system, t_end=0.5, coarsest=10, refinements=8, **options):
             before = difference
         states = now
     return order
-
-
-ROWS = ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
-        "energy_input", "energy_violation", "iterations")
-
-
-def assert_same_bits(one, other, rows=slice(None)):
-    """Every array of two solutions, the first at `rows`."""
-    for name in ROWS:
-        a, b = getattr(one, name), getattr(other, name)
-        assert (a is None) == (b is None), name
-        assert a is None or name == "iterations" or a[rows].tobytes() == b.tobytes(), name
-
-
-MODELS = {"andrews": zd.models.andrews, "bicycle": zd.models.bicycle, "slider_crank": zd.models.slider_crank,
-          "closed_pendulum": zd.models.closed_pendulum, "closed_pendulum of 7": lambda: zd.models.closed_pendulum(7)}
-
-
-def along_manifold(C, nv):
-    """D: the motions along the manifold, C D = 0."""
-    return np.linalg.svd(C)[2][len(C):].T if len(C) else np.eye(nv)
-
-
-def with_energy(system):
-    if not system.has_energy:
-        pytest.skip("declares no potential")
-    return system
-
-
-def handed(**changed):
-    """Settings of the core, right but for what is changed."""
-    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
-    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
-    for name in set(changed) & {"projection", "baumgarte", "energy"}:
-        changed[name] = options.get(name, {}) | changed[name]
-    return _gateway.settings(options | changed)

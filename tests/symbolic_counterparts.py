@@ -1,6 +1,5 @@
 """Built-in systems derived a second time with SymPy, from their energies."""
 
-
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 

@@ -1,9 +1,4 @@
-"""Bad input gets a clear error, which names the argument, its value and what is allowed; and nothing else."""
-
-
-import matplotlib as mpl
-
-mpl.use("Agg")
+"""Arguments in Python: bad ones get a clear error, which names the argument, its value and what is allowed; and nothing else."""
 
 import re
 from decimal import Decimal
@@ -16,6 +11,7 @@ from support import SYSTEMS
 from zerodrift import _check
 
 BAR = SYSTEMS["four_bar"]
+SOL = zd.simulate(BAR, 0.1, step=0.01)
 
 
 def run(**options):
@@ -187,14 +183,8 @@ def test_a_system_that_is_only_described_is_not_simulated(bar):
         zd.simulate(description, 1, step=0.1)
 
 
-# ---- the gateway, the last line of defence: CFFI itself would reinterpret whatever memory it is given ----
-
-
 def test_whole_numbers_of_any_kind_count():
     assert _check.count("n", np.int8(3)) == 3
-
-
-SOL = zd.simulate(BAR, 0.1, step=0.01)
 
 
 def test_masked_and_complex_starts():

@@ -1,28 +1,21 @@
 """The command line, `python -m zerodrift`: what it refuses, in words that name what is wrong."""
 
 import os
-
-import matplotlib as mpl
-
-from zerodrift.__main__ import main
-
-mpl.use("Agg")
-
 import subprocess
 import sys
 
 import matplotlib
 import pytest
 
-from zerodrift import __main__
+from zerodrift.__main__ import main
 
 matplotlib.use("Agg")
 
 
 def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way")
-    assert __main__.main(["reproduce", "--out", str(tmp_path / "file")]) == 1
-    assert __main__.main(["reproduce", "--out", str(tmp_path / "file" / "below")]) == 1
+    assert main(["reproduce", "--out", str(tmp_path / "file")]) == 1
+    assert main(["reproduce", "--out", str(tmp_path / "file" / "below")]) == 1
     assert f"cannot write to {tmp_path / 'file'}" in capsys.readouterr().err
 
 

@@ -1,4 +1,4 @@
-"""The core by itself: it allocates once for each run, in one file, keeps no global state; and a stale one is noticed."""
+"""The core by itself: it allocates once for each run, in one file, and keeps no global state."""
 
 import os
 import re

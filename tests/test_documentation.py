@@ -1,7 +1,5 @@
 """What the documentation shows, runs: examples of docstrings, and the Python code of the README."""
 
-
-
 import doctest
 import importlib
 import pkgutil

@@ -1,6 +1,5 @@
 """Every notebook runs, and is committed with the outputs of a run."""
 
-
 import pytest
 
 from support import ROOT

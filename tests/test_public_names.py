@@ -1,19 +1,14 @@
 """The names that the package and its modules offer, and what importing it brings along."""
 
-
-
 import importlib
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-import matplotlib as mpl
 import pytest
 
 import zerodrift as zd
-
-mpl.use("Agg")
 
 PACKAGE = Path(zd.__file__).parent
 

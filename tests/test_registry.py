@@ -1,6 +1,5 @@
 """The core's tables, as users read them."""
 
-
 import zerodrift as zd
 from support import SYSTEMS
 

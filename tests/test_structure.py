@@ -1,4 +1,4 @@
-"""Dependencies point one way: no file and no folder needs, through however many others, something that needs it."""
+"""The package: no file and no folder needs, through however many others, something that needs it. And tests mirror the rooms."""
 
 import ast
 import importlib.util
@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import zerodrift
+from support import ROOT
 
 PACKAGE = Path(zerodrift.__file__).parent
 
@@ -84,3 +85,10 @@ def test_every_way_to_import_counts(source):
 def test_a_circle_is_found():
     assert circle({"a": {"b"}, "b": {"c"}, "c": set()}) is None
     assert set(circle({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})) == {"a", "b", "c"}
+
+
+def test_folders_of_tests_are_named_after_rooms():
+    """Those of `csrc/` and `python/zerodrift/`, where `run/` and `runs/` are one; `linalg/` is tested by all that compute."""
+    files = [*ROOT.glob("csrc/*/*.c"), *ROOT.glob("python/zerodrift/*/*.py")]
+    rooms = {path.parent.name.removeprefix("_") for path in files}
+    assert {path.parent.name for path in ROOT.glob("tests/*/**/test_*.py")} == rooms - {"run", "linalg"}

@@ -1,15 +1,10 @@
-"""Baumgarte's stabilization (23), with and without the integral; as a right side of the integrators it is tested with them."""
+"""Baumgarte's stabilization (23), also with the integral; integrators/ compares its steps with NumPy."""
 
 import numpy as np
 
 import tolerances as tol
 import zerodrift as zd
-from support import (
-    assert_close,
-    motion,
-    numbers,
-    solved,
-)
+from support import assert_close, motion, numbers, solved
 
 
 def test_baumgarte_bounds_what_drifts(bar):

@@ -7,12 +7,7 @@ from hypothesis import strategies as st
 
 import tolerances as tol
 import zerodrift as zd
-from support import (
-    SYSTEMS,
-    assert_close,
-    motion,
-    with_energy,
-)
+from support import SYSTEMS, assert_close, motion, with_energy
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning")

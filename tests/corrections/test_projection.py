@@ -1,19 +1,11 @@
-"""Corrections: (25)-(27) against NumPy and their own properties, (23) in test_integrators, (28) and (29)."""
+"""The projection: (25)-(27) against NumPy, and their own properties."""
 
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from support import (
-    along_manifold,
-    assert_close,
-    condition,
-    motion,
-    numbers,
-    solved,
-    violated_states,
-)
+from support import along_manifold, assert_close, condition, motion, numbers, solved, violated_states
 
 
 def metric_of(name, M):

@@ -1,5 +1,4 @@
-"""What the gateway hands to the core: contiguous doubles, of the right number, and nothing else."""
-
+"""The gateway is the last line of defence: CFFI itself would reinterpret whatever memory it is given."""
 
 import numpy as np
 import pytest

@@ -1,6 +1,5 @@
 """Andrews' mechanism against the reference of the test set for initial value problems."""
 
-
 import numpy as np
 import pytest
 

@@ -1,6 +1,5 @@
 """The bicycle against the benchmark's equations by hand."""
 
-
 import numpy as np
 import pytest
 import scipy.integrate

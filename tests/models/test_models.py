@@ -1,4 +1,4 @@
-"""`zd.models`: derived from energies, and compared with what was not: reference files, built-in systems, equations by hand."""
+"""What every model of `zd.models` can do; the motion of each is compared in the file of its name."""
 
 import pickle
 import subprocess
@@ -8,15 +8,12 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import MODELS
+from every_model import MODELS
 
 
 @pytest.fixture(params=MODELS)
 def model(request):
     return MODELS[request.param]()
-
-
-# ---- all of them ----
 
 
 def test_check(model):

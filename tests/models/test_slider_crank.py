@@ -1,6 +1,5 @@
 """The slider-crank of `zd.models` against the built-in one."""
 
-
 import numpy as np
 import pytest
 

@@ -3,12 +3,7 @@
 import numpy as np
 
 import tolerances as tol
-from support import (
-    assert_close,
-    motion,
-    numbers,
-    with_energy,
-)
+from support import assert_close, motion, numbers, with_energy
 
 
 def test_energy_balance_holds_along_the_motion(system, formulation):

@@ -1,12 +1,5 @@
 """Values between steps: at times asked for before the run, and afterwards between its rows."""
 
-
-import matplotlib as mpl
-
-mpl.use("Agg")
-
-
-
 import numpy as np
 import pytest
 

@@ -1,6 +1,5 @@
 """The record of a run: the same rows whatever its size and however few are saved."""
 
-
 import numpy as np
 import pytest
 

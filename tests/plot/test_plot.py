@@ -1,10 +1,5 @@
 """Every drawing function on every built-in system, and what each must say when it cannot draw."""
 
-
-import matplotlib as mpl
-
-mpl.use("Agg")
-
 import dataclasses
 
 import matplotlib
@@ -266,6 +261,9 @@ def test_animation_is_in_real_time(bar):
 def test_animation_refuses_times_that_make_no_sense(bar, name):
     with pytest.raises(ValueError, match=f"{name} must be greater than 0"):
         plot.animate(bar, **{name: 0.0})
+
+
+# ---- wrong arguments ----
 
 
 BAR = zd.systems.four_bar()

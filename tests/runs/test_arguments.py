@@ -1,4 +1,4 @@
-"""What the core refuses, whoever calls it, instead of crashing or never ending."""
+"""Settings, systems and starts that the core refuses, whoever calls it, instead of crashing or never ending."""
 
 import numpy as np
 import pytest

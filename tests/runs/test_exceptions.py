@@ -1,4 +1,4 @@
-"""Ctrl-C, exceptions and the end of memory at any moment: nothing crashes, leaks or is lost that was computed."""
+"""Exceptions in a callable, at any moment: they surface as they are, and nothing is lost that was computed."""
 
 import dataclasses
 
@@ -14,9 +14,6 @@ def assert_beginning(part, whole):
     """The rows of one are the first of the other, to the last bit."""
     assert len(part.t) < len(whole.t)
     assert_same_bits(whole, part, slice(len(part.t)))
-
-
-# ---- exceptions in a callable ----
 
 
 @pytest.mark.parametrize("options", [{"step": 0.05}, {"rtol": 1e-4, "integrator": "dormand_prince", "t_eval": [0.1, 0.2, 0.3]}],

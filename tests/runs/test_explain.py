@@ -1,6 +1,5 @@
 """Each failure of a run, reached: its exception, its sentence with numbers, and what was computed before it."""
 
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,5 @@
 """Memory: where it ends that is said, nothing leaks, and long runs take no more than short ones."""
 
-
-
-
 import gc
 import os
 import subprocess

@@ -1,21 +1,11 @@
 """Operations without a run: `zd.assemble`, and what it holds."""
 
-
-import matplotlib as mpl
-
-mpl.use("Agg")
-
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from support import (
-    along_manifold,
-    assert_close,
-    numbers,
-    violated_states,
-)
+from support import along_manifold, assert_close, numbers, violated_states
 
 
 def test_assembling_holds_what_is_named(system):

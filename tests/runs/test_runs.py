@@ -1,4 +1,4 @@
-"""Runs: the same bits whatever the slicing, threads and saving; time; and what a run costs, counted."""
+"""Runs: the same bits whatever the slicing and threads; where they start; and what a run costs, counted."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -87,7 +87,7 @@ def test_a_million_steps_are_as_good_as_the_first(bar, energy):
         assert size[-1] <= 20 * size[:100].max()
 
 
-# ---- time ----
+# ---- the start ----
 
 
 def test_a_run_starts_where_it_is_told(system):

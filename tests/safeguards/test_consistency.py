@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from every_model import MODELS
 from native_systems import compile_text, needs_compiler
-from support import MODELS, SYSTEMS, motion
+from support import SYSTEMS, motion
 
 WAYS = {"fixed": {"step": 0.01}, "chosen": {"rtol": 1e-8, "atol": 1e-8, "integrator": "dop853"}}
 WRONG_ROW = r"row 0 of the Jacobian, for velocity 1, is not the derivative of the constraint"

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from support import MODELS
+from every_model import MODELS
 
 OMEGA = 20.0        # of the light part
 UNTOLD = 0.01       # rad: who is off by less is not warned of,

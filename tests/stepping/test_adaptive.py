@@ -1,5 +1,4 @@
-"""Steps chosen by their error, and values between steps."""
-
+"""Steps chosen by their error: what that reaches, how many they may be, and which settings are refused."""
 
 import re
 
@@ -99,9 +98,6 @@ def test_a_motion_that_ends_is_followed_to_its_end():
     assert 0.99 < sol.t[-1] < 1.0 + 1e-6
     early = sol.t < 0.5
     assert np.abs(sol.p[early, 0] - 1 / (1 - sol.t[early])).max() < 1e-6
-
-
-# ---- values between steps ----
 
 
 def test_chosen_steps_survive_saving_and_serve_again(bar, tmp_path):

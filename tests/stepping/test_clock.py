@@ -1,6 +1,5 @@
 """Time: it is never accumulated, and a run of steps of fixed size ends where it was asked to."""
 
-
 import numpy as np
 import pytest
 

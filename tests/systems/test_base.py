@@ -1,14 +1,10 @@
 """What every system can do: to begin with, print what it is."""
 
-
-import matplotlib as mpl
 import numpy as np
 import pytest
 
 import zerodrift as zd
 from support import SYSTEMS
-
-mpl.use("Agg")
 
 BAR = zd.systems.four_bar()
 

@@ -1,6 +1,5 @@
 """Derivatives of constraints written in Python: where there are none, that is said."""
 
-
 import numpy as np
 import pytest
 

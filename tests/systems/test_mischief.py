@@ -2,7 +2,7 @@
 
 Each example makes mischief of one kind, from some call on, in one of the callables of a system or in an event. Then the run is,
 to the last bit, that without mischief, or an error says what was wrong; arrays that were kept are what they were; and the run
-after it is right. ``ZERODRIFT_EXAMPLES=100000 pytest tests/test_mischief.py`` looks longer than the sample that CI takes.
+after it is right. ``ZERODRIFT_EXAMPLES=100000 pytest tests/systems/test_mischief.py`` looks longer than the sample that CI takes.
 """
 
 import contextlib

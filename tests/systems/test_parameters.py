@@ -1,6 +1,5 @@
 """Parameters of systems of all kinds: which names and values they may have."""
 
-
 import numpy as np
 import pytest
 

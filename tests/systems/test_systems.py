@@ -1,6 +1,5 @@
 """Every system against derivatives of itself: (1)-(6), (28), and Lagrange's equations."""
 
-
 import numpy as np
 import pytest
 

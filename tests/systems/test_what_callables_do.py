@@ -1,4 +1,4 @@
-"""What users hand in as callables and values: what they keep stays, what they return or raise is judged, names mean one thing."""
+"""What users hand in as callables and values: what they keep stays, what they return or raise is judged."""
 
 import gc
 import pickle
@@ -272,7 +272,6 @@ def test_an_error_of_events_progress_and_reference_says_where():
 
 class Stop(BaseException):
     """No failure, but an order."""
-
 
 @pytest.mark.parametrize("error", [SystemExit(3), GeneratorExit(), Stop()], ids=repr)
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
