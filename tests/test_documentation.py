@@ -42,10 +42,6 @@ def test_the_code_of_the_readme_runs(capsys):
 
 
 def test_the_examples_of_the_docstrings():
-    import doctest
-    import importlib
-    import pkgutil
-
     rooms = [importlib.import_module(f"zerodrift.{room}") for room in ("runs", "studies", "systems")]
     names = [name for room in rooms for _, name, _ in pkgutil.iter_modules(room.__path__, f"{room.__name__}.")]
     tried = [doctest.testmod(importlib.import_module(name)) for name in names]

@@ -18,6 +18,9 @@ from watched import At, pendulum
 from zerodrift import _gateway
 from zerodrift.runs import simulate as simulation
 
+PACKAGE = str(Path(zd.__file__).parent)
+posix = pytest.mark.skipif(os.name != "posix", reason="there is no timer that sends signals")
+
 
 def interrupted(bar, after=0.15, **options):
     """A long run, Ctrl-C after a while: what came back, and how long that took."""
@@ -56,10 +59,6 @@ def test_ctrl_c_may_return(bar):
 def test_ctrl_c_is_heard_at_once(bar):
     """The best of a few: a busy machine may delay any one of them."""
     assert min(interrupted(bar)[1] for _ in range(3)) <= tol.KEYBOARD
-
-
-PACKAGE = str(Path(zd.__file__).parent)
-posix = pytest.mark.skipif(os.name != "posix", reason="there is no timer that sends signals")
 
 
 class Presser:
