@@ -11,7 +11,18 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from native_systems import COMPILER, GIVEN, PENDULUM, built_in, compile_library, compile_text, motion, needs_compiler, pendulum
+from native_systems import (
+    COMPILER,
+    GIVEN,
+    PENDULUM,
+    built_in,
+    compile_library,
+    compile_text,
+    motion,
+    needs_compiler,
+    pendulum,
+    run_elsewhere,
+)
 from support import assert_close, assert_same_bits
 from zerodrift.compiled import BIT, SLOT
 
@@ -35,10 +46,6 @@ def test_several_threads_at_once(library):
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         for sol in pool.map(lambda _: motion(system), range(16)):
             assert_same_bits(sol, expected)
-
-
-def run_elsewhere(system):
-    return motion(system).p
 
 
 @pytest.mark.parametrize("describes", [False, True])
