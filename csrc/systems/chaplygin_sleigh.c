@@ -7,6 +7,7 @@
  * Dynamics of Nonholonomic Systems, 1972; Bloch, Nonholonomic Mechanics and Control, 2015, section 1.7. Nothing pulls it:
  * V = 0 is declared so that its energy can be watched.
  */
+#include "kind.h"
 #include "skate.h"
 
 enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
@@ -93,15 +94,7 @@ const zd_kind zd_chaplygin_sleigh = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(given) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = zd_skate_coordinate,
-    .velocity = zd_skate_velocity,
-    .constraint = zd_skate_constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = POINTS,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(given),
+    .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
+    .points = POINTS, .dimension = 2, .draw = draw,
 };

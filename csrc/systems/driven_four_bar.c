@@ -6,6 +6,7 @@
  * energy comes in.
  */
 #include "four_bar.h"
+#include "kind.h"
 
 enum { N = ZD_FOUR_BAR_N, DRIVE = 2, ROWS = 3 };
 
@@ -84,15 +85,7 @@ const zd_kind zd_driven_four_bar = {
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(constants) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = zd_four_bar_coordinate,
-    .velocity = zd_four_bar_velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = N + 1,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(constants),
+    .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
+    .points = N + 1, .dimension = 2, .draw = draw,
 };

@@ -9,6 +9,7 @@
 #include "four_bar.h"
 
 #include "../linalg/small.h"
+#include "kind.h"
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
@@ -216,15 +217,7 @@ const zd_kind zd_four_bar = {
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(constants) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = zd_four_bar_coordinate,
-    .velocity = zd_four_bar_velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = N + 1,
-    .dimension = 2,
-    .draw = zd_four_bar_draw,
+    ZD_PREPARED(constants),
+    .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
+    .points = N + 1, .dimension = 2, .draw = zd_four_bar_draw,
 };

@@ -8,6 +8,7 @@
  * Left alone at the top with some spin it does not run down: it drifts sideways on a cycloid. Bloch, Nonholonomic Mechanics and
  * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
  */
+#include "kind.h"
 #include "skate.h"
 
 enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
@@ -88,15 +89,7 @@ const zd_kind zd_knife_edge = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(constants) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = zd_skate_coordinate,
-    .velocity = zd_skate_velocity,
-    .constraint = zd_skate_constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = POINTS,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(constants),
+    .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
+    .points = POINTS, .dimension = 2, .draw = draw,
 };

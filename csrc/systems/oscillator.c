@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../include/zerodrift/system.h"
+#include "kind.h"
 
 typedef struct given {      /* the parameters, and what evaluate() needs of them */
     double m;               /* kg */
@@ -57,14 +58,7 @@ const zd_kind zd_oscillator = {
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(given) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
-    .prepare = prepare,
-    .start = start,
-    .points = 2,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(given),
+    .coordinate = coordinate, .velocity = velocity,
+    .points = 2, .dimension = 2, .draw = draw,
 };

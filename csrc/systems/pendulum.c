@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "../include/zerodrift/system.h"
+#include "kind.h"
 
 enum { X, Y, N = 2 };
 
@@ -84,15 +85,7 @@ const zd_kind zd_pendulum = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(given) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = 2,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(given),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = 2, .dimension = 2, .draw = draw,
 };

@@ -23,6 +23,7 @@
 
 #include "../include/zerodrift/system.h"
 #include "disc.h"
+#include "kind.h"
 
 enum { X, Y, Z, YAW, LEAN, SPIN, N };
 enum { VX, VY, VZ, W1, W2, W3 };
@@ -177,15 +178,7 @@ const zd_kind zd_rolling_disc = {
         .evaluate = evaluate,
         .failure = "the disc fell flat, where yaw and spin are the same turn; if it should have swung round, try a smaller step",
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(constants) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = ZD_DISC_POINTS,
-    .dimension = 3,
-    .draw = draw,
+    ZD_PREPARED(constants),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
 };

@@ -16,6 +16,7 @@
 
 #include "../include/zerodrift/system.h"
 #include "../linalg/small.h"
+#include "kind.h"
 
 enum { Q, X, ANGLE, N = 3 };
 
@@ -144,15 +145,7 @@ const zd_kind zd_slider_crank = {
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(given) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = 7,
-    .dimension = 2,
-    .draw = draw,
+    ZD_PREPARED(given),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = 7, .dimension = 2, .draw = draw,
 };

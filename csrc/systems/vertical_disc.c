@@ -13,6 +13,7 @@
 
 #include "../include/zerodrift/system.h"
 #include "disc.h"
+#include "kind.h"
 
 enum { X, Y, PHI, THETA, N };
 
@@ -104,15 +105,7 @@ const zd_kind zd_vertical_disc = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
     },
-    .parameters = sizeof parameter / sizeof parameter[0],
-    .constants = sizeof(given) / sizeof(double),
-    .parameter = parameter,
-    .coordinate = coordinate,
-    .velocity = velocity,
-    .constraint = constraint,
-    .prepare = prepare,
-    .start = start,
-    .points = ZD_DISC_POINTS,
-    .dimension = 3,
-    .draw = draw,
+    ZD_PREPARED(given),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
 };

@@ -1,0 +1,16 @@
+/* What all systems of this folder say of themselves in the same words. */
+#ifndef ZD_KIND_H
+#define ZD_KIND_H
+
+#include "../include/zerodrift/system.h"
+
+/* The members of a zd_kind that are made from the table `parameter` and the functions `prepare` and `start` of a file, and from the type of
+ * the constants that `prepare` fills in. */
+#define ZD_PREPARED(constants_type) \
+    .parameters = sizeof parameter / sizeof parameter[0], \
+    .parameter = parameter, \
+    .constants = sizeof(constants_type) / sizeof(double), \
+    .prepare = prepare, \
+    .start = start
+
+#endif
