@@ -12,8 +12,6 @@
 
 #include <string.h>
 
-#include "../constraints/rank.h"
-
 extern const zd_formulation zd_augmented;
 
 static int is_held(const zd_projection *projection)
@@ -27,13 +25,6 @@ zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const z
     int loses = motion->formulation->settle && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&settings->projection)) return (zd_variables){NULL, NULL, 0};
     return (zd_variables){&zd_augmented, zd_augmented.take(arena, independent), zd_augmented.state_size(independent)};
-}
-
-int zd_variables_lose_digits(const zd_stepper *stepper, int status)
-{
-    const zd_motion *motion = stepper->motion;
-    return stepper->dependent.formulation && motion->formulation == stepper->chosen.formulation && motion->point->rank->was_ill_conditioned
-        && status != ZD_CALLBACK;
 }
 
 /* In place of the others; of the state, what is integrated along. */
@@ -64,10 +55,10 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);
 }
 
-int zd_variables_use_chosen(zd_stepper *stepper)
+int zd_variables_change_back(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
-    if (motion->formulation == stepper->chosen.formulation || motion->point->rank->was_ill_conditioned) return ZD_DONE;
+    if (motion->point->rank->was_ill_conditioned) return ZD_DONE;
     use(stepper, &stepper->chosen, stepper->y + motion->formulation_size);
     return motion->formulation->leave(motion->solver, motion->point, stepper->y);
 }
