@@ -28,7 +28,7 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     if (!run) return status;
     if (!status) status = zd_stepper_place(&run->stepper, t, p, v);
     if (!status) status = zd_motion_accelerate(&run->motion);
-    if (!status && !isfinite(zd_max_abs(system->nv, run->motion.point->vdot))) status = ZD_NOT_FINITE;
+    if (!status && !zd_is_finite(system->nv, run->motion.point->vdot)) status = ZD_NOT_FINITE;
     memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
     if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);

@@ -24,7 +24,7 @@ static int reduce(zd_point *point)
     self->was_doubtful = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
-    if (!isfinite(zd_max_abs(self->m * self->n, point->terms.C))) return ZD_NOT_FINITE;
+    if (!zd_is_finite(self->m * self->n, point->terms.C)) return ZD_NOT_FINITE;
     int by_limits = self->is_started && self->limits;
     zd_rank_choose(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->most_rows) {

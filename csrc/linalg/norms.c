@@ -7,6 +7,19 @@ double zd_max_abs(int n, const double *x)
     return ZD_SIZED(zd_largest, n, x);
 }
 
+/* Zero times what is not finite is not a number; the sum has no branches. */
+ZD_INLINE int is_finite(const int n, const double *x)
+{
+    double zero = 0;
+    for (int i = 0; i < n; i++) zero += 0 * x[i];
+    return zero == 0;
+}
+
+int zd_is_finite(int n, const double *x)
+{
+    return ZD_SIZED(is_finite, n, x);
+}
+
 ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
 {
     double largest = 0;

@@ -132,5 +132,5 @@ double zd_point_potential(const zd_point *point)
 
 int zd_point_is_finite(const zd_point *point)
 {
-    return isfinite(zd_max_abs(point->system->nq, point->p)) && isfinite(zd_max_abs(point->system->nv, point->v));
+    return zd_is_finite(point->system->nq, point->p) && zd_is_finite(point->system->nv, point->v);
 }

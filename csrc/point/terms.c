@@ -17,6 +17,6 @@ int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms
         {ZD_GAMMA, nv, terms->gamma},
     };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if ((want & system->provides & all[i].term) && !isfinite(zd_max_abs(all[i].count, all[i].x))) return all[i].term;
+        if ((want & system->provides & all[i].term) && !zd_is_finite(all[i].count, all[i].x)) return all[i].term;
     return 0;
 }

@@ -57,7 +57,7 @@ int zd_stepper_integrate(zd_stepper *self, double h)
     remember(self, h);
     int status = zd_stepper_make(self, h);
     if (status) return status;
-    return isfinite(zd_max_abs(self->motion->rate.size, self->y)) ? ZD_DONE : ZD_NOT_FINITE;
+    return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
 int zd_stepper_land(zd_stepper *self, double t1, long step, int forced)
