@@ -13,7 +13,7 @@ from zerodrift.paper import claims, figures, reproduce
 
 matplotlib.use("Agg")
 
-# What does not come out as the paper states it, and is not made to: see ERRATA of the issue for the first and the last.
+# What does not come out as the paper states it, and is not made to.
 NOT_AS_STATED = {
     6: {"(c), (d) at most two position corrections a step"},
     7: {"the numerical motion lags behind the exact one", "while link 1 rises, T and V are both too small",

@@ -298,3 +298,7 @@ def test_axes_that_are_none(wrong):
         assert len(str(refused.value)) < 200
     with pytest.raises(TypeError, match="names must be names of coordinates"):
         zd.plot.motion(SOL, SOL)
+
+
+def test_no_two_integrators_have_the_same_colour():
+    assert len(set(zd.plot.COLOURS)) == len(zd.plot.COLOURS) >= len(zd.integrators())
