@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from .. import _check
 from .._gateway import Variable
 
-# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last two are Tol's wine and olive. They are as many as
-# the core's longest table has rows.
+# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last two are Tol's wine and olive. There have
+# to be as many as there are integrators.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255", "#999933")
 
 

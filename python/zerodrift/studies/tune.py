@@ -218,7 +218,8 @@ class _Search:
         """The same with all rows, not only those being measured."""
         latest = getattr(interruption, "solution", None)
         self.rows |= {row.setting: row for row in latest.rows} if latest else {}
-        return Interrupted(str(interruption), dataclasses.replace(self.evidence(rounds), complete=False))
+        evidence = dataclasses.replace(self.evidence(rounds), complete=False)
+        return Interrupted(f"interrupted from the keyboard after {len(self.rows)} rows", evidence)
 
     def _closer_to_goal(self, rows: list[Row]) -> Setting:
         """A step between the last that meets the goal and the next that does not; if all meet it, one beyond the last."""
