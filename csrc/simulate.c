@@ -40,9 +40,9 @@ static int has_room(const zd_run *run, const zd_record *record)
 /* Saves the start, if it is wanted and has not been saved yet. */
 static int begin(zd_run *run, zd_record *record)
 {
-    if (run->tally.begun) return ZD_DONE;
+    if (run->tally.start_saved) return ZD_DONE;
     if (!has_room(run, record)) return ZD_FULL;
-    run->tally.begun = 1;
+    run->tally.start_saved = 1;
     return save(run, record);
 }
 

@@ -29,7 +29,7 @@ typedef struct zd_rate {
 typedef struct zd_tally {
     int iterations;         /* most position iterations of a step */
     int energy_skipped;     /* energy corrections left out */
-    int begun;              /* whether the row of the start has been saved, if it is wanted */
+    int start_saved;        /* whether the row of the start has been saved, if it is wanted */
 } zd_tally;
 
 /* (28): what the energy is compared with. */

@@ -178,7 +178,7 @@ static int find_all(zd_watch *self, double *end)
 }
 
 /* Whether any happens between the last look and this one, at the corrected end of the step. */
-static int look(zd_watch *self, int *happening)
+static int find_happening(zd_watch *self, int *happening)
 {
     int status = evaluate_all(self, self->now);
     for (int i = 0; !status && i < self->events->count; i++) *happening |= happens(self, i);
@@ -193,7 +193,7 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
         zd_output_keep_end(self->output);
         status = correct(stepper);
     }
-    if (!status) status = look(self, &happening);
+    if (!status) status = find_happening(self, &happening);
     if (!status && happening) {
         if (corrected) zd_output_keep_end(self->output);
         status = find_all(self, end);

@@ -126,8 +126,8 @@ static double given(const zd_consistency *self, int k, double *size)
     return sum;
 }
 
-/* What the direction is for the coordinates. */
-static void turn(zd_consistency *self)
+/* pdot <- A w, the rates of the coordinates in the direction. (1) */
+static void set_rates(zd_consistency *self)
 {
     zd_point_rate(self->motion->point, self->direction, self->pdot);
 }
@@ -149,7 +149,7 @@ static int name_entry(zd_consistency *self, int k)
     double worst = 0;
     for (int i = 0; i <= self->motion->system.nv; i++) {
         for (int j = 0; j <= self->motion->system.nv; j++) self->direction[j] = j == i ? unit(self, i) : 0;
-        turn(self);
+        set_rates(self);
         int status = differentiate(self, -SHORT, SHORT);
         if (status) return status;
         double off = fabs(self->quotient[k] - entry(self, k, i) * unit(self, i));
@@ -169,7 +169,7 @@ int zd_consistency_jacobian(zd_consistency *self, long step)
     int n = self->motion->system.nv, status = zd_point_need(self->motion->point, ZD_A | ZD_C | ZD_PHI_T);
     if (status) return status;
     for (int i = 0; i <= n; i++) self->direction[i] = unit(self, i) * scattered((uint64_t)step * (uint64_t)(n + 1) + (uint64_t)i);
-    turn(self);
+    set_rates(self);
     status = differentiate(self, -SHORT, SHORT);
     memcpy(self->central, self->quotient, (size_t)self->motion->system.mh * sizeof(double));
     for (int k = 0; !status && k < self->motion->system.mh; k++) {

@@ -9,8 +9,8 @@
  * are not v, and the velocities take the place of the coordinates: their own formula of this kind is the trapezoidal rule.
  *
  * What one coordinate misses is added up over a thousand steps or so, in natural units: earlier steps are forgotten, as otherwise every
- * long run would be doubted. Against the sum stands how far that coordinate has gone on its way, and from one end to the other: no more
- * than that can it be off. The factors and bounds are those that separated wrong from right runs best, see tests/stress/light_parts.py.
+ * long run would be doubted. The sum is compared with the length of that coordinate's path, and is bounded by the range in which it moves: it
+ * cannot be off by more than that. The factors and bounds are those that separated wrong from right runs best, see tests/stress/light_parts.py.
  */
 #include "resolution.h"
 
@@ -19,9 +19,9 @@
 #include "../linalg/small.h"
 
 static const double FORGET = 1.0 / 128;     /* of the sums at each look; most looks are eight steps apart */
-static const double SHARE = 1e-3;           /* of the way: less of an error does not make steps too long */
-static const double UNRESOLVED = 0.03;      /* in natural units: so much of an error does, */
-static const double NOTED = 1e-3;           /* and less than that is nobody's concern */
+static const double SHARE = 1e-3;           /* of the path: steps with a smaller error are short enough */
+static const double UNRESOLVED = 0.03;      /* in natural units: the user is told of an error as large as this */
+static const double NOTED = 1e-3;           /* in natural units: the statistics do not have smaller ones */
 
 /* The error of a step by what Hermite's formula misses, which is better than some methods and worse than others. */
 static double error_by_defect(int order)
@@ -29,8 +29,8 @@ static double error_by_defect(int order)
     return order < 5 ? 1 : 0.2;
 }
 
-/* The same by what the trapezoidal rule misses; of methods of order two, which that may be itself, by h^2 (vdot1 - vdot0), and of order
- * one by h^2 vdot. */
+/* The same for velocities: by what the trapezoidal rule misses; for methods of order two, of which that rule is one, by h^2 (vdot1 - vdot0),
+ * and for methods of order one by h^2 vdot. */
 static double error_by_rate(int order)
 {
     return order < 2 ? 1.0 / 2 : order < 4 ? 1.0 / 12 : order < 5 ? 1.0 / 20 : 1.0 / 50;
@@ -39,19 +39,19 @@ static double error_by_rate(int order)
 zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0)
 {
     size_t n = (size_t)motion->system.nv;
-    int rates = (motion->system.provides & ZD_A) != 0;
+    int by_velocity = (motion->system.provides & ZD_A) != 0;
     return (zd_resolution){
         .motion = motion,
         .last = last,
         .vdot0 = vdot0,
-        .rates = rates,
+        .by_velocity = by_velocity,
         .order = order,
-        .weight = rates ? error_by_rate(order) : error_by_defect(order),
+        .weight = by_velocity ? error_by_rate(order) : error_by_defect(order),
         .error = zd_take_doubles(arena, n),
-        .way = zd_take_doubles(arena, n),
-        .at = zd_take_doubles(arena, n),
-        .least = zd_take_doubles(arena, n),
-        .most = zd_take_doubles(arena, n),
+        .path = zd_take_doubles(arena, n),
+        .place = zd_take_doubles(arena, n),
+        .lowest = zd_take_doubles(arena, n),
+        .highest = zd_take_doubles(arena, n),
     };
 }
 
@@ -60,15 +60,15 @@ ZD_INLINE double missed(const zd_resolution *self, int i, double h)
 {
     const zd_point *point = self->motion->point;
     double before = self->vdot0[i], after = point->vdot[i], v0 = self->last->v[i], v1 = point->v[i];
-    if (!self->rates) return point->p[i] - self->last->p[i] - h / 2 * (v0 + v1) + h * h / 12 * (after - before);
+    if (!self->by_velocity) return point->p[i] - self->last->p[i] - h / 2 * (v0 + v1) + h * h / 12 * (after - before);
     return self->order < 2 ? h * h * after : self->order < 4 ? h * h * (after - before) : h * (v1 - v0 - h / 2 * (before + after));
 }
 
 /* Where the coordinate is; or where its velocity has led, as far as the steps that are looked at show. */
-ZD_INLINE double place(const zd_resolution *self, int i, double led)
+ZD_INLINE double locate(const zd_resolution *self, int i, double led)
 {
     const zd_point *point = self->motion->point;
-    return self->rates ? self->at[i] + led : point->p[i] * point->inverse_unit[i];
+    return self->by_velocity ? self->place[i] + led : point->p[i] * point->inverse_unit[i];
 }
 
 static void note(zd_motion *motion, int i, double error)
@@ -80,25 +80,25 @@ static void note(zd_motion *motion, int i, double error)
     statistics->part = i;
 }
 
-ZD_INLINE void look(const int n, zd_resolution *self, double h, double steps)
+ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
 {
     const zd_point *point = self->motion->point;
     const double *inverse_unit = point->inverse_unit;
     const int first = self->step == 0;
     for (int i = 0; i < n; i++) {
-        double led = steps * h / 2 * (self->last->v[i] + point->v[i]) * inverse_unit[i], at = place(self, i, led);
+        double led = steps * h / 2 * (self->last->v[i] + point->v[i]) * inverse_unit[i], at = locate(self, i, led);
         self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - FORGET * self->error[i];
-        self->way[i] += fabs(led) - FORGET * self->way[i];
-        self->at[i] = at;
-        self->least[i] = first || at < self->least[i] ? at : self->least[i];
-        self->most[i] = first || at > self->most[i] ? at : self->most[i];
-        double range = self->most[i] - self->least[i], error = self->error[i] < range ? self->error[i] : range;
-        if (error > NOTED && error > SHARE * self->way[i]) note(self->motion, i, error);
+        self->path[i] += fabs(led) - FORGET * self->path[i];
+        self->place[i] = at;
+        self->lowest[i] = first || at < self->lowest[i] ? at : self->lowest[i];
+        self->highest[i] = first || at > self->highest[i] ? at : self->highest[i];
+        double range = self->highest[i] - self->lowest[i], error = self->error[i] < range ? self->error[i] : range;
+        if (error > NOTED && error > SHARE * self->path[i]) note(self->motion, i, error);
     }
 }
 
 void zd_resolution_look(zd_resolution *self, double h, long step)
 {
-    ZD_SIZED(look, self->motion->system.nv, self, h, (double)(step - self->step));
+    ZD_SIZED(add_up, self->motion->system.nv, self, h, (double)(step - self->step));
     self->step = step;
 }

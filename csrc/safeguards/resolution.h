@@ -9,12 +9,12 @@ typedef struct zd_resolution {  /* (nv,): what the steps miss of each coordinate
     zd_motion *motion;
     const zd_last *last;    /* the step */
     const double *vdot0;    /* (nv,): where it began */
-    int rates;              /* whether velocities take the place of coordinates, as these have other rates */
+    int by_velocity;        /* whether velocities are looked at instead of coordinates, whose rates they are not */
     int order;              /* of the method */
     double weight;          /* what the error is of what is missed */
-    double *error, *way;    /* of the last steps: errors, path */
-    double *at, *least, *most;  /* where it is; how far it has got to either side */
-    long step;              /* the last that was looked at */
+    double *error, *path;   /* sums over the last thousand steps or so: of what is missed, of the distance covered */
+    double *place, *lowest, *highest;   /* where it is; the range in which it has moved */
+    long step;              /* the last step that was looked at */
 } zd_resolution;
 
 zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0);

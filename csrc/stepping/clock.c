@@ -8,8 +8,8 @@
 double zd_count_steps(double t0, double t1, double step)
 {
     if (!(step > 0)) return 0;
-    double ratio = (t1 - t0) / step, whole = round(ratio);
-    return fabs(ratio - whole) <= 1e-9 * whole ? whole : ceil(ratio);
+    double ratio = (t1 - t0) / step, rounded = round(ratio);
+    return fabs(ratio - rounded) <= 1e-9 * rounded ? rounded : ceil(ratio);
 }
 
 double zd_time_of_step(double t0, double size, long step, long steps, double end)

@@ -209,7 +209,7 @@ class _Function:
         try:
             returned, where = self._call(self._function, t, p, v), f" (at t = {_jets.value(t):g})"
         except BaseException as error:
-            self._tell(error, _jets.value(t), " with numbers that carry derivatives")
+            self._tell(error, _jets.value(t), " for its derivatives (forward-mode automatic differentiation)")
             raise
         result = np.asarray(returned, dtype=object)
         numbers = returned if _check.is_masked(returned) else _jets.numbers(result)
