@@ -162,7 +162,8 @@ static int correct_positions(projection *self, zd_motion *motion)
     int status = iterate(&newton, &problem);
     /* Near a bifurcation C is small, so that a violation within the tolerance may belong to a p far from the constraints: one more
      * iteration is made there. */
-    if (!status && motion->point->rank->was_ill_conditioned && motion->point->rank->most_rows == motion->point->rank->m) return improve_position(&problem);
+    const zd_rank *rank = motion->point->rank;
+    if (!status && rank->was_ill_conditioned && rank->most_rows == rank->m) return improve_position(&problem);
     if (!status || status == ZD_CALLBACK || !problem.has_moved) return status;
     newton.improve = improve_and_remember;
     newton.contraction = 0;

@@ -51,8 +51,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR : "no branch was found that the motion is on, and independent velocities need one; 'schur' "
-                                                                      "does not");
+                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR
+                 : "no branch was found that the motion is on, and independent velocities need one; 'schur' does not");
         break;
     case ZD_BIFURCATION_PASSED:
         snprintf(to, size, "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow "
@@ -63,7 +63,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
                  "velocity)", rows, failed_index);
         break;
     case ZD_SINGULAR:
-        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name, failed_index);
+        snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name,
+                 failed_index);
         break;
     default: return 0;
     }
@@ -96,7 +97,8 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     zd_pace_half(&run->course.control.pace, &a, &b);
     int digits = digits_of(a, b);
     snprintf(to, size, "max_steps = %ld steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
-             "or the problem is stiff and needs an implicit method; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b);
+             "or the problem is stiff and needs an implicit method; max_steps=None sets no bound", run->settings.max_steps, digits, a,
+             digits, b);
 }
 
 /* What the method cannot do with this system, or with the error asked for; returns whether it was that. */
