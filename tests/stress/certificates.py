@@ -1,6 +1,6 @@
 """What `zd.reference` certifies against what is true, of random motions known to thirty digits.
 
-Run it with ``python tests/stress/certificates.py 1000``; it takes some twenty minutes and writes ``certificates.csv`` into
+Run it with ``python tests/stress/certificates.py 3000``; it takes some ten minutes and writes ``certificates.csv`` into
 ``tests/bench/results/``. It exits with the number of certificates that are too small.
 """
 
