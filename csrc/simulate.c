@@ -32,7 +32,7 @@ static int is_over(const zd_run *run)
 static int has_room(const zd_run *run, const zd_record *record)
 {
     const zd_settings *settings = &run->settings;
-    long left = record->capacity - record->rows;
+    int64_t left = record->capacity - record->rows;
     if (!settings->t_eval) return left > 0;
     return left >= settings->t_evals - run->output.next + (settings->events != NULL);
 }
@@ -49,11 +49,11 @@ static int begin(zd_run *run, zd_record *record)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
-    const long first = run->course.step;    /* no slice is so short that nothing happens in it */
+    const int64_t first = run->course.step;    /* no slice is so short that nothing happens in it */
     int status = run->outcome.status;
     if (!status) status = begin(run, record);
     while (!status && !is_over(run)) {
-        const long step = run->course.step;
+        const int64_t step = run->course.step;
         if (!has_room(run, record)) return ZD_FULL;
         if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() > deadline) return ZD_PAUSED;
         status = take_step(run);

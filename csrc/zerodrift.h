@@ -68,10 +68,10 @@ typedef struct zd_settings {
     double step;                    /* s; the last step is shortened to end at t1. 0: chosen by the error estimate */
     double rtol, atol;              /* of the state, per step, where steps are chosen */
     double first_step, max_step;    /* s; 0: no bound, nothing given */
-    long max_steps;                 /* where steps are chosen, the run fails after so many; 0: no bound */
-    long save_every;
+    int64_t max_steps;                 /* where steps are chosen, the run fails after so many; 0: no bound */
+    int64_t save_every;
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
-    long t_evals;
+    int64_t t_evals;
     const zd_events *events;        /* NULL: none */
     zd_projection projection;
     zd_baumgarte baumgarte;
@@ -83,35 +83,35 @@ typedef struct zd_settings {
 /* ---- a run ---- */
 
 typedef struct zd_statistics {
-    long steps;
-    long rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
-    long output_steps;          /* shorter ones, to times between steps: to be saved, or where an event is looked for */
-    long evaluations;           /* calls of the system */
-    long factorizations;        /* of leading matrices */
-    long solves;                /* with them */
-    long position_iterations;
-    long max_position_iterations;   /* in one step */
-    long velocity_corrections;
-    long energy_corrections;
-    long energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
-    long damped;                /* position corrections that converged only with shortened iterations */
-    long subdivided;            /* steps of fixed size that were made in parts, as their correction failed */
-    long too_long;              /* steps of fixed size, longer than the method is stable for or, if always stable, resolves */
-    long stiff;                 /* steps, of those looked at, that stability rather than the error asked for held down */
-    long implicit_iterations;   /* Newton iterations of implicit integrators */
-    long embedding_iterations;  /* Newton iterations for p = g(q) */
-    long repartitions;          /* changes of the independent variables between steps, or to (p, v) near a bifurcation */
-    long rank;                  /* of C; less than m where constraints are redundant */
-    long rank_drops;            /* steps in which it was less for a while */
-    long unresolved;            /* looks at steps of fixed size that showed a part of the motion which they do not resolve */
+    int64_t steps;
+    int64_t rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
+    int64_t output_steps;          /* shorter ones, to times between steps: to be saved, or where an event is looked for */
+    int64_t evaluations;           /* calls of the system */
+    int64_t factorizations;        /* of leading matrices */
+    int64_t solves;                /* with them */
+    int64_t position_iterations;
+    int64_t max_position_iterations;   /* in one step */
+    int64_t velocity_corrections;
+    int64_t energy_corrections;
+    int64_t energy_skipped;        /* where (29) has no bounded solution: T too small for the violation */
+    int64_t damped;                /* position corrections that converged only with shortened iterations */
+    int64_t subdivided;            /* steps of fixed size that were made in parts, as their correction failed */
+    int64_t too_long;              /* steps of fixed size, longer than the method is stable for or, if always stable, resolves */
+    int64_t stiff;                 /* steps, of those looked at, that stability rather than the error asked for held down */
+    int64_t implicit_iterations;   /* Newton iterations of implicit integrators */
+    int64_t embedding_iterations;  /* Newton iterations for p = g(q) */
+    int64_t repartitions;          /* changes of the independent variables between steps, or to (p, v) near a bifurcation */
+    int64_t rank;                  /* of C; less than m where constraints are redundant */
+    int64_t rank_drops;            /* steps in which it was less for a while */
+    int64_t unresolved;            /* looks at steps of fixed size that showed a part of the motion which they do not resolve */
     double unresolved_time;     /* s: of the first */
     double part_error;          /* what successive steps miss of the motion of one part: the most, in natural units */
-    long part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is */
+    int64_t part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is */
     double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
-    long capacity, rows;        /* with t_eval: room for all the times that are left, and one more where there are events */
+    int64_t capacity, rows;        /* with t_eval: room for all the times that are left, and one more where there are events */
     double *t;                  /* (capacity,) */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */

@@ -1,6 +1,7 @@
 /* Counts what the core allocates: every system, formulation, integrator and correction in turn, between creating a run and its end.
  * Linked with --wrap, so that each call of the core itself arrives here. Prints "allocations <when creating> <when running> <label>".
  */
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -33,7 +34,7 @@ static void count(const zd_kind *kind, const zd_system *system, zd_settings sett
     long creating = allocations;
     allocations = 0;
     if (run) status = zd_run_advance(run, &record, 1e9);
-    printf("allocations %ld %ld %s, %s, %s, status %d, %ld rows\n", creating, allocations, kind->card.name,
+    printf("allocations %ld %ld %s, %s, %s, status %d, %" PRId64 " rows\n", creating, allocations, kind->card.name,
            zd_row(ZD_FORMULATIONS, settings.formulation)->name, zd_row(ZD_INTEGRATORS, settings.integrator)->name, status, record.rows);
     zd_run_free(run);
 }

@@ -1,6 +1,6 @@
 #include "motion.h"
 
-int zd_motion_correct(zd_motion *motion, long step, int forced)
+int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
@@ -11,7 +11,7 @@ int zd_motion_correct(zd_motion *motion, long step, int forced)
     return ZD_DONE;
 }
 
-int zd_motion_is_corrected(const zd_motion *motion, long step)
+int zd_motion_is_corrected(const zd_motion *motion, int64_t step)
 {
     for (int i = 0; i < motion->corrections; i++)
         if (motion->active[i].row->after_step && !zd_is_one_of(motion->active[i].every, step)) return 0;

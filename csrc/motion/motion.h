@@ -89,11 +89,11 @@ static inline int zd_motion_accelerate(zd_motion *motion)
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 
 /* correct.c: those that are due in this step, in their order; `forced`: all */
-int zd_motion_correct(zd_motion *motion, long step, int forced);
+int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
 /* Whether all of them are due in this step. */
-int zd_motion_is_corrected(const zd_motion *motion, long step);
+int zd_motion_is_corrected(const zd_motion *motion, int64_t step);
 /* Whether a step is one of every so many. One of every 1 is not worth a division, the slowest of instructions. */
-static inline int zd_is_one_of(long every, long step) { return every == 1 || step % every == 0; }
+static inline int zd_is_one_of(int64_t every, int64_t step) { return every == 1 || step % every == 0; }
 
 /* balance.c */
 int zd_has_energy(const zd_system *system);

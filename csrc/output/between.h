@@ -7,8 +7,8 @@
 typedef struct zd_output {
     zd_stepper *stepper;
     const double *t_eval;   /* (t_evals,) times that are wanted; NULL: none */
-    long t_evals;
-    long next;              /* of them */
+    int64_t t_evals;
+    int64_t next;              /* of them */
     zd_place before, after; /* the step: where it began and where it has ended */
 } zd_output;
 

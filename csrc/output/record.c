@@ -2,12 +2,12 @@
 
 #include <string.h>
 
-static void copy_row(double *table, long row, int width, const double *values)
+static void copy_row(double *table, int64_t row, int width, const double *values)
 {
     if (width) memcpy(table + row * width, values, (size_t)width * sizeof *values);
 }
 
-static int record_constraints(zd_motion *motion, zd_record *record, long row)
+static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
 {
     zd_point *point = motion->point;
     int m = zd_constraints(point->system);
@@ -20,7 +20,7 @@ static int record_constraints(zd_motion *motion, zd_record *record, long row)
     return ZD_DONE;
 }
 
-static int record_energy(zd_motion *motion, zd_record *record, long row)
+static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
 {
     double violation, kinetic;
     if (!zd_has_energy(&motion->system)) {
@@ -39,7 +39,7 @@ static int record_energy(zd_motion *motion, zd_record *record, long row)
 
 int zd_record_row(zd_motion *motion, zd_record *record)
 {
-    long row = record->rows;
+    int64_t row = record->rows;
     zd_point *point = motion->point;
     int status = zd_motion_accelerate(motion);
     if (!status) status = record_constraints(motion, record, row);

@@ -85,9 +85,9 @@ static const char *wrong_events(const zd_events *events)
 
 static double latest(const zd_settings *settings) { return fmax(fabs(settings->t0), fabs(settings->t1)); }
 
-static int is_increasing_within(const double *t, long count, double t0, double t1)
+static int is_increasing_within(const double *t, int64_t count, double t0, double t1)
 {
-    for (long i = 0; i < count; i++)
+    for (int64_t i = 0; i < count; i++)
         if (!(t[i] >= (i ? nextafter(t[i - 1], INFINITY) : t0) && t[i] <= t1)) return 0;
     return count > 0;
 }

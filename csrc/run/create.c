@@ -111,7 +111,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     if (*status) return NULL;
     zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, status, message, message_size);
     if (!run) return NULL;
-    run->course.steps = (long)zd_count_steps(settings->t0, settings->t1, settings->step);
+    run->course.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_start(run, *status, p0, v0);
     *status = why;
     return why ? refuse(run, why, status, message, message_size) : run;

@@ -1,6 +1,7 @@
 /* What went wrong, in one sentence with its numbers. */
 #include "explain.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -96,7 +97,7 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     double a, b;
     zd_pace_half(&run->course.control.pace, &a, &b);
     int digits = digits_of(a, b);
-    snprintf(to, size, "max_steps = %ld steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
+    snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
              "or the problem is stiff and needs an implicit method; max_steps=None sets no bound", run->settings.max_steps, digits, a,
              digits, b);
 }
@@ -198,8 +199,8 @@ int zd_explain(zd_run *run, int status)
     status = cause_of(run, status, &t);
     describe(run, status, what, sizeof what);
     char of_steps[32] = "";
-    if (run->course.steps) snprintf(of_steps, sizeof of_steps, " of %ld", run->course.steps);
-    snprintf(run->outcome.message, sizeof run->outcome.message, "at t = %.9g (step %ld%s): %s", t, run->course.step, of_steps, what);
+    if (run->course.steps) snprintf(of_steps, sizeof of_steps, " of %" PRId64, run->course.steps);
+    snprintf(run->outcome.message, sizeof run->outcome.message, "at t = %.9g (step %" PRId64 "%s): %s", t, run->course.step, of_steps, what);
     if (run->course.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
         strcat(run->outcome.message, ", also when it is made in parts");
     return status;

@@ -163,7 +163,7 @@ static int name_entry(zd_consistency *self, int k)
     return ZD_NOT_JACOBIAN;
 }
 
-int zd_consistency_jacobian(zd_consistency *self, long step)
+int zd_consistency_jacobian(zd_consistency *self, int64_t step)
 {
     if (!self->compares) return ZD_DONE;
     int n = self->motion->system.nv, status = zd_point_need(self->motion->point, ZD_A | ZD_C | ZD_PHI_T);
@@ -181,7 +181,7 @@ int zd_consistency_jacobian(zd_consistency *self, long step)
 
 /* ---- after a step ---- */
 
-int zd_consistency_look(zd_consistency *self, long step)
+int zd_consistency_look(zd_consistency *self, int64_t step)
 {
     int status = (self->motion->point->known & ZD_M) ? zd_consistency_mass(self->motion->point) : ZD_DONE;
     if (status || !self->compares) return status;

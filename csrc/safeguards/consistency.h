@@ -19,7 +19,7 @@ typedef struct zd_consistency {
 zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings);
 int zd_consistency_mass(zd_point *point);           /* whether M is symmetric; it is known there */
 /* Whether C and Phi_t are the derivatives of Phi, where they are compared; in another direction at every step. */
-int zd_consistency_jacobian(zd_consistency *self, long step);
-int zd_consistency_look(zd_consistency *self, long step);   /* both, where it is due */
+int zd_consistency_jacobian(zd_consistency *self, int64_t step);
+int zd_consistency_look(zd_consistency *self, int64_t step);   /* both, where it is due */
 
 #endif

@@ -137,12 +137,12 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
-static int is_watched(const zd_guard *guard, long step)
+static int is_watched(const zd_guard *guard, int64_t step)
 {
     return step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak;
 }
 
-ZD_INLINE int evaluate_end(zd_guard *guard, long next_step)
+ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
 {
     zd_motion *motion = guard->motion;
     zd_point *point = motion->point;
@@ -153,7 +153,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, long next_step)
     return status;
 }
 
-ZD_INLINE void keep(zd_guard *guard, double speed, long next_step)
+ZD_INLINE void keep(zd_guard *guard, double speed, int64_t next_step)
 {
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
@@ -163,7 +163,7 @@ ZD_INLINE void keep(zd_guard *guard, double speed, long next_step)
     guard->has_begun = 1;
 }
 
-int zd_guard_begin(zd_guard *guard, long step)
+int zd_guard_begin(zd_guard *guard, int64_t step)
 {
     const zd_point *point = guard->motion->point;
     int status = evaluate_end(guard, step);
@@ -172,7 +172,7 @@ int zd_guard_begin(zd_guard *guard, long step)
     return ZD_DONE;
 }
 
-int zd_guard_compare(zd_guard *guard, double h, long next_step, zd_detour *found)
+int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *found)
 {
     const zd_point *point = guard->motion->point;
     int status = evaluate_end(guard, next_step);
@@ -193,7 +193,7 @@ void zd_guard_watch(zd_guard *guard, double moved, double h)
     if (zd_has_energy(&guard->motion->system)) note_energy(guard);
 }
 
-void zd_guard_keep(zd_guard *guard, double speed, long next_step)
+void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step)
 {
     keep(guard, speed, next_step);
 }

@@ -97,7 +97,7 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
     }
 }
 
-void zd_resolution_look(zd_resolution *self, double h, long step)
+void zd_resolution_look(zd_resolution *self, double h, int64_t step)
 {
     ZD_SIZED(add_up, self->motion->system.nv, self, h, (double)(step - self->step));
     self->step = step;

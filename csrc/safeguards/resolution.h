@@ -14,10 +14,10 @@ typedef struct zd_resolution {  /* (nv,): what the steps miss of each coordinate
     double weight;          /* what the error is of what is missed */
     double *error, *path;   /* sums over the last thousand steps or so: of what is missed, of the distance covered */
     double *place, *lowest, *highest;   /* where it is; the range in which it has moved */
-    long step;              /* the last step that was looked at */
+    int64_t step;              /* the last step that was looked at */
 } zd_resolution;
 
 zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0);
-void zd_resolution_look(zd_resolution *self, double h, long step);      /* the acceleration is known at both ends of the step */
+void zd_resolution_look(zd_resolution *self, double h, int64_t step);      /* the acceleration is known at both ends of the step */
 
 #endif

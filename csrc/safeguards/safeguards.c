@@ -12,21 +12,21 @@ void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion,
     self->consistency = zd_consistency_take(arena, motion, settings);
 }
 
-int zd_safeguards_begin(zd_safeguards *self, long step)
+int zd_safeguards_begin(zd_safeguards *self, int64_t step)
 {
     int status = zd_guard_begin(&self->guard, step);
     return status ? status : zd_crossing_begin(&self->crossing);
 }
 
 /* What is looked at now and then only: stability, energy, each part by itself, and the system's own consistency. */
-static int look_closely(zd_safeguards *self, double moved, double h, long step)
+static int look_closely(zd_safeguards *self, double moved, double h, int64_t step)
 {
     zd_guard_watch(&self->guard, moved, h);
     if (self->guard.checks_stability) zd_resolution_look(&self->resolution, h, step);
     return zd_consistency_look(&self->consistency, step);
 }
 
-int zd_safeguards_judge(zd_safeguards *self, double h, long next_step, int is_part)
+int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int is_part)
 {
     zd_detour found;
     if (!self->guard.has_begun) return ZD_DONE;

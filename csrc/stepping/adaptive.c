@@ -119,7 +119,7 @@ static int is_final(int status)
 
 int zd_adaptive_step(zd_course *course)
 {
-    const long most = course->settings->max_steps;
+    const int64_t most = course->settings->max_steps;
     if (most && course->step > most) return ZD_TOO_MANY_STEPS;
     double t = course->stepper->t, norm = 0, largest = LARGEST;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(course->end));

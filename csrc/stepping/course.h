@@ -20,15 +20,15 @@ typedef struct zd_course {
     zd_stepper *stepper;
     zd_safeguards *safeguards;
     double end;             /* s: t1 of the settings, or where an event has ended the run */
-    long step;              /* the number of the step being made, from 1 */
-    long steps;             /* how many there will be, where they are of fixed size */
+    int64_t step;              /* the number of the step being made, from 1 */
+    int64_t steps;             /* how many there will be, where they are of fixed size */
     zd_place undivided;     /* where the step began that is made in parts */
     int parts;              /* how many the step is made in; 0: it is undivided */
     zd_control control;
 } zd_course;
 
 /* Whether the step is one of every so many, or the last, or made in parts. */
-static inline int zd_course_is_due(const zd_course *course, long every)
+static inline int zd_course_is_due(const zd_course *course, int64_t every)
 {
     return zd_is_one_of(every, course->step) || course->stepper->t == course->end || course->parts;
 }

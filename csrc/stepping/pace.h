@@ -2,6 +2,8 @@
 #ifndef ZD_PACE_H
 #define ZD_PACE_H
 
+#include <stdint.h>
+
 #include "../workspace.h"
 
 enum { ZD_PACE = 256 };
@@ -9,7 +11,7 @@ enum { ZD_PACE = 256 };
 typedef struct zd_pace {
     double *t;              /* (ZD_PACE,): t[i] is where step i * stride ended, the start for i = 0 */
     int count;
-    long stride, left;      /* steps between two of these; until the next */
+    int64_t stride, left;   /* steps between two of these; until the next */
 } zd_pace;
 
 zd_pace zd_pace_take(zd_arena *arena, double t0);

@@ -60,7 +60,7 @@ int zd_stepper_integrate(zd_stepper *self, double h)
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
-int zd_stepper_land(zd_stepper *self, double t1, long step, int forced)
+int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;

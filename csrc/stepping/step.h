@@ -33,7 +33,7 @@ int zd_stepper_make(zd_stepper *self, double h);
 /* y from t to t + h, where the step began being remembered. */
 int zd_stepper_integrate(zd_stepper *self, double h);
 /* The point at t1, with the corrections that are due in this step, or with all if it is `forced`; and y to match. */
-int zd_stepper_land(zd_stepper *self, double t1, long step, int forced);
+int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
 /* A shorter step to a time between steps, at which all corrections are made. */
 int zd_stepper_make_substep(zd_stepper *self, double t);
 /* Point and y to where the step began. */

@@ -27,7 +27,7 @@ static int row_named(enum zd_table table, const char *name)
 }
 
 /* alpha_1 at the end, or NaN; only the steps are timed, as creating a run is done once whatever its length */
-static double core_run(const zd_system *system, int formulation, long save_every, const double *p, const double *v, double *seconds)
+static double core_run(const zd_system *system, int formulation, int64_t save_every, const double *p, const double *v, double *seconds)
 {
     static double t[STEPS + 1], rows[9][3 * (STEPS + 1)];
     static int counts[2][STEPS + 1];

@@ -4,6 +4,7 @@
  *
  * With -DREPLAY it has a main of its own: `fuzz_core FILE...` replays inputs, `fuzz_core -random COUNT SEED` makes some up.
  */
+#include <inttypes.h>
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -259,11 +260,11 @@ static zd_settings make_settings(input *in, double *times)
 
 /* ---- what is done with them ---- */
 
-static double *doubles(long count) { return malloc((size_t)(count > 0 ? count : 1) * sizeof(double)); }
+static double *doubles(int64_t count) { return malloc((size_t)(count > 0 ? count : 1) * sizeof(double)); }
 
-static zd_record make_record(const zd_system *system, long capacity)
+static zd_record make_record(const zd_system *system, int64_t capacity)
 {
-    long m = system->mh + system->mn;
+    int64_t m = system->mh + system->mn;
     int energy = (system->provides & ZD_POTENTIAL) != 0;
     zd_record record = {
         .capacity = capacity,
@@ -287,9 +288,9 @@ static void free_record(zd_record *record)
     free(record->energy_skipped);
 }
 
-static int are_finite(const double *x, long n)
+static int are_finite(const double *x, int64_t n)
 {
-    for (long i = 0; i < n; i++)
+    for (int64_t i = 0; i < n; i++)
         if (!isfinite(x[i])) return 0;
     return 1;
 }
@@ -302,7 +303,7 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
     EXPECT(record->rows <= record->capacity);
     EXPECT(are_finite(record->p, record->rows * system->nq));
     EXPECT(are_finite(record->v, record->rows * system->nv));
-    for (long row = 0; row < record->rows; row++) {
+    for (int64_t row = 0; row < record->rows; row++) {
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);
         *last = record->t[row];
         for (int k = 0; corrected && *last > settings->t0 && k < system->mh; k++)
@@ -390,16 +391,16 @@ static uint64_t next(uint64_t *state)     /* xorshift */
     return *state ^= *state << 17;
 }
 
-static int make_up(long count, uint64_t seed)
+static int make_up(int64_t count, uint64_t seed)
 {
     uint8_t data[1024];
-    for (long i = 0; i < count; i++) {
+    for (int64_t i = 0; i < count; i++) {
         uint64_t state = (seed + 1) * 0x9e3779b97f4a7c15u + (uint64_t)i * 0xbf58476d1ce4e5b9u + 1;
         size_t size = (size_t)(next(&state) % sizeof data);
         for (size_t k = 0; k < size; k++) data[k] = (uint8_t)(next(&state) >> 32);
         LLVMFuzzerTestOneInput(data, size);
     }
-    printf("%ld inputs\n", count);
+    printf("%" PRId64 " inputs\n", count);
     return 0;
 }
 

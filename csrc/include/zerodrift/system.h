@@ -23,8 +23,10 @@
 #ifndef ZERODRIFT_SYSTEM_H
 #define ZERODRIFT_SYSTEM_H
 
+#include <stdint.h>
+
 /* Changes whenever something below does that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 2 };
+enum { ZD_INTERFACE_VERSION = 3 };
 
 /* ---- statuses: 0 done; positive: stopped early, what was recorded is valid; negative: failed ---- */
 
@@ -91,6 +93,7 @@ typedef struct zd_terms {
     double *D;          /* (nv, nv - m) */
     double *gamma;      /* (nv,) */
     double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
+    const double *inputs;   /* (inputs,) read, not written: see zd_input; NULL where there are none */
 } zd_terms;
 
 /* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns ZD_DONE; anything else: it failed. */
@@ -98,6 +101,114 @@ typedef int zd_evaluate(const void *data, int want, double t, const double *p, c
 
 /* p = g(q) of (18), on the branch that p, an estimate of it, is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
 typedef int zd_embed(const void *data, double t, const double *q, double *p);
+
+/* ---- what a system may bring besides; a pointer that is NULL says that there is nothing of it ---- */
+
+/* Of which bodies a system consists, and which of its rows join which. Where it is declared, matrices are packed and nothing dense is stored:
+ *
+ *     A   block after block, (coordinates[b], velocities[b]) each
+ *     M   block after block, (velocities[b], velocities[b]) each, or (velocities[b],) where ZD_DIAGONAL says so
+ *     C   group after group, and in it, for each block that it touches, (rows[g], velocities[block])
+ *
+ * row-major all. Vectors are as they are without. A system with structure has no D of its own. */
+enum zd_mass { ZD_CONSTANT = 1, ZD_DIAGONAL = 2 };
+
+typedef struct zd_structure {
+    int blocks;
+    const int *coordinates;     /* (blocks,) entries of p, in order, nq in all */
+    const int *velocities;      /* (blocks,) entries of v, in order, nv in all; of both at least one */
+    const int *mass;            /* (blocks,) bits of zd_mass; NULL: none anywhere */
+    int groups;
+    const int *rows;            /* (groups,) rows of C, in order, m in all; no group has holonomic and nonholonomic ones */
+    const int *first;           /* (groups + 1,) where in `block` the blocks of each group begin */
+    const int *block;           /* (first[groups],) the blocks that each group touches, increasing */
+} zd_structure;
+
+/* Products with what was evaluated, for systems that know better ways than through stored entries. Where `C` is said to be not stored,
+ * out->C is NULL and never asked for. */
+typedef struct zd_operations {
+    int stores_C;
+    void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = C x, (m,) */
+    void (*times_transposed_C)(const void *data, const zd_terms *terms, const double *x, double *y);   /* y = C^T x, (nv,) */
+    void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = M x, (nv,) */
+    /* S = C W C^T, W packed as M is: the blocks (rows[g], rows[h]) of all groups h <= g that share a block, g after g, h increasing. */
+    void (*weighted)(const void *data, const zd_terms *terms, const double *W, double *S);
+} zd_operations;
+
+/* The equations with their constraints eliminated in closed form, along one of `orders` orders of pivots. Functions may be NULL. */
+typedef struct zd_pivots {
+    double smallest;        /* |pivot|, relative to what it was taken from, the least of all */
+    uint64_t signs;         /* a bit for each pivot that is negative */
+} zd_pivots;
+
+typedef struct zd_direct {
+    int orders;             /* at most 4 */
+    int lanes;              /* trajectories at once, 1, 2, 4 or 8: entries of every array come in groups of so many */
+    int scratch;            /* doubles that a call needs */
+    /* vdot and lambda at the state, with `added` (m,) on the right side of (6), NULL: zero; lambda, power NULL: not wanted */
+    int (*accelerate)(const void *data, int order, double t, const double *p, const double *v, const double *added, double *vdot,
+                      double *lambda, double *power, zd_pivots *pivots, double *scratch);
+    /* Phi (3), and the Newton step dp of (25a) ... (27a) in the metric of M */
+    int (*correct_positions)(const void *data, int order, double t, const double *p, double *Phi, double *dp, zd_pivots *pivots,
+                             double *scratch);
+    /* the step dv of (25b) ... (27b) in the metric of M */
+    int (*correct_velocities)(const void *data, int order, double t, const double *p, const double *v, double *dv, zd_pivots *pivots,
+                              double *scratch);
+} zd_direct;
+
+/* Taylor coefficients of the motion from (t, p, v) on: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being p and v. */
+typedef struct zd_series {
+    int scratch;            /* doubles that a call needs, for each order */
+    int (*evaluate)(const void *data, int order, double t, const double *p, const double *v, double *p_series, double *v_series,
+                    double *scratch);
+} zd_series;
+
+/* Named functions of the motion, such as where a point is or what goes through a joint. */
+enum zd_measured_at { ZD_OF_POSITIONS, ZD_OF_VELOCITIES, ZD_OF_ACCELERATIONS };  /* what a measure depends on besides: vdot, lambda too */
+
+typedef struct zd_measure {
+    const char *name;       /* "crank.angle" */
+    const char *unit;       /* of each component */
+    int size;               /* how many components */
+    enum zd_measured_at depends;
+} zd_measure;
+
+typedef struct zd_measured {    /* where the values go; NULL: not wanted */
+    double *value;          /* (size,) */
+    double *rate;           /* (size,) of a measure of positions: its derivative by time, row v + what is explicit in t */
+    double *row;            /* (size, nv) of a measure of positions: d rate / d v; of velocities: d value / d v */
+    double *bias;           /* (size,) what the derivative of these by time has besides row vdot */
+} zd_measured;
+
+typedef struct zd_measures {
+    int count;
+    const zd_measure *measure;      /* (count,) */
+    int scratch;            /* doubles that a call needs */
+    /* vdot, lambda are NULL where the measure does not depend on them */
+    int (*evaluate)(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+                    const zd_measured *out, double *scratch);
+} zd_measures;
+
+/* A number that may be set from outside between steps: a control, or what another program computes. Not a parameter. */
+typedef struct zd_input {
+    const char *name;
+    const char *unit;
+    double initial;
+} zd_input;
+
+/* Rows that can be switched off and on together: a phase, a joint that is locked and released. */
+typedef struct zd_group {
+    const char *name;
+    int first, rows;        /* of C */
+} zd_group;
+
+/* By how much the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, change along a direction, while vdot and lambda stay. */
+typedef struct zd_residuals {
+    int scratch;            /* doubles that a call needs */
+    int (*derivative)(const void *data, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+                      const double *dp, const double *dv, const double *dparameters,    /* (nq,), (nv,), all parameters; NULL: zero */
+                      double *dynamics, double *constraints, double *scratch);          /* (nv,), (m,) */
+} zd_residuals;
 
 typedef struct zd_system {
     int nq, nv, mh, mn;
@@ -110,6 +221,19 @@ typedef struct zd_system {
     const int *lengths;     /* (nq + nv,): which entries of p are lengths, and of v lengths per time; NULL: none, all are pure
                              * numbers such as angles */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
+    const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
+    const zd_operations *operations;
+    const zd_direct *direct;        /* (directs,) */
+    int directs;
+    const zd_series *series;
+    const zd_measures *measures;
+    int inputs;
+    const zd_input *input;          /* (inputs,) */
+    int groups;
+    const zd_group *group;          /* (groups,) at most 64 */
+    const zd_residuals *residuals;
+    int quaternions;
+    const int *quaternion;          /* (quaternions,) where unit quaternions (w, x, y, z) begin in p: they are kept at length 1 */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */
