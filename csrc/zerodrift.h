@@ -12,6 +12,9 @@
 /* The first of the wanted terms that has an entry which is not finite, as its bit; 0: there is none. */
 int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms);
 
+/* Refuses a system whose sizes, terms or other members do not fit each other: ZD_BAD_ARGUMENT, and why in a sentence. */
+int zd_check_system(const zd_system *system, char *message, int message_size);
+
 /* ---- the four tables ---- */
 
 enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };

@@ -8,8 +8,7 @@
 #include <stdio.h>
 
 #include "../registry.h"
-
-enum { LARGEST = 8192 };    /* coordinates and velocities: with more, the sizes of matrices would leave the range of int */
+#include "interface.h"
 
 typedef struct rule {
     int broken;
@@ -31,10 +30,10 @@ static const char *wrong_system(const zd_system *system)
 {
     int nq = system->nq, nv = system->nv, mh = system->mh, mn = system->mn;
     const rule rules[] = {
-        {!(nq >= 1 && nq <= LARGEST && nv >= 1 && nv <= LARGEST), "a system has 1 to 8192 coordinates, and as many velocities"},
-        {!(mh >= 0 && mh <= LARGEST && mn >= 0 && mn <= LARGEST), "a system has at most 8192 constraints of each kind"},
+        {!(nq >= 1 && nq <= ZD_LARGEST && nv >= 1 && nv <= ZD_LARGEST), "a system has 1 to 8192 coordinates, and as many velocities"},
+        {!(mh >= 0 && mh <= ZD_LARGEST && mn >= 0 && mn <= ZD_LARGEST), "a system has at most 8192 constraints of each kind"},
         {!lacks(system, ZD_COMPLEMENT) && (double)mh + mn > nv, "a complement is for at most as many constraints as velocities"},
-        {system->scratch < 0 || system->scratch > LARGEST * LARGEST, "the scratch of a system is no size"},
+        {system->scratch < 0 || system->scratch > ZD_LARGEST * ZD_LARGEST, "the scratch of a system is no size"},
         {!system->evaluate || lacks(system, ZD_M), "a system has a function that evaluates it, and a mass matrix"},
         {lacks(system, ZD_A) && nq != nv, "a system without kinematic matrix has as many velocities as coordinates"},
         {mh > 0 && lacks(system, ZD_PHI), "a system with holonomic constraints provides Phi"},
@@ -76,7 +75,7 @@ static const char *wrong_events(const zd_events *events)
 {
     if (!events) return NULL;
     const rule rules[] = {
-        {events->count < 0 || events->count > LARGEST, "a run has at most 8192 events"},
+        {events->count < 0 || events->count > ZD_LARGEST, "a run has at most 8192 events"},
         {!events->evaluate || !events->found, "events have a function that evaluates them and one that is told of them"},
         {events->count > 0 && (!events->direction || !events->terminal), "each event has a direction, and whether it is terminal"},
     };
@@ -112,10 +111,18 @@ static const char *wrong_course(const zd_settings *settings)
     return zd_count_steps(settings->t0, settings->t1, step) < (double)LONG_MAX ? NULL : "there are more steps than can be counted";
 }
 
-int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size)
+int zd_check_system(const zd_system *system, char *message, int size)
 {
     const char *wrong = wrong_system(system);
-    if (!wrong) wrong = wrong_rows(settings);
+    snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
+    return wrong ? ZD_BAD_ARGUMENT : zd_check_interface(system, message, size);
+}
+
+int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size)
+{
+    int status = zd_check_system(system, message, size);
+    if (status) return status;
+    const char *wrong = wrong_rows(settings);
     if (!wrong) wrong = wrong_corrections(system, settings);
     if (!wrong) wrong = wrong_events(settings->events);
     snprintf(message, (size_t)size, "%s", wrong ? wrong : "");

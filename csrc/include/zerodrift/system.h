@@ -107,27 +107,28 @@ typedef int zd_embed(const void *data, double t, const double *q, double *p);
 /* Of which bodies a system consists, and which of its rows join which. Where it is declared, matrices are packed and nothing dense is stored:
  *
  *     A   block after block, (coordinates[b], velocities[b]) each
- *     M   block after block, (velocities[b], velocities[b]) each, or (velocities[b],) where ZD_DIAGONAL says so
- *     C   group after group, and in it, for each block that it touches, (rows[g], velocities[block])
+ *     M   block after block, (velocities[b], velocities[b]) each, or its diagonal (velocities[b],) where ZD_DIAGONAL says so
+ *     C   group after group, (rows[g], width) each: its columns are the velocities of the blocks that the group touches, in their order
  *
- * row-major all. Vectors are as they are without. A system with structure has no D of its own. */
+ * row-major all, so that what is stored of a row of C stands together. Vectors are as they are without. A system with structure has no D of
+ * its own. */
 enum zd_mass { ZD_CONSTANT = 1, ZD_DIAGONAL = 2 };
 
 typedef struct zd_structure {
     int blocks;
-    const int *coordinates;     /* (blocks,) entries of p, in order, nq in all */
-    const int *velocities;      /* (blocks,) entries of v, in order, nv in all; of both at least one */
+    const int *coordinates;     /* (blocks,) how many entries of p each has, in order, nq in all */
+    const int *velocities;      /* (blocks,) how many entries of v, in order, nv in all; of both at least one */
     const int *mass;            /* (blocks,) bits of zd_mass; NULL: none anywhere */
     int groups;
-    const int *rows;            /* (groups,) rows of C, in order, m in all; no group has holonomic and nonholonomic ones */
+    const int *rows;            /* (groups,) how many rows of C each has, at least one, in order, m in all; none has holonomic and
+                                 * nonholonomic ones */
     const int *first;           /* (groups + 1,) where in `block` the blocks of each group begin */
-    const int *block;           /* (first[groups],) the blocks that each group touches, increasing */
+    const int *block;           /* (first[groups],) the blocks that each group touches, at least one, increasing */
 } zd_structure;
 
-/* Products with what was evaluated, for systems that know better ways than through stored entries. Where `C` is said to be not stored,
- * out->C is NULL and never asked for. */
+/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. */
 typedef struct zd_operations {
-    int stores_C;
+    int omits_C;            /* whether C is not stored: then out->C is NULL and never asked for, and all four functions are there */
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = C x, (m,) */
     void (*times_transposed_C)(const void *data, const zd_terms *terms, const double *x, double *y);   /* y = C^T x, (nv,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = M x, (nv,) */

@@ -79,8 +79,8 @@ def check_version(version: Any, what: str, *, required: bool = False) -> None:
         raise TypeError("version is needed with an address: the ZD_INTERFACE_VERSION it was compiled with; "
                         f"this core has {VERSION}")
     if version is not None and (isinstance(version, bool) or version != VERSION):
-        raise ValueError(f"{what} is {version!r}, and this core has version {VERSION} of the interface: compile it against the "
-                         "header in zerodrift.get_include()")
+        raise ValueError(f"{what} is {version!r}, and this core has version {VERSION} of the interface: compile it again, "
+                         "against the header in zerodrift.get_include()")
 
 
 # ---- libraries ----

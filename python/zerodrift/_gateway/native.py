@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import TERMS, Variable, doubles, lengths
+from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, text
 from .systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION
@@ -92,6 +92,9 @@ def kind_at(address: int) -> Kind:
         raise ValueError(f"its {'evaluate' if c.card.name else 'name'} is missing")
     if system.data:
         raise ValueError("its system.data is to be left out: the constants take its place")
+    message = ffi.new("char[]", MESSAGE_SIZE)
+    if lib.zd_check_system(ffi.addressof(c, "system"), message, MESSAGE_SIZE):
+        raise ValueError(text(message))
     return Kind(c)
 
 

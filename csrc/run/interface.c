@@ -1,0 +1,188 @@
+/* What a system brings besides its terms, each pointer of zd_system by itself: that its sizes fit those of the system, and that what it
+ * says it has is there. Sentences count from 0, as all of the interface does.
+ */
+#include "interface.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+typedef struct text {
+    char *here;
+    int size;
+} text;
+
+static int refuse(text message, const char *sentence, ...)
+{
+    va_list values;
+    va_start(values, sentence);
+    vsnprintf(message.here, (size_t)message.size, sentence, values);
+    va_end(values);
+    return ZD_BAD_ARGUMENT;
+}
+
+static int is_no_size(int scratch) { return scratch < 0 || scratch > ZD_LARGEST * ZD_LARGEST; }
+
+static int is_no_count(int count) { return count < 0 || count > ZD_LARGEST; }
+
+/* ---- structure ---- */
+
+static int check_blocks(const zd_system *system, text message)
+{
+    const zd_structure *structure = system->structure;
+    int nq = 0, nv = 0;
+    if (structure->blocks < 1 || structure->blocks > system->nv || !structure->coordinates || !structure->velocities)
+        return refuse(message, "structure: there are 1 to %d blocks, each with its coordinates and velocities", system->nv);
+    for (int b = 0; b < structure->blocks; b++) {
+        int p = structure->coordinates[b], v = structure->velocities[b], mass = structure->mass ? structure->mass[b] : 0;
+        if (p < 1 || v < 1 || p > system->nq || v > system->nv)
+            return refuse(message, "structure: block %d has %d coordinates and %d velocities; it has at least one of each", b, p, v);
+        if (p != v && !(system->provides & ZD_A))
+            return refuse(message, "structure: block %d has %d coordinates and %d velocities: then there is a kinematic matrix", b, p, v);
+        if (mass & ~(ZD_CONSTANT | ZD_DIAGONAL))
+            return refuse(message, "structure: the mass of block %d is %d, which is no sum of ZD_CONSTANT and ZD_DIAGONAL", b, mass);
+        nq += p, nv += v;
+    }
+    if (nq == system->nq && nv == system->nv) return ZD_DONE;
+    return refuse(message, "structure: its blocks have %d coordinates and %d velocities, and the system has %d and %d", nq, nv, system->nq,
+                  system->nv);
+}
+
+static int check_touched(const zd_structure *structure, int g, text message)
+{
+    int first = structure->first[g], end = structure->first[g + 1];
+    if (first >= end || end - first > structure->blocks || (g == 0 && first != 0))
+        return refuse(message, "structure: group %d touches the blocks at %d to %d of the list; the first group begins at 0, and each touches "
+                      "at least one", g, first, end - 1);
+    for (int i = first; i < end; i++) {
+        int b = structure->block[i];
+        if (b < 0 || b >= structure->blocks || (i > first && b <= structure->block[i - 1]))
+            return refuse(message, "structure: group %d touches block %d; its blocks are increasing, of 0 to %d", g, b, structure->blocks - 1);
+    }
+    return ZD_DONE;
+}
+
+static int check_groups_of_rows(const zd_system *system, text message)
+{
+    const zd_structure *structure = system->structure;
+    int m = system->mh + system->mn, rows = 0, status = ZD_DONE;
+    if (structure->groups < 0 || structure->groups > m || (structure->groups && !(structure->rows && structure->first && structure->block)))
+        return refuse(message, "structure: there are at most %d groups, each with its rows and the blocks it touches", m);
+    for (int g = 0; g < structure->groups && !status; g++) {
+        if (structure->rows[g] < 1 || structure->rows[g] > m - rows)
+            return refuse(message, "structure: group %d has %d rows; %d of %d rows are left for it, and it has at least one", g,
+                          structure->rows[g], m - rows, m);
+        if (rows < system->mh && rows + structure->rows[g] > system->mh)
+            return refuse(message, "structure: group %d has holonomic rows and nonholonomic ones, and has to be of one kind", g);
+        rows += structure->rows[g];
+        status = check_touched(structure, g, message);
+    }
+    if (status || rows == m) return status;
+    return refuse(message, "structure: its groups have %d rows, and the system has %d", rows, m);
+}
+
+static int check_structure(const zd_system *system, text message)
+{
+    if (!system->structure) return ZD_DONE;
+    if (system->provides & ZD_COMPLEMENT) return refuse(message, "structure: a system with structure has no complement D of its own");
+    int status = check_blocks(system, message);
+    return status ? status : check_groups_of_rows(system, message);
+}
+
+/* ---- what else there is ---- */
+
+static int check_operations(const zd_system *system, text message)
+{
+    const zd_operations *operations = system->operations;
+    if (!operations || !operations->omits_C) return ZD_DONE;
+    return refuse(message, "operations: C is not stored, and this version of the core needs its rows");
+}
+
+static int check_direct(const zd_system *system, text message)
+{
+    int lanes = 0;
+    if (system->directs < 0 || system->directs > 4 || (system->directs > 0) != (system->direct != NULL))
+        return refuse(message, "direct: there are %d sets of direct functions, and may be one for each number of lanes", system->directs);
+    for (int i = 0; i < system->directs; i++) {
+        const zd_direct *direct = &system->direct[i];
+        if (direct->orders < 1 || direct->orders > 4)
+            return refuse(message, "direct: set %d has %d orders of pivots, and has 1 to 4", i, direct->orders);
+        if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
+            return refuse(message, "direct: set %d has %d lanes, and has 1, 2, 4 or 8", i, direct->lanes);
+        if (lanes & direct->lanes) return refuse(message, "direct: set %d is the second of %d lanes", i, direct->lanes);
+        if (is_no_size(direct->scratch)) return refuse(message, "direct: the scratch of set %d is no size: %d", i, direct->scratch);
+        lanes |= direct->lanes;
+    }
+    return ZD_DONE;
+}
+
+static int check_measures(const zd_system *system, text message)
+{
+    const zd_measures *measures = system->measures;
+    if (!measures) return ZD_DONE;
+    if (is_no_count(measures->count) || (measures->count && (!measures->measure || !measures->evaluate)))
+        return refuse(message, "measures: there are %d, at most 8192, and a function that evaluates them", measures->count);
+    if (is_no_size(measures->scratch)) return refuse(message, "measures: their scratch is no size: %d", measures->scratch);
+    for (int i = 0; i < measures->count; i++) {
+        const zd_measure *measure = &measures->measure[i];
+        if (!measure->name || !*measure->name || !measure->unit) return refuse(message, "measures: measure %d has a name and a unit", i);
+        if (measure->size < 1 || measure->size > ZD_LARGEST)
+            return refuse(message, "measures: %s has %d components, and has 1 to 8192", measure->name, measure->size);
+        if ((int)measure->depends < ZD_OF_POSITIONS || (int)measure->depends > ZD_OF_ACCELERATIONS)
+            return refuse(message, "measures: %s does not say what it depends on", measure->name);
+    }
+    return ZD_DONE;
+}
+
+static int check_series(const zd_system *system, text message)
+{
+    const zd_series *series = system->series;
+    if (!series || (series->evaluate && !is_no_size(series->scratch))) return ZD_DONE;
+    return refuse(message, "series: there is a function that evaluates them, and a scratch that is a size, not %d", series->scratch);
+}
+
+static int check_residuals(const zd_system *system, text message)
+{
+    const zd_residuals *residuals = system->residuals;
+    if (!residuals || (residuals->derivative && !is_no_size(residuals->scratch))) return ZD_DONE;
+    return refuse(message, "residuals: there is a function for their derivative, and a scratch that is a size, not %d", residuals->scratch);
+}
+
+static int check_inputs(const zd_system *system, text message)
+{
+    if (is_no_count(system->inputs) || (system->inputs && !system->input))
+        return refuse(message, "inputs: there are %d, at most 8192, each with its name, unit and initial value", system->inputs);
+    for (int i = 0; i < system->inputs; i++) {
+        const zd_input *input = &system->input[i];
+        if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d has a name and a unit", i);
+        if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s is not finite", input->name);
+    }
+    return ZD_DONE;
+}
+
+/* Groups of rows that can be switched: in order, and no row is in two. */
+static int check_switched_groups(const zd_system *system, text message)
+{
+    int end = 0, m = system->mh + system->mn;
+    if (system->groups < 0 || system->groups > 64 || (system->groups && !system->group))
+        return refuse(message, "groups: there are %d, and may be 64, each with its name and rows", system->groups);
+    for (int i = 0; i < system->groups; i++) {
+        const zd_group *group = &system->group[i];
+        if (!group->name || !*group->name) return refuse(message, "groups: group %d has a name", i);
+        if (group->rows < 1 || group->first < end || group->first > m - group->rows)
+            return refuse(message, "groups: %s has %d rows from row %d on; it has at least one of the %d, behind those of the group before",
+                          group->name, group->rows, group->first, m);
+        end = group->first + group->rows;
+    }
+    return ZD_DONE;
+}
+
+int zd_check_interface(const zd_system *system, char *message, int size)
+{
+    static int (*const checks[])(const zd_system *, text) = {
+        check_structure, check_operations, check_direct, check_measures, check_series, check_residuals, check_inputs, check_switched_groups,
+    };
+    int status = ZD_DONE;
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && !status; i++) status = checks[i](system, (text){message, size});
+    return status;
+}

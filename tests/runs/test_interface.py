@@ -1,0 +1,192 @@
+"""What a system may bring besides its terms is refused where it is malformed, whoever hands it in."""
+
+import re
+
+import numpy as np
+import pytest
+from zerodrift._core import ffi, lib
+
+import zerodrift as zd
+from native_systems import GIVEN, PENDULUM, compile_text, needs_compiler
+from support import handed
+from zerodrift import _gateway
+
+ANY = 1     # the address of some function, which nobody calls here
+
+
+class Made:
+    """A `zd_system` of three bodies with 2, 1 and 3 velocities, two holonomic groups of rows and a nonholonomic one."""
+
+    def __init__(self, **changed):
+        self.kept = []
+        self.c = ffi.new("zd_system *", {"nq": 6, "nv": 6, "mh": 3, "mn": 1})
+        self.c.provides = lib.ZD_M | lib.ZD_PHI | lib.ZD_C | lib.ZD_XI | changed.pop("provides", 0)
+        self.c.evaluate = ffi.cast("zd_evaluate *", ANY)
+        structure = {"blocks": 3, "coordinates": [2, 1, 3], "velocities": [2, 1, 3], "mass": [0, 3, 1], "groups": 3,
+                     "rows": [1, 2, 1], "first": [0, 1, 3, 6], "block": [0, 0, 2, 0, 1, 2]} | changed.pop("structure", {})
+        self.c.structure = self.of("zd_structure", {
+            key: value if isinstance(value, int) else ffi.NULL if value is None else self.array("int", value)
+            for key, value in structure.items()})
+        for name, value in changed.items():
+            setattr(self.c, name, value(self) if callable(value) else value)
+
+    def keep(self, made):
+        self.kept.append(made)
+        return made
+
+    def of(self, kind, content):
+        return self.keep(ffi.new(f"{kind} *", content))
+
+    def array(self, kind, content):
+        return self.keep(ffi.new(f"{kind}[]", content))
+
+    def text(self, characters):
+        return self.array("char", characters.encode())
+
+    def function(self, kind, member):
+        """Some function of the type that a member of a structure has."""
+        types = dict(ffi.typeof(kind).fields)
+        return ffi.cast(types[member].type, ANY)
+
+    @property
+    def refusal(self):
+        message = ffi.new("char[]", 512)
+        status = lib.zd_check_system(self.c, message, 512)
+        assert status == (0 if message[0] == b"\0" else lib.ZD_BAD_ARGUMENT)
+        return ffi.string(message).decode()
+
+
+def listed(member, *content):
+    return lambda made: made.array(member, list(content))
+
+
+def direct(*sets):
+    return lambda made: made.array("zd_direct", [{"orders": 1, "lanes": 1} | changed for changed in sets])
+
+
+def measures(*measures, **changed):
+    def make(made):
+        listed = [{"name": made.text("x"), "unit": made.text("m"), "size": 1} | each for each in measures]
+        content = {"count": len(listed), "measure": made.array("zd_measure", listed),
+                   "evaluate": made.function("zd_measures", "evaluate")}
+        return made.of("zd_measures", content | changed)
+    return make
+
+
+def inputs(*initial, name="torque"):
+    return lambda made: made.array("zd_input", [
+        {"name": made.text(name), "unit": made.text("N m"), "initial": value} for value in initial])
+
+
+def groups(*rows, name="lock"):
+    return lambda made: made.array("zd_group", [
+        {"name": made.text(name), "first": first, "rows": count} for first, count in rows])
+
+
+def brought(kind, member, **changed):
+    return lambda made: made.of(kind, {member: made.function(kind, member)} | changed)
+
+
+FITTING = {
+    "structure": {},
+    "structure without masses": {"structure": {"mass": None}},
+    "structure with a kinematic matrix": {"provides": lib.ZD_A, "nq": 7, "structure": {"coordinates": [2, 2, 3]}},
+    "no constraints": {"mh": 0, "mn": 0, "structure": {"groups": 0}},
+    "operations": {"operations": lambda made: made.of("zd_operations", {})},
+    "direct": {"directs": 2, "direct": direct({"lanes": 4}, {"orders": 4})},
+    "series": {"series": brought("zd_series", "evaluate")},
+    "measures": {"measures": measures({}, {"size": 3, "depends": 2})},
+    "residuals": {"residuals": brought("zd_residuals", "derivative", scratch=5)},
+    "inputs": {"inputs": 2, "input": inputs(0.0, 3.0)},
+    "groups": {"groups": 2, "group": groups((0, 1), (2, 2))},
+}
+
+
+@pytest.mark.parametrize("what", FITTING)
+def test_what_fits_is_taken(what):
+    assert Made(**FITTING[what]).refusal == ""
+
+
+def in_structure(**changed):
+    return {"structure": changed}
+
+
+@pytest.mark.parametrize(("changed", "sentence"), [
+    (in_structure(blocks=0), "structure: there are 1 to 6 blocks"),
+    (in_structure(blocks=7), "structure: there are 1 to 6 blocks"),
+    (in_structure(velocities=None), "structure: there are 1 to 6 blocks"),
+    (in_structure(velocities=[2, 0, 4]), "block 1 has 1 coordinates and 0 velocities; it has at least one of each"),
+    (in_structure(coordinates=[2, -1, 5]), "block 1 has -1 coordinates"),
+    (in_structure(velocities=[2, 1, 2**31 - 1]), "block 2 has 3 coordinates and 2147483647 velocities"),
+    (in_structure(velocities=[2, 2, 2]), "block 1 has 1 coordinates and 2 velocities: then there is a kinematic matrix"),
+    (in_structure(velocities=[2, 1, 2], coordinates=[2, 1, 2]), "its blocks have 5 coordinates and 5 velocities"),
+    (in_structure(mass=[0, 4, 0]), "the mass of block 1 is 4"),
+    (in_structure(groups=-1), "at most 4 groups"),
+    (in_structure(groups=5), "at most 4 groups"),
+    (in_structure(rows=None), "each with its rows and the blocks it touches"),
+    (in_structure(rows=[0, 3, 1]), "group 0 has 0 rows; 4 of 4 rows are left for it"),
+    (in_structure(rows=[1, 2, 2]), "group 2 has 2 rows; 1 of 4 rows are left"),
+    (in_structure(rows=[1, 3, 1]), "group 1 has holonomic rows and nonholonomic ones"),
+    (in_structure(groups=2), "its groups have 3 rows, and the system has 4"),
+    (in_structure(first=[1, 2, 3, 6]), "group 0 touches the blocks at 1 to 1 of the list; the first group begins at 0"),
+    (in_structure(first=[0, 1, 1, 6]), "group 1 touches the blocks at 1 to 0"),
+    (in_structure(first=[0, 1, 3, 9]), "group 2 touches the blocks at 3 to 8"),
+    (in_structure(block=[3, 0, 2, 0, 1, 2]), "group 0 touches block 3; its blocks are increasing, of 0 to 2"),
+    (in_structure(block=[0, 2, 0, 0, 1, 2]), "group 1 touches block 0"),
+    ({"provides": lib.ZD_COMPLEMENT | lib.ZD_GAMMA}, "no complement D of its own"),
+    ({"operations": lambda made: made.of("zd_operations", {"omits_C": 1})}, "operations: C is not stored"),
+    ({"directs": 1}, "direct: there are 1 sets"),
+    ({"direct": direct({})}, "direct: there are 0 sets"),
+    ({"directs": 5, "direct": direct(*[{}] * 5)}, "direct: there are 5 sets"),
+    ({"directs": 1, "direct": direct({"orders": 5})}, "set 0 has 5 orders of pivots, and has 1 to 4"),
+    ({"directs": 1, "direct": direct({"orders": 0})}, "set 0 has 0 orders"),
+    ({"directs": 2, "direct": direct({}, {"lanes": 3})}, "set 1 has 3 lanes, and has 1, 2, 4 or 8"),
+    ({"directs": 2, "direct": direct({}, {})}, "set 1 is the second of 1 lanes"),
+    ({"directs": 1, "direct": direct({"scratch": -1})}, "the scratch of set 0 is no size: -1"),
+    ({"series": lambda made: made.of("zd_series", {})}, "series: there is a function"),
+    ({"series": brought("zd_series", "evaluate", scratch=-1)}, "series: .*not -1"),
+    ({"measures": measures({}, evaluate=ffi.NULL)}, "measures: there are 1"),
+    ({"measures": measures(count=-1)}, "measures: there are -1"),
+    ({"measures": measures({}, scratch=-1)}, "measures: their scratch is no size"),
+    ({"measures": measures({"name": ffi.NULL})}, "measure 0 has a name and a unit"),
+    ({"measures": measures({"size": 0})}, "x has 0 components"),
+    ({"measures": measures({"depends": 3})}, "x does not say what it depends on"),
+    ({"residuals": lambda made: made.of("zd_residuals", {})}, "residuals: there is a function"),
+    ({"inputs": 1}, "inputs: there are 1"),
+    ({"inputs": -1}, "inputs: there are -1"),
+    ({"inputs": 1, "input": inputs(0.0, name="")}, "input 0 has a name"),
+    ({"inputs": 1, "input": inputs(np.nan)}, "the initial value of torque is not finite"),
+    ({"groups": 65, "group": groups((0, 1))}, "groups: there are 65, and may be 64"),
+    ({"groups": 1}, "groups: there are 1"),
+    ({"groups": 1, "group": groups((0, 1), name="")}, "group 0 has a name"),
+    ({"groups": 1, "group": groups((2, 3))}, "lock has 3 rows from row 2 on; it has at least one of the 4"),
+    ({"groups": 2, "group": groups((0, 2), (1, 1))}, "lock has 1 rows from row 1 on"),
+], ids=lambda value: value if isinstance(value, str) else "")
+def test_what_is_malformed_is_refused(changed, sentence):
+    refusal = Made(**changed).refusal
+    assert re.search(sentence, refusal), refusal
+
+
+def test_a_run_of_it_is_refused():
+    core = zd.systems.pendulum()._core
+    core.c.inputs = 1
+    for call in (lambda: _gateway.Run(core, handed(), np.zeros(2), np.zeros(2)),
+                 lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2))):
+        with pytest.raises(zd.ZerodriftError, match="inputs: there are 1"):
+            call()
+
+
+@needs_compiler
+def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
+    text = PENDULUM.read_text().replace(".evaluate = pendulum,\n    },", ".evaluate = pendulum, .groups = 1,\n    },")
+    library = compile_text(text, tmp_path / "malformed.so")
+    with pytest.raises(ValueError, match=r"zd_kind_pendulum of .*malformed\.so: groups: there are 1, and may be 64"):
+        zd.native(library, symbol="pendulum", parameters={})
+
+
+@needs_compiler
+def test_a_library_of_an_earlier_version_is_told_to_be_compiled_again(tmp_path):
+    text = PENDULUM.read_text().replace("ZD_INTERFACE_VERSION;", "2;")
+    library = compile_text(text, tmp_path / "earlier.so")
+    with pytest.raises(ValueError, match=r"earlier\.so is 2, and this core has version 3 of the interface: compile it again"):
+        zd.native(library, ["x", "y"], symbol="pendulum", **GIVEN)
