@@ -1,13 +1,36 @@
 /* zerodrift: constrained multibody systems without constraint drift.
  *
- * The whole public C interface, with what a system is in the header that is shipped to those who write one. Plain declarations and
- * nothing else: CFFI reads this very text. Equation numbers are those of W. Blajer, "Elimination of Constraint Violation and
+ * The whole public C interface, with what a system is in the header that is shipped to those who write one. Declarations and nothing
+ * else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer, "Elimination of Constraint Violation and
  * Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002) 265-284.
  */
 #ifndef ZERODRIFT_H
 #define ZERODRIFT_H
 
+#include <stddef.h>
+
 #include "include/zerodrift/system.h"
+
+/* ---- the terms of a system, as ZD_TERM_LIST has them ---- */
+
+typedef struct zd_term_row {
+    int term;               /* its bit */
+    const char *symbol;     /* what the bit is called: "ZD_M" */
+    const char *name;       /* its member of zd_terms: "M" */
+    const char *shape;      /* "ZD_MATRIX(nv, nv)" */
+    size_t offset;          /* where that is, in bytes */
+    enum zd_depends depends;
+    const char *text;
+} zd_term_row;
+
+typedef struct zd_shape {
+    int dimensions;         /* 0: a number, 1: (size[0],), 2: (size[0], size[1]) */
+    int size[2];
+} zd_shape;
+
+const zd_term_row *zd_term_at(int row);                         /* NULL: there are no more */
+zd_shape zd_term_shape(const zd_system *system, int row);       /* as the equations have it */
+size_t zd_term_size(const zd_system *system, int row);          /* how many doubles evaluate() writes */
 
 /* The first of the wanted terms that has an entry which is not finite, as its bit; 0: there is none. */
 int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms);
@@ -152,7 +175,7 @@ typedef struct zd_perturbation {
     const zd_system *system;
     double t;
     const double *p, *v;    /* (nq,), (nv,) */
-    zd_terms terms;         /* of A, M, d, f, C, Phi_t, xi; NULL: as they are. The others always are. */
+    zd_terms terms;         /* NULL: as they are */
 } zd_perturbation;
 
 zd_system zd_perturbed(const zd_perturbation *perturbation);      /* it refers to the perturbation and to its system */

@@ -3,9 +3,14 @@
 import os
 import re
 import runpy
+import tempfile
 from pathlib import Path
 
 from cffi import FFI
+
+import setuptools  # noqa: F401, isort: skip, as it brings distutils, which Python does not have any more
+from distutils.ccompiler import new_compiler  # isort: skip
+from distutils.sysconfig import customize_compiler  # isort: skip
 
 ROOT = Path(__file__).resolve().parent.parent
 # Python's own flags come before these; among them is -fwrapv, which costs a third of the speed.
@@ -25,10 +30,22 @@ def fingerprint() -> str:
 
 
 def declarations() -> str:
-    """The headers that CFFI reads, without the preprocessor's lines; functions written in Python are marked as CFFI wants it."""
+    """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
     names = ("include/zerodrift/system.h", "zerodrift.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text() for name in names)
-    return re.sub(r"^#.*$", "", headers, flags=re.MULTILINE).replace("ZD_WRITTEN_IN_PYTHON", 'extern "Python"')
+    return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
+        "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')
+
+
+def preprocessed(text: str) -> str:
+    """C with its macros expanded."""
+    compiler = new_compiler()
+    customize_compiler(compiler)
+    with tempfile.TemporaryDirectory() as folder:
+        source, result = Path(folder, "headers.c"), Path(folder, "headers.i")
+        source.write_text(text)
+        compiler.preprocess(str(source), str(result))
+        return re.sub(r"^#.*$", "", result.read_text(), flags=re.MULTILINE)
 
 
 ffibuilder = FFI()

@@ -10,31 +10,24 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 
+static zd_terms take_terms(zd_arena *arena, const zd_system *system)
+{
+    zd_terms terms = {NULL};
+    for (int row = 0; zd_term_at(row); row++)
+        if (system->provides & zd_term_at(row)->term) *zd_term_in(&terms, row) = zd_take_doubles(arena, zd_term_size(system, row));
+    terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);
+    return terms;
+}
+
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    int has = system->provides;
-#define TAKE(term, count) ((has & (term)) ? zd_take_doubles(arena, (count)) : NULL)
     zd_point point = {
         .system = system,
         .statistics = statistics,
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
-        .terms = {
-            .A = TAKE(ZD_A, nq * nv),
-            .M = TAKE(ZD_M, nv * nv),
-            .d = TAKE(ZD_BIAS, nv),
-            .f = TAKE(ZD_FORCE, nv),
-            .Phi = TAKE(ZD_PHI, (size_t)system->mh),
-            .C = TAKE(ZD_C, m * nv),
-            .Phi_t = TAKE(ZD_PHI_T, m),
-            .xi = TAKE(ZD_XI, m),
-            .V = TAKE(ZD_POTENTIAL, 1),
-            .power = TAKE(ZD_POWER, 1),
-            .D = TAKE(ZD_COMPLEMENT, nv * (nv - m)),
-            .gamma = TAKE(ZD_GAMMA, nv),
-            .scratch = zd_take_doubles(arena, (size_t)system->scratch),
-        },
+        .terms = take_terms(arena, system),
         .vdot = zd_take_doubles(arena, nv),
         .lambda = zd_take_doubles(arena, m),
         .force = zd_take_doubles(arena, nv),
@@ -45,7 +38,6 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .size = zd_take_doubles(arena, m),
         .inverse_size = zd_take_doubles(arena, m),
     };
-#undef TAKE
     return zd_take_filled(arena, &point, sizeof point);
 }
 

@@ -3,14 +3,15 @@
 #define ZD_POINT_H
 
 #include "../workspace.h"
-#include "../zerodrift.h"
+#include "terms.h"
 
+#define ZD_BIT_OF_VELOCITY(name, bit, member, shape, depends, text) | ((depends) == ZD_OF_POSITIONS ? 0 : (bit))
 enum {                                  /* known beside the system's own terms */
-    ZD_FACTORED = 1 << 16,              /* the formulation's leading matrix, at this (t, p) */
-    ZD_ACCELERATED = 1 << 17,           /* vdot and lambda, at this (t, p, v) */
-    ZD_COMPLEMENTED = 1 << 18,          /* the complement D and what goes with it, at this (t, p) */
-    ZD_RANKED = 1 << 19,                /* which rows of C count, at this (t, p) */
-    ZD_OF_VELOCITY = ZD_BIAS | ZD_FORCE | ZD_XI | ZD_POWER | ZD_GAMMA | ZD_ACCELERATED
+    ZD_FACTORED = 1 << 24,              /* the formulation's leading matrix, at this (t, p) */
+    ZD_ACCELERATED = 1 << 25,           /* vdot and lambda, at this (t, p, v) */
+    ZD_COMPLEMENTED = 1 << 26,          /* the complement D and what goes with it, at this (t, p) */
+    ZD_RANKED = 1 << 27,                /* which rows of C count, at this (t, p) */
+    ZD_OF_VELOCITY = ZD_ACCELERATED ZD_TERM_LIST(ZD_BIT_OF_VELOCITY)    /* what is not known any more where v changes */
 };
 
 typedef struct zd_rank zd_rank;         /* constraints/rank.h */
@@ -34,8 +35,6 @@ typedef struct zd_point {
     int failed_index, failed_column;    /* the coordinate or row that a failed factorization names; of an asymmetric M, the column, too */
     double residual_left;   /* what a failed iteration was left with */
 } zd_point;
-
-static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
 void zd_point_move(zd_point *point, double t, const double *p, const double *v);

@@ -23,12 +23,11 @@ int zd_evaluate_in_python(const void *data, int want, double t, const double *p,
 {
     const zd_python *self = data;
     const zd_system *system = self->system;
-    double *const *to = (double *const *)out;
     int moved = replace(self->p, p, system->nq) | replace(self->v, v, system->nv) << 1;
     int status = zd_write_in_python(self->evaluator, want, t, moved);
     if (status) return status;
     for (const zd_python_term *term = self->term; term < self->term + self->terms; term++)
-        if (want & term->term) memcpy(to[term->slot], term->values, term->size);
+        if (want & term->term) memcpy(*(double *const *)(const void *)((const char *)out + term->offset), term->values, term->size);
     int not_finite = zd_first_not_finite(system, want, out);
     return not_finite ? zd_refuse_in_python(self->evaluator, not_finite, t) : ZD_DONE;
 }

@@ -1,6 +1,6 @@
 /* What the extension module has beside zerodrift.h: what it was built from, and systems that are written in Python.
  *
- * Plain declarations and nothing else: CFFI reads this very text. What is marked as written in Python are functions that call it.
+ * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. What is marked as written in Python are functions that call it.
  */
 #ifndef ZD_PYTHON_INTERFACE_H
 #define ZD_PYTHON_INTERFACE_H
@@ -14,7 +14,8 @@
 extern const char *const zd_fingerprint;
 
 typedef struct zd_python_term {     /* Python's memory of one term */
-    int term, slot;                 /* its bit, and which pointer of zd_terms it is */
+    int term;                       /* its bit */
+    size_t offset;                  /* of its pointer in zd_terms */
     size_t size;                    /* in bytes */
     const double *values;
 } zd_python_term;

@@ -10,14 +10,6 @@
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 
-static const char *name_of(int term)
-{
-    static const char *const names[] = {"A", "M", "bias d", "force f", "Phi", "C", "Phi_t", "xi", "potential V", "power", "D", "gamma"};
-    int i = 0;
-    while (term >> (i + 1)) i++;
-    return names[i];
-}
-
 static void describe_asymmetry(const zd_point *point, char *to, size_t size)
 {
     const int n = point->system->nv, i = point->failed_index, j = point->failed_column;
@@ -161,7 +153,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
     case ZD_NO_MEMORY: snprintf(to, size, "there is no memory for this"); break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
-    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", name_of(point->failed_index)); break;
+    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "status %d", status); break;
     }
 }

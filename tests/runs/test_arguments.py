@@ -54,20 +54,20 @@ def test_settings_that_the_core_refuses(changed, sentence):
     ({"nv": 10**9}, "1 to 8192 coordinates"),
     ({"mh": -1}, "at most 8192 constraints"),
     ({"mn": 8193}, "at most 8192 constraints"),
-    ({"mn": 2, "provides": sum(_gateway.TERMS[name][0] for name in ("M", "Phi", "C", "xi", "D", "gamma"))},
+    ({"mn": 2, "provides": sum(_gateway.TERMS[name].bit for name in ("M", "Phi", "C", "xi", "D", "gamma"))},
      "a complement is for at most as many constraints as velocities"),
     ({"scratch": -1}, "scratch"),
     ({"provides": 0}, "a mass matrix"),
     ({"nv": 3}, "as many velocities as coordinates"),
-    ({"provides": _gateway.TERMS["M"][0]}, "provides Phi"),
-    ({"provides": _gateway.TERMS["M"][0] | _gateway.TERMS["Phi"][0]}, "provides C and xi"),
+    ({"provides": _gateway.TERMS["M"].bit}, "provides Phi"),
+    ({"provides": _gateway.TERMS["M"].bit | _gateway.TERMS["Phi"].bit}, "provides C and xi"),
     ({"without": "gamma"}, "come together"),
 ], ids=str)
 def test_systems_that_the_core_refuses(changed, sentence):
     core = zd.systems.pendulum()._core
     without = changed.pop("without", None)
     if without:
-        core.c.provides = core.c.provides & ~_gateway.TERMS["D"][0] & ~_gateway.TERMS["gamma"][0] | _gateway.TERMS["D"][0]
+        core.c.provides = core.c.provides & ~_gateway.TERMS["D"].bit & ~_gateway.TERMS["gamma"].bit | _gateway.TERMS["D"].bit
     for name, value in changed.items():
         setattr(core.c, name, value)
     for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2)),

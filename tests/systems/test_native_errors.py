@@ -106,8 +106,7 @@ def test_what_is_wrong(make, error, message, library):
 # ---- terms that are not finite, later ----
 
 
-SPOILT = {"A": "A", "M": "M", "d": "bias d", "f": "force f", "Phi": "Phi", "C": "C", "Phi_t": "Phi_t", "xi": "xi",
-          "V": "potential V", "power": "power"}
+SPOILT = ["A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "V", "power"]      # what `spoilt` of native/pendulum.c writes
 
 
 def spoilt(library, term, moment=1.0):
@@ -118,7 +117,7 @@ def spoilt(library, term, moment=1.0):
 
 @pytest.mark.parametrize("term", SPOILT)
 def test_a_term_that_is_not_finite_is_named(term, library, formulation):
-    message = rf"^at t = 1(\.\d+)? \(step 10\d of 200\): the system's {SPOILT[term]} is not finite$"
+    message = rf"^at t = 1(\.\d+)? \(step 10\d of 200\): the system's {term} is not finite$"
     with pytest.raises(zd.ZerodriftError, match=message) as caught:
         motion(spoilt(library, term), formulation=formulation)
     sol = caught.value.solution
@@ -133,7 +132,7 @@ def test_a_term_that_is_not_finite_is_named(term, library, formulation):
 def test_where_steps_are_chosen_too(term, library, integrator):
     if not zd.integrators()[integrator].error_order:
         return
-    with pytest.raises(zd.ZerodriftError, match=rf"^at t = 1(\.\d+)? .*the system's {SPOILT[term]} is not finite$"):
+    with pytest.raises(zd.ZerodriftError, match=rf"^at t = 1(\.\d+)? .*the system's {term} is not finite$"):
         zd.simulate(spoilt(library, term), 2.0, rtol=1e-8, integrator=integrator)
 
 
@@ -146,7 +145,7 @@ def test_a_term_that_is_not_finite_at_the_start(term, library):
 
 @pytest.mark.parametrize("term", ["M", "C", "f", "xi"])
 def test_outside_a_run(term, library):
-    with pytest.raises(zd.ZerodriftError, match=f"the system's .*{term} is not finite"):
+    with pytest.raises(zd.ZerodriftError, match=f"the system's {term} is not finite"):
         zd.acceleration(spoilt(library, term), [1.0, 0.0], [0.0, 0.0], t=1.0)
 
 

@@ -13,12 +13,12 @@
  * A shared library that has both goes to zerodrift.native("library.so", symbol="pendulum", ...), which says the sizes and terms.
  * One that has a `const zd_kind zd_kind_pendulum` instead says all of it itself, and is as good as a built-in system.
  *
- * Plain declarations and nothing else: CFFI reads this very text. Equation numbers are those of W. Blajer, "Elimination of
+ * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer, "Elimination of
  * Constraint Violation and Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002)
  * 265-284. Matrices are row-major; SI units throughout.
  *
  *     nq  coordinates p       mh  holonomic rows of Phi         m = mh + mn  rows of C
- *     nv  velocities v        mn  nonholonomic rows
+ *     nv  velocities v        mn  nonholonomic rows             r = nv - m   columns of D
  */
 #ifndef ZERODRIFT_SYSTEM_H
 #define ZERODRIFT_SYSTEM_H
@@ -62,37 +62,43 @@ enum zd_status {
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
 
-enum zd_term {
-    ZD_A = 1,          /* kinematic matrix of (1); absent: identity */
-    ZD_M = 2,          /* mass matrix of (2), both triangles */
-    ZD_BIAS = 4,       /* d of (2); absent: zero */
-    ZD_FORCE = 8,      /* f of (2); absent: zero */
-    ZD_PHI = 16,       /* (3) */
-    ZD_C = 32,         /* (5): holonomic rows first */
-    ZD_PHI_T = 64,     /* what (5) has besides C v: time derivatives of Phi at fixed p; absent: zero */
-    ZD_XI = 128,       /* (6), all that is not C vdot, also from Phi_t */
-    ZD_POTENTIAL = 256,
-    ZD_POWER = 512,    /* Edot of (28): power of the forces in f that V does not describe, and dV/dt at fixed p */
-    ZD_COMPLEMENT = 1024,   /* D of (14), C D = 0; a system need not have it: absent, it is found from C by (16) */
-    ZD_GAMMA = 2048,        /* what vdot has besides D udot, (15); goes with D */
-    ZD_MOVED = 4096,   /* said to the system, not asked of it: t or p differ from its last call with this scratch */
-    ZD_TIMELESS = 8192 /* said by the system among what it provides: none of its terms depends on t but through p and v */
+/* What a function of the motion depends on, besides t. */
+enum zd_depends {
+    ZD_OF_POSITIONS,    /* p */
+    ZD_OF_VELOCITIES,   /* p and v */
+    ZD_OF_ACCELERATIONS /* p, v, vdot and lambda */
 };
 
+/* The terms of the equations, one in each line: the bit that asks for it, its member of zd_terms, its shape, what it depends on, and
+ * what it is. All else that is to be known of the terms follows from here; a new one is a line below, and a new interface version.
+ * Bits are below ZD_MOVED. */
+#define ZD_TERM_LIST(TERM) \
+    TERM(ZD_A, 0x1, A, ZD_MATRIX(nq, nv), ZD_OF_POSITIONS, "kinematic matrix of (1); absent: identity") \
+    TERM(ZD_M, 0x2, M, ZD_MATRIX(nv, nv), ZD_OF_POSITIONS, "mass matrix of (2), both triangles") \
+    TERM(ZD_BIAS, 0x4, d, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "bias of (2); absent: zero") \
+    TERM(ZD_FORCE, 0x8, f, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "applied forces of (2); absent: zero") \
+    TERM(ZD_PHI, 0x10, Phi, ZD_VECTOR(mh), ZD_OF_POSITIONS, "holonomic constraints (3)") \
+    TERM(ZD_C, 0x20, C, ZD_MATRIX(m, nv), ZD_OF_POSITIONS, "constraint matrix of (5), holonomic rows first") \
+    TERM(ZD_PHI_T, 0x40, Phi_t, ZD_VECTOR(m), ZD_OF_POSITIONS, \
+         "what (5) has besides C v: time derivatives of Phi at fixed p; absent: zero") \
+    TERM(ZD_XI, 0x80, xi, ZD_VECTOR(m), ZD_OF_VELOCITIES, "right side of (6): all that is not C vdot, also from Phi_t") \
+    TERM(ZD_POTENTIAL, 0x100, V, ZD_NUMBER, ZD_OF_POSITIONS, "potential energy in J") \
+    TERM(ZD_POWER, 0x200, power, ZD_NUMBER, ZD_OF_VELOCITIES, \
+         "Edot of (28) in W: power of the forces in f that V does not describe, and dV/dt at fixed p") \
+    TERM(ZD_COMPLEMENT, 0x400, D, ZD_MATRIX(nv, r), ZD_OF_POSITIONS, "complement of (14), C D = 0; absent: found from C by (16)") \
+    TERM(ZD_GAMMA, 0x800, gamma, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what vdot has besides D udot, (15); goes with D")
+
+#define ZD_TERM_BIT(name, bit, member, shape, depends, text) name = bit,
+enum zd_term {
+    ZD_TERM_LIST(ZD_TERM_BIT)
+    ZD_MOVED = 0x400000,    /* said to the system, not asked of it: t or p differ from its last call with this scratch */
+    ZD_TIMELESS = 0x800000  /* said by the system among what it provides: none of its terms depends on t but through p and v */
+};
+
+#define ZD_TERM_MEMBER(name, bit, member, shape, depends, text) double *member;
 typedef struct zd_terms {
-    double *A;          /* (nq, nv) */
-    double *M;          /* (nv, nv) */
-    double *d;          /* (nv,) */
-    double *f;          /* (nv,) */
-    double *Phi;        /* (mh,) */
-    double *C;          /* (m, nv) */
-    double *Phi_t;      /* (m,) */
-    double *xi;         /* (m,) */
-    double *V;          /* (1,) J */
-    double *power;      /* (1,) W */
-    double *D;          /* (nv, nv - m) */
-    double *gamma;      /* (nv,) */
-    double *scratch;    /* (scratch,) what a system keeps while (t, p) stays, such as sines */
+    ZD_TERM_LIST(ZD_TERM_MEMBER)    /* double *A; double *M; double *d; and so on */
+    double *scratch;        /* (scratch,) what a system keeps while (t, p) stays, such as sines */
     const double *inputs;   /* (inputs,) read, not written: see zd_input; NULL where there are none */
 } zd_terms;
 
@@ -165,13 +171,11 @@ typedef struct zd_series {
 } zd_series;
 
 /* Named functions of the motion, such as where a point is or what goes through a joint. */
-enum zd_measured_at { ZD_OF_POSITIONS, ZD_OF_VELOCITIES, ZD_OF_ACCELERATIONS };  /* what a measure depends on besides: vdot, lambda too */
-
 typedef struct zd_measure {
     const char *name;       /* "crank.angle" */
     const char *unit;       /* of each component */
     int size;               /* how many components */
-    enum zd_measured_at depends;
+    enum zd_depends depends;
 } zd_measure;
 
 typedef struct zd_measured {    /* where the values go; NULL: not wanted */

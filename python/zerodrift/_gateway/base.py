@@ -41,14 +41,6 @@ ERRORS = {
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
-# The terms a system may have: bit, shape in terms of its sizes.
-TERMS = {
-    "A": (lib.ZD_A, ("nq", "nv")), "M": (lib.ZD_M, ("nv", "nv")), "d": (lib.ZD_BIAS, ("nv",)),
-    "f": (lib.ZD_FORCE, ("nv",)), "Phi": (lib.ZD_PHI, ("mh",)), "C": (lib.ZD_C, ("m", "nv")),
-    "Phi_t": (lib.ZD_PHI_T, ("m",)), "xi": (lib.ZD_XI, ("m",)), "V": (lib.ZD_POTENTIAL, ()),
-    "power": (lib.ZD_POWER, ()), "D": (lib.ZD_COMPLEMENT, ("nv", "r")), "gamma": (lib.ZD_GAMMA, ("nv",)),
-}
-
 
 class Card(NamedTuple):
     """A row of one of the core's tables."""
@@ -127,6 +119,36 @@ def cards(table: str) -> tuple[Card, ...]:
 def default(table: str) -> str:
     """The name of the row of a table of the core that is taken where nothing else is asked for."""
     return cards(table)[lib.zd_default_row(TABLES[table])].name
+
+
+class Term(NamedTuple):
+    """A term of the equations that a system may have: the core's list of them has one in each line."""
+
+    bit: int
+    symbol: str     # what C calls the bit
+    row: int
+    offset: int     # of its pointer in `zd_terms`, in bytes
+    sizes: str      # "(nv, nv)"
+    depends_on_v: bool
+    text: str
+
+    def shape(self, system: Any) -> tuple[int, ...]:
+        """Its shape in a system, a `zd_system`."""
+        shape = lib.zd_term_shape(system, self.row)
+        return tuple(shape.size[0:shape.dimensions])
+
+
+def _terms() -> dict[str, Term]:
+    """The core's list of terms, by name."""
+    terms: dict[str, Term] = {}
+    while c := lib.zd_term_at(len(terms)):
+        sizes = f"({text(c.shape).partition('(')[2].strip(')')})"
+        terms[text(c.name)] = Term(c.term, text(c.symbol), len(terms), c.offset, sizes, c.depends != lib.ZD_OF_POSITIONS,
+                                   text(c.text))
+    return terms
+
+
+TERMS = _terms()
 
 
 def card_of(c: Any) -> Card:

@@ -27,10 +27,11 @@ class Evaluator:
         p, v = ffi.new("double[]", core.nq), ffi.new("double[]", core.nv)
         self._p, self._v = ffi.buffer(p), ffi.buffer(v)
         self._arrays = {"p": _read_only(self._p), "v": _read_only(self._v)}
-        for slot, (name, (bit, shape)) in enumerate(TERMS.items()):
-            if core.provides & bit:
-                self._arrays[name] = array = np.zeros([getattr(core, size) for size in shape])
-                terms.append({"term": bit, "slot": slot, "size": array.nbytes, "values": doubles(array, array.size)})
+        for name, term in TERMS.items():
+            if core.provides & term.bit:
+                self._arrays[name] = array = np.zeros(term.shape(core.c))
+                terms.append({"term": term.bit, "offset": term.offset, "size": array.nbytes,
+                              "values": doubles(array, array.size)})
         self._memory = p, v, ffi.new("zd_python_term[]", terms)
         self.c = ffi.new("zd_python *", {"system": core.c, "p": p, "v": v, "terms": len(terms), "term": self._memory[-1]})
         if "C" in self._arrays:
@@ -52,7 +53,7 @@ class Evaluator:
 
     def refuse(self, term: int, t: float) -> int:
         """The function that the core calls where a term, given as its bit, is not finite."""
-        name = next(name for name, (bit, _) in TERMS.items() if bit == term)
+        name = next(name for name, (bit, *_) in TERMS.items() if bit == term)
         self.error = self._write.not_finite(name, t, self._arrays[name])
         return CALLBACK
 
@@ -138,7 +139,7 @@ class PythonCore(CoreSystem):
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
         for name in names:
-            system.provides |= TERMS[name][0]
+            system.provides |= TERMS[name].bit
         system.evaluate = lib.zd_evaluate_in_python
         system.lengths = self._lengths = lengths(variables)
         super().__init__(system, None)

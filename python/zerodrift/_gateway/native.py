@@ -32,7 +32,7 @@ class NativeCore(CoreSystem):
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
         for name in names:
-            system.provides |= TERMS[name][0]
+            system.provides |= TERMS[name].bit
         system.scratch, system.failure = scratch, FAILURE
         system.evaluate = ffi.cast("zd_evaluate *", address)
         memory = ffi.NULL if data is None else doubles(data, data.size)
@@ -54,8 +54,7 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
 
     It is to write the terms it is said to have, all of each, and nothing else.
     """
-    shapes = {name: tuple(getattr(core, size) for size in shape) for name, (_, shape) in TERMS.items()} | {
-        "scratch": (core.c.scratch,)}
+    shapes = {name: term.shape(core.c) for name, term in TERMS.items()} | {"scratch": (core.c.scratch,)}
     memory = {name: np.full(int(np.prod(shape)) + 2 * GUARD, UNWRITTEN) for name, shape in shapes.items()}
     terms = ffi.new("zd_terms *")
     for name, array in memory.items():
@@ -66,7 +65,7 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     for name, array in memory.items():
         written = array.view(np.uint64) != UNWRITTEN.view(np.uint64)
         inside = written[GUARD:-GUARD]
-        has = name == "scratch" or core.provides & TERMS[name][0]
+        has = name == "scratch" or core.provides & TERMS[name].bit
         if written[:GUARD].any() or written[-GUARD:].any():
             return f"it writes beyond {name}, which is of shape {shapes[name]}"
         if inside.any() and not has:
@@ -100,4 +99,4 @@ def kind_at(address: int) -> Kind:
 
 def terms_of(system: CoreSystem) -> list[str]:
     """The names of the terms a system has."""
-    return [name for name, (bit, _) in TERMS.items() if system.provides & bit]
+    return [name for name, term in TERMS.items() if system.provides & term.bit]

@@ -40,7 +40,7 @@ def perturbed(inner: CoreSystem, size: float, seed: int) -> PerturbedCore:
     def draw(*shape: int) -> np.ndarray:
         return 1.0 + size * chance.choice([-2.0, -1.0, 1.0, 2.0], shape)
 
-    shapes = {name: tuple(getattr(inner, each) for each in TERMS[name][1]) for name in NAMES if inner.provides & TERMS[name][0]}
+    shapes = {name: TERMS[name].shape(inner.c) for name in NAMES if inner.provides & TERMS[name].bit}
     factors = {"t": draw(1), "p": draw(inner.nq), "v": draw(inner.nv), **{name: draw(*shape) for name, shape in shapes.items()}}
     upper = np.triu(factors["M"])
     factors["M"] = upper + np.triu(upper, 1).T

@@ -91,10 +91,10 @@ class CoreSystem:
         scratch = ffi.new("double[]", max(1, self.c.scratch))
         terms.scratch = scratch
         arrays = {}
-        for name, (bit, shape) in TERMS.items():
-            if not self.provides & bit:
+        for name, term in TERMS.items():
+            if not self.provides & term.bit:
                 continue
-            arrays[name] = array = np.zeros([getattr(self, size) for size in shape])
+            arrays[name] = array = np.zeros(term.shape(self.c))
             setattr(terms, name, doubles(array, array.size, writable=True))
         status = core.c.evaluate(core.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
         if status:

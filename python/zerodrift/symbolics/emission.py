@@ -11,11 +11,10 @@ import sympy
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.pycode import PythonCodePrinter
 
+from .._gateway import TERMS
 from .blocks import Blocks
 from .lowering import Operation
 
-BITS = {"A": "ZD_A", "M": "ZD_M", "d": "ZD_BIAS", "f": "ZD_FORCE", "Phi": "ZD_PHI", "C": "ZD_C", "Phi_t": "ZD_PHI_T",
-        "xi": "ZD_XI", "V": "ZD_POTENTIAL", "power": "ZD_POWER"}
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
 
@@ -191,7 +190,7 @@ class CWriter(Writer):
             block = blocks.get(term)
             statements = self.statements(block.operations, "x{}".format, "const double ") if block else []
             entries = [f"double *restrict const {term} = out->{term};", *statements, *self._entries(term, numbers)]
-            lines += [f"if (want & {BITS[term]}) {{", *indented(entries), "}"]
+            lines += [f"if (want & {TERMS[term].symbol}) {{", *indented(entries), "}"]
         return lines
 
     def _entries(self, term: str, numbers: list[int]) -> list[str]:
@@ -204,7 +203,7 @@ class CWriter(Writer):
 
 
 def wanted(terms: frozenset[str]) -> str:
-    bits = [bit for term, bit in BITS.items() if term in terms]
+    bits = [term.symbol for name, term in TERMS.items() if name in terms]
     return bits[0] if len(bits) == 1 else f"({' | '.join(bits)})"
 
 

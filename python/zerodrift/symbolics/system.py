@@ -151,7 +151,7 @@ class _InPython:
         self._evaluate, self._values = _compiled(source), values
 
     def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
-        names = {name for name, (bit, _) in TERMS.items() if want & bit}
+        names = {name for name, term in TERMS.items() if want & term.bit}
         out = {name: arrays[name].reshape(-1) for name in names}
         self._evaluate(names, t, arrays["p"].tolist(), arrays["v"].tolist(), self._values, out)
 

@@ -12,27 +12,10 @@ from .._gateway import Variable
 
 
 class Terms:
-    """The terms of the equations of motion at one (t, p, v); what a system does not have is None.
-
-    Attributes
-    ----------
-    A : ndarray (nq, nv)
-        Kinematic matrix of (1); None: identity.
-    M : ndarray (nv, nv)
-        Mass matrix of (2).
-    d, f : ndarray (nv,)
-        Bias and applied forces of (2); None: zero.
-    Phi : ndarray (mh,)
-        Holonomic constraints (3).
-    C, Phi_t, xi : ndarray (m, nv), (m,), (m,)
-        Constraint matrix, time derivative of Phi at fixed p, and right side of (5) and (6).
-    V : ndarray ()
-        Potential energy in J.
-    power : ndarray ()
-        Energy input rate of (28) in W.
-    D, gamma : ndarray (nv, r), (nv,)
-        Complement of C, and what vdot has besides ``D @ udot``, (14) and (15); None: found from C.
-    """
+    __doc__ = "\n".join([
+        "The terms of the equations of motion at one (t, p, v); what a system does not have is None.", "",
+        "Attributes", "----------",
+        *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in _gateway.TERMS.items())])
 
     __slots__ = tuple(_gateway.TERMS)
 

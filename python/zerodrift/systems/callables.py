@@ -15,7 +15,7 @@ from .._gateway import TERMS, Variable
 from . import jets as _jets
 from .base import BaseSystem, with_units
 
-BIT = {name: bit for name, (bit, _) in TERMS.items()}
+BIT = {name: term.bit for name, term in TERMS.items()}
 
 
 class System(BaseSystem):

@@ -15,7 +15,7 @@ from ..errors import ZerodriftError
 from .base import BaseSystem, with_units
 from .builtin import SystemOfKind
 
-BIT = namedtuple("Bits", TERMS)(*(bit for bit, _ in TERMS.values()))
+BIT = namedtuple("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
 SLOT = namedtuple("Slots", TERMS)(*range(len(TERMS)))
 SLOT.__class__.__doc__ = "Where the pointer to a term is: ``out[SLOT.M]``."

@@ -1,0 +1,12 @@
+/* The terms of a system, whichever they are. */
+#ifndef ZD_TERMS_H
+#define ZD_TERMS_H
+
+#include "../zerodrift.h"
+
+static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
+
+double **zd_term_in(zd_terms *terms, int row);      /* the member that a row of the list of terms is about */
+const char *zd_term_name(int term);                 /* of the term with this bit */
+
+#endif
