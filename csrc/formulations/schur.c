@@ -62,6 +62,8 @@ ZD_INLINE double orthogonalize(const int n, const int m, int k, const int again,
     return zd_metric_dot(n, self->L, q, q);
 }
 
+static int is_left_of(double rest, double square) { return rest > LEAST * LEAST * square && rest < INFINITY; }
+
 /* Returns m, or the row of which only rounding is left when those before it are taken out. */
 ZD_INLINE int factor_all(const int n, const int m, const schur *self)
 {
@@ -71,13 +73,52 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
         zd_forward(n, self->L, C + k * n, q);
         double square = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
         if (rest < 0.01 * square) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
-        if (!(rest > LEAST * LEAST * square) || !(rest < INFINITY)) return k;
+        if (!is_left_of(rest, square)) return k;
         g[k] = 1 / rest;
     }
     return m;
 }
 
-ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(factor_all, n, self->m, self); }
+/* Takes what they have along row k out of the rows behind it; how much that was goes to column k of G. */
+static void take_out(const schur *self, int k)
+{
+    const int n = self->n, m = self->m;
+    const double *q = self->Q + k * n, inverse = self->G[k * m + k];
+    double *weighted = self->correction, dots[4];   /* D^-1 q */
+    for (int i = 0; i < n; i++) weighted[i] = self->L[i * n + i] * q[i];
+    for (int i = k + 1, rows; i < m; i += rows) {
+        rows = i + 4 <= m ? 4 : 1;
+        if (rows == 4) zd_four_dots(n, self->Q + i * n, n, weighted, dots);
+        else dots[0] = zd_dot(n, weighted, self->Q + i * n);
+        for (int r = i; r < i + rows; r++) {
+            double along = self->G[r * m + k] = inverse * dots[r - i];
+            zd_add_scaled(n, self->Q + r * n, -along, q);
+        }
+    }
+}
+
+/* The same of large systems, to the same bits: four rows at a time, each of which is ahead of what is taken out of it. */
+static int factor_many(const schur *self)
+{
+    const int n = self->n, m = self->m;
+    double *square = self->b;
+    zd_forward_rows(n, m, self->L, self->C, self->Q);
+    for (int k = 0; k < m; k++) square[k] = zd_metric_dot(n, self->L, self->Q + k * n, self->Q + k * n);
+    for (int k = 0; k < m; k++) {
+        double *q = self->Q + k * n, rest = k ? zd_metric_dot(n, self->L, q, q) : square[k];
+        if (rest < 0.01 * square[k]) rest = orthogonalize(n, m, k, 1, self, q, self->G + k * m);
+        if (!is_left_of(rest, square[k])) return k;
+        self->G[k * m + k] = 1 / rest;
+        take_out(self, k);
+    }
+    return m;
+}
+
+ZD_INLINE int factor_rows(const int n, const schur *self)
+{
+    if (n > ZD_UNROLLED) return factor_many(self);
+    return ZD_ROWS(factor_all, n, self->m, self);
+}
 
 static int factor(void *memory, zd_point *point)
 {

@@ -14,6 +14,8 @@
 #define ZD_INLINE static inline
 #endif
 
+enum { ZD_UNROLLED = 6 };       /* the largest n of ZD_SIZED */
+
 /* kernel(n, ...) with n known to the compiler where it is small */
 #define ZD_SIZED(kernel, n, ...)                  \
     ((n) == 3   ? kernel(3, __VA_ARGS__)          \
@@ -76,25 +78,69 @@ ZD_INLINE double zd_power_below(double x)
     return x;
 }
 
+/* sums[r] <- sums[r] - a_r b for four rows a_r, `stride` apart: a sum waits for each of its terms, and four need not wait for each other */
+ZD_INLINE void zd_subtract_four_dots(const int n, const double *a, const int stride, const double *b, double *sums)
+{
+    double s0 = sums[0], s1 = sums[1], s2 = sums[2], s3 = sums[3];
+    const double *a1 = a + stride, *a2 = a1 + stride, *a3 = a2 + stride;
+    for (int i = 0; i < n; i++) {
+        const double x = b[i];
+        s0 -= a[i] * x;
+        s1 -= a1[i] * x;
+        s2 -= a2[i] * x;
+        s3 -= a3[i] * x;
+    }
+    sums[0] = s0, sums[1] = s1, sums[2] = s2, sums[3] = s3;
+}
+
+/* dots[r] <- a_r b likewise */
+ZD_INLINE void zd_four_dots(const int n, const double *a, const int stride, const double *b, double *dots)
+{
+    const double *a1 = a + stride, *a2 = a1 + stride, *a3 = a2 + stride;
+    double s0 = a[0] * b[0], s1 = a1[0] * b[0], s2 = a2[0] * b[0], s3 = a3[0] * b[0];
+    for (int i = 1; i < n; i++) {
+        const double x = b[i];
+        s0 += a[i] * x;
+        s1 += a1[i] * x;
+        s2 += a2[i] * x;
+        s3 += a3[i] * x;
+    }
+    dots[0] = s0, dots[1] = s1, dots[2] = s2, dots[3] = s3;
+}
+
+/* Row i of the factors below from column `begin` on, those before it being known; returns whether its pivot is positive. */
+ZD_INLINE int zd_cholesky_row(const int n, int i, int begin, const double *M, double *L)
+{
+    double diagonal = M[i * n + i], pivot = diagonal;
+    for (int j = begin; j < i; j++) {
+        double sum = M[i * n + j];
+        for (int k = 0; k < j; k++) sum -= L[i * n + k] * L[j * n + k];
+        L[i * n + j] = sum;                 /* of L D, for now */
+    }
+    for (int j = 0; j < i; j++) {
+        double scaled = L[i * n + j];
+        L[i * n + j] *= L[j * n + j];
+        pivot -= L[i * n + j] * scaled;
+    }
+    if (!(pivot > n * 0x1p-52 * diagonal) || !(pivot < INFINITY)) return 0;
+    L[i * n + i] = 1 / pivot;
+    return 1;
+}
+
 /* Cholesky's factors without square roots, M = L D L^T, in one matrix (n, n): L below its diagonal of ones, and D, in reciprocals,
  * in place of these. A root and a division wait for each other at every pivot; here there is one division. M may be L. Returns n,
  * or the index at which M is found not positive definite to working precision. */
 ZD_INLINE int zd_cholesky(const int n, const double *M, double *L)
 {
-    for (int i = 0; i < n; i++) {
-        double diagonal = M[i * n + i], pivot = diagonal;
-        for (int j = 0; j < i; j++) {
-            double sum = M[i * n + j];
-            for (int k = 0; k < j; k++) sum -= L[i * n + k] * L[j * n + k];
-            L[i * n + j] = sum;             /* of L D, for now */
+    for (int i = 0, begin = 0; i < n; i++) {
+        if (n > ZD_UNROLLED && i % 4 == 0) begin = i + 4 <= n ? i : 0;
+        for (int j = 0; n > ZD_UNROLLED && i == begin && j < begin; j++) {    /* what four rows have before these */
+            double sums[4];
+            for (int r = 0; r < 4; r++) sums[r] = M[(i + r) * n + j];
+            zd_subtract_four_dots(j, L + i * n, n, L + j * n, sums);
+            for (int r = 0; r < 4; r++) L[(i + r) * n + j] = sums[r];
         }
-        for (int j = 0; j < i; j++) {
-            double scaled = L[i * n + j];
-            L[i * n + j] *= L[j * n + j];
-            pivot -= L[i * n + j] * scaled;
-        }
-        if (!(pivot > n * 0x1p-52 * diagonal) || !(pivot < INFINITY)) return i;
-        L[i * n + i] = 1 / pivot;
+        if (!zd_cholesky_row(n, i, begin, M, L)) return i;
     }
     return n;
 }
@@ -107,6 +153,20 @@ ZD_INLINE void zd_forward(const int n, const double *L, const double *b, double 
         for (int k = 0; k < i; k++) sum -= L[i * n + k] * x[k];
         x[i] = sum;
     }
+}
+
+/* The same for `count` rows of B and X (count, n) */
+ZD_INLINE void zd_forward_rows(const int n, int count, const double *L, const double *B, double *X)
+{
+    int k = 0;
+    for (; n > ZD_UNROLLED && k + 4 <= count; k += 4)
+        for (int i = 0; i < n; i++) {
+            double sums[4];
+            for (int r = 0; r < 4; r++) sums[r] = B[(k + r) * n + i];
+            zd_subtract_four_dots(i, X + k * n, n, L + i * n, sums);
+            for (int r = 0; r < 4; r++) X[(k + r) * n + i] = sums[r];
+        }
+    for (; k < count; k++) zd_forward(n, L, B + k * n, X + k * n);
 }
 
 /* x <- L^-T D^-1 b; x may be b */
