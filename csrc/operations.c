@@ -23,6 +23,7 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
 {
     zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
     int status = zd_check_method(system, &settings, message, message_size);
+    if (!status) status = zd_check_quaternions(system, p, 0, message, message_size);
     if (status) return status;
     zd_run *run = zd_run_open(system, &settings, t, p, v, &status, message, message_size);
     if (!run) return status;
@@ -58,6 +59,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
     zd_held held;
     int status = zd_check_method(system, settings, message, message_size);
+    if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
     if (!status && settings->projection.positions) {
         stage.projection.velocities = 0;
         zd_system holding = hold_p ? zd_hold_positions(&held, system, hold_p, p) : *system;     /* (25a) has all rows of C */
@@ -75,6 +77,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
 {
     int status = zd_check_method(system, settings, message, message_size);
+    if (!status) status = zd_check_quaternions(system, p, 0, message, message_size);
     if (status) return status;
     zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
     if (!run) return status;

@@ -16,6 +16,7 @@
 #include "../linalg/newton.h"
 #include "../linalg/small.h"
 #include "../motion/motion.h"
+#include "../point/quaternions.h"
 #include "../point/units.h"
 
 /* The first iteration has to reduce the violation to this share. By Kantorovich's theorem there is then one solution near its start. */
@@ -113,6 +114,7 @@ static int improve_position(void *context)
     if (status) return status;
     zd_point_rate(point, self->x, self->p);
     ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
+    zd_quaternions_normalise(system, self->p);
     zd_point_move(point, point->t, self->p, point->v);
     return ZD_DONE;
 }
@@ -137,6 +139,7 @@ static int retreat(void *context)
         self->change[i] *= 0.5;
         self->p[i] = self->from[i] + self->change[i];
     }
+    zd_quaternions_normalise(point->system, self->p);
     zd_point_move(point, point->t, self->p, point->v);
     return ZD_DONE;
 }

@@ -3,7 +3,7 @@
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be the identity. It starts from where the velocity of the point before leads, whose branch it stays on.
+ * so that A need not be the identity. Where there are unit quaternions, increments take the place of entries: increments.c. It starts from where the velocity of the point before leads, whose branch it stays on.
  */
 #include "embedding.h"
 
@@ -14,6 +14,7 @@
 #include "../linalg/lu.h"
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
+#include "../point/quaternions.h"
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
@@ -29,8 +30,9 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
         .nv = (int)nv,
         .mh = (int)mh,
         .k = (int)k,
-        .embed = system->embed,
+        .embed = system->quaternions ? NULL : system->embed,
         .index = zd_take(arena, k * sizeof(int)),
+        .increments = zd_increments_take(arena, system),
         .order = zd_take(arena, (mh + nq) * sizeof(int)),
         .K = zd_take_doubles(arena, nv * nv),
         .pivots = zd_take(arena, nv * sizeof(int)),
@@ -43,6 +45,44 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 static double kinematic(const zd_point *point, int i, int j)
 {
     return point->terms.A ? point->terms.A[i * point->system->nv + j] : i == j;
+}
+
+/* ---- q ---- */
+
+static int has_increments(const zd_embedding *self) { return self->increments.nq > 0; }
+
+void zd_embedding_coordinates(const zd_embedding *self, const zd_point *point, double *q)
+{
+    for (int k = 0; k < self->k; k++)
+        q[k] = has_increments(self) ? zd_increments_value(&self->increments, point, point->p, self->index[k]) : point->p[self->index[k]];
+}
+
+void zd_embedding_rates(const zd_embedding *self, const double *pdot, double *qdot)
+{
+    for (int k = 0; k < self->k; k++)
+        qdot[k] = has_increments(self) ? zd_increments_rate(&self->increments, pdot, self->index[k]) : pdot[self->index[k]];
+}
+
+/* row (nv,) of A_q: qdot_k = row . v */
+static void fill_row(const zd_embedding *self, const zd_point *point, int k, double *row)
+{
+    if (has_increments(self)) zd_increments_row(&self->increments, point, self->index[k], row);
+    else
+        for (int j = 0; j < self->nv; j++) row[j] = kinematic(point, self->index[k], j);
+}
+
+/* 1 / the natural size of q_k */
+static double inverse_unit(const zd_embedding *self, const zd_point *point, int k)
+{
+    return has_increments(self) ? point->inverse_unit[self->index[k]] : point->inverse_unit_p[self->index[k]];
+}
+
+/* By how much q_k is off at the point: an entry of p by nothing or too much, an increment in units of its rounding. */
+static double mismatch(const zd_embedding *self, const zd_point *point, const double *q, int k)
+{
+    const int i = self->index[k];
+    if (!has_increments(self)) return point->p[i] == q[k] ? 0 : 2;
+    return fabs(zd_increments_value(&self->increments, point, point->p, i) - q[k]) / self->increments.rounding[i];
 }
 
 /* C and A at the point, where as many rows of C_H have to count as q was made for. */
@@ -67,8 +107,7 @@ static int factor(zd_embedding *self, zd_point *point)
         for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]) * point->unit[j];
         gradient = fmax(gradient, sum * point->inverse_size[zd_rank_row(point, k)]);
     }
-    for (int k = 0; k < self->k; k++)
-        for (int j = 0; j < nv; j++) self->K[(self->mh + k) * nv + j] = kinematic(point, self->index[k], j);
+    for (int k = 0; k < self->k; k++) fill_row(self, point, k, self->K + (self->mh + k) * nv);
     self->rounding = 16 * 0x1p-52 * gradient * fmax(1, zd_max_scaled(self->nq, point->p, point->inverse_unit_p));
     point->failed_index = zd_lu_factor(nv, self->K, self->pivots);
     return point->failed_index < nv ? ZD_SINGULAR : ZD_DONE;
@@ -103,8 +142,7 @@ static int residual(void *context, double *size)
     if (status) return status;
     double Phi = it->self->mh ? zd_point_violation(point) : 0;
     *size = Phi > 0 ? Phi / resolution : 0;
-    for (int k = 0; k < it->self->k; k++)
-        if (point->p[it->self->index[k]] != it->q[k]) *size = fmax(*size, 2);
+    for (int k = 0; k < it->self->k; k++) *size = fmax(*size, mismatch(it->self, point, it->q, k));
     return ZD_DONE;
 }
 
@@ -116,11 +154,13 @@ static int improve(void *context)
     int status = factor(self, point);
     if (status) return status;
     for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
-    for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - point->p[self->index[k]];
+    zd_embedding_coordinates(self, point, self->delta + self->mh);
+    for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - self->delta[self->mh + k];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
     zd_point_rate(point, self->delta, self->p);
     for (int i = 0; i < self->nq; i++) self->p[i] += point->p[i];
-    for (int k = 0; k < self->k; k++) self->p[self->index[k]] = it->q[k];
+    for (int k = 0; k < self->k && !has_increments(self); k++) self->p[self->index[k]] = it->q[k];
+    zd_quaternions_normalise(point->system, self->p);
     zd_point_move(point, point->t, self->p, point->v);
     return ZD_DONE;
 }
@@ -131,6 +171,7 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     problem it = {self, point, q};
     int iterations;
     double left;
+    zd_quaternions_normalise(point->system, self->p);
     zd_point_move(point, t, self->p, point->v);
     int status = zd_newton_solve(&newton, &it, &iterations, &left);
     point->statistics->embedding_iterations += iterations;
@@ -185,9 +226,22 @@ static double response(zd_embedding *self, const zd_point *point)
         memset(self->delta, 0, (size_t)self->nv * sizeof(double));
         self->delta[self->mh + k] = 1;
         zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
-        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->inverse_unit) / point->inverse_unit_p[self->index[k]]);
+        largest = fmax(largest, zd_max_scaled(self->nv, self->delta, point->inverse_unit) / inverse_unit(self, point, k));
     }
     return largest;
+}
+
+/* Velocities that C_H leaves independent, by pivoting in natural units: their increments are q. */
+static int choose_increments(zd_embedding *self, zd_point *point)
+{
+    int nv = self->nv, mh = self->mh;
+    for (int i = 0; i < mh; i++)
+        for (int j = 0; j < nv; j++)
+            self->work[i * nv + j] = point->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
+    point->failed_index = zd_choose_columns(mh, nv, 0, self->work, self->order);
+    if (point->failed_index < mh) return ZD_DEPENDENT_ROWS;
+    for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k];
+    return ZD_DONE;
 }
 
 /* Rows of A that complete those of C_H, by pivoting in natural units. */
@@ -204,23 +258,40 @@ static int choose(zd_embedding *self, zd_point *point)
     return ZD_DONE;
 }
 
-int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
+static int choose_anew(zd_embedding *self, zd_point *point, int *changed)
 {
     const zd_system *system = point->system;
-    *changed = 0;
-    int status = self->chosen && self->embed && self->mh ? factor(self, point) : ZD_DONE;
-    if (status && status != ZD_SINGULAR) return status;
-    if (self->chosen && self->embed && self->mh && (status || point->rank->was_ill_conditioned || !(response(self, point) <= MOST_RESPONSE)))
-        give_up_own(self);
-    if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
-    status = need_rows(self, point);
+    int status = need_rows(self, point);
     if (status) return status;
     if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
-    else status = choose(self, point);
+    else status = has_increments(self) ? choose_increments(self, point) : choose(self, point);
     if (!status) status = factor(self, point);
     if (status) return status;
     if (self->chosen) point->statistics->repartitions++;
     self->reference = response(self, point);
     self->chosen = *changed = 1;
     return ZD_DONE;
+}
+
+/* Increments begin anew in any case. */
+static int review_increments(zd_embedding *self, zd_point *point, int *changed)
+{
+    int status = zd_increments_begin(&self->increments, point);
+    if (status) return status;
+    if (self->chosen && self->mh) status = factor(self, point);
+    if (status && status != ZD_SINGULAR) return status;
+    int serves = self->chosen && !status && (!self->mh || response(self, point) <= WORSE * self->reference);
+    return serves ? ZD_DONE : choose_anew(self, point, changed);
+}
+
+int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
+{
+    *changed = 0;
+    if (has_increments(self)) return review_increments(self, point, changed);
+    int status = self->chosen && self->embed && self->mh ? factor(self, point) : ZD_DONE;
+    if (status && status != ZD_SINGULAR) return status;
+    if (self->chosen && self->embed && self->mh && (status || point->rank->was_ill_conditioned || !(response(self, point) <= MOST_RESPONSE)))
+        give_up_own(self);
+    if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
+    return choose_anew(self, point, changed);
 }

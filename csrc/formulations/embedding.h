@@ -2,7 +2,7 @@
 #ifndef ZD_EMBEDDING_H
 #define ZD_EMBEDDING_H
 
-#include "../point/point.h"
+#include "increments.h"
 
 typedef struct zd_embedding {
     int nq, nv, mh, k;      /* mh: holonomic rows that count */
@@ -10,9 +10,10 @@ typedef struct zd_embedding {
     int chosen;             /* whether q has been */
     double reference;       /* how well q was conditioned when it was */
     double rounding;        /* of Phi */
-    int *index;             /* (k,): which entries of p are q */
+    int *index;             /* (k,): which entries of p are q, or which increments */
+    zd_increments increments;   /* where there are unit quaternions */
     int *order;             /* (mh + nq,) */
-    double *K;              /* (nv, nv): [C_H; A_q], factored */
+    double *K;              /* (nv, nv): [C_H; A_q], factored, where A_q gives qdot of v */
     int *pivots;            /* (nv,) */
     double *work;           /* (nv, mh + nq) */
     double *delta;          /* (nv,) */
@@ -20,6 +21,9 @@ typedef struct zd_embedding {
 } zd_embedding;
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system);
+/* q (k,) where the point is, and its rate where p has that. */
+void zd_embedding_coordinates(const zd_embedding *self, const zd_point *point, double *q);
+void zd_embedding_rates(const zd_embedding *self, const double *pdot, double *qdot);
 /* Moves the point to p = g(q) at time t, starting from where it is. */
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q);
 /* Chooses q anew where the present choice is badly conditioned at the point; *changed tells. */

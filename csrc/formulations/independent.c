@@ -1,7 +1,8 @@
 /* (19) and (22): independent coordinates q and independent velocities. Nothing can be violated.
  * Near a bifurcation, where q and u lose digits, a run integrates (p, v) instead: stepping/variables.c.
  *
- * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22).
+ * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22). With unit
+ * quaternions, q are increments about where the step begins, and the velocities are their rates there.
  */
 #include "embedding.h"
 #include "formulation.h"
@@ -13,8 +14,8 @@ typedef struct independent {
     double *pdot;               /* (nq,) */
 } independent;
 
-/* p = g(q) leaves out what ties surplus coordinates. */
-static int suits(const zd_system *system) { return system->nq == system->nv; }
+/* What ties surplus coordinates has to be known: a unit quaternion has one too many. */
+static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions; }
 
 static void *take(zd_arena *arena, const zd_system *system)
 {
@@ -46,11 +47,11 @@ static int leave(void *memory, zd_point *point, double *y)
     if (!suits(point->system)) return ZD_UNSUITED;
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
-    if (changed && !point->system->mn && !point->terms.A) {     /* (19): u is qdot */
+    if (changed && !point->system->mn && (!point->terms.A || point->system->quaternions)) {     /* (19): u is qdot */
         zd_complement_prefer(&self->minimal.complement, embedding->index);
         point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);
     }
-    for (int k = 0; k < embedding->k; k++) y[k] = point->p[embedding->index[k]];
+    zd_embedding_coordinates(embedding, point, y);
     return zd_minimal_leave(&self->minimal, point, y + embedding->k);
 }
 
@@ -61,7 +62,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->pdot);
-    for (int k = 0; k < embedding->k; k++) ydot[k] = self->pdot[embedding->index[k]];      /* (21) */
+    zd_embedding_rates(embedding, self->pdot, ydot);                                       /* (21) */
     return zd_complement_rate(&self->minimal.complement, point, ydot + embedding->k);      /* (19), (22) */
 }
 

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../point/quaternions.h"
 #include "../registry.h"
 #include "interface.h"
 
@@ -127,6 +128,17 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!wrong) wrong = wrong_events(settings->events);
     snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
     return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
+}
+
+int zd_check_quaternions(const zd_system *system, const double *p, int any_length, char *message, int size)
+{
+    double length;
+    int wrong = zd_quaternions_wrong_length(system, p, any_length, &length);
+    if (wrong < 0) return ZD_DONE;
+    const int first = system->quaternion[wrong];
+    snprintf(message, (size_t)size, "p[%d] to p[%d] are a quaternion of length %.7g, and %s", first, first + 3, length,
+             any_length ? "no rotation has that" : "that of a rotation is 1 (to 1e-06): divide it by its length");
+    return ZD_BAD_START;
 }
 
 int zd_check_run(const zd_system *system, const zd_settings *settings, char *message, int size)

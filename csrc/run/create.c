@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "../constraints/redundancy.h"
+#include "../point/quaternions.h"
 #include "../point/units.h"
 #include "../registry.h"
 #include "../stepping/adaptive.h"
@@ -80,6 +81,7 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         if (!run) return NULL;
         run->stepper.t = t;
         zd_point_move(run->motion.point, t, p, v);
+        zd_point_normalise(run->motion.point);
         *status = zd_point_measure(run->motion.point);
         if (!*status) *status = zd_redundancy_find(run->motion.point, settings->on_singular);
         const zd_rank *rank = run->motion.point->rank;
@@ -108,6 +110,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
                       int *status, char *message, int message_size)
 {
     *status = zd_check_run(system, settings, message, message_size);
+    if (!*status) *status = zd_check_quaternions(system, p0, 0, message, message_size);
     if (*status) return NULL;
     zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, status, message, message_size);
     if (!run) return NULL;

@@ -94,6 +94,14 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
              digits, b);
 }
 
+static void describe_surplus(const zd_system *system, const char *formulation, char *to, size_t size)
+{
+    char quaternions[96] = "";
+    if (system->quaternions) snprintf(quaternions, sizeof quaternions, ", besides one for each of %d unit quaternions", system->quaternions);
+    snprintf(to, size, "'%s' needs as many coordinates as velocities%s, and there are %d and %d", formulation, quaternions, system->nq,
+             system->nv);
+}
+
 /* What the method cannot do with this system, or with the error asked for; returns whether it was that. */
 static int describe_method(const zd_run *run, int status, char *to, size_t size)
 {
@@ -104,7 +112,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         snprintf(to, size, "the equations of the implicit '%s' step were not solved; try a smaller step", integrator);
         break;
     case ZD_UNSUITED:
-        snprintf(to, size, "'%s' needs as many coordinates as velocities, and there are %d and %d", formulation, system->nq, system->nv);
+        describe_surplus(system, formulation, to, size);
         break;
     case ZD_UNSUITED_INTEGRATOR:
         snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,

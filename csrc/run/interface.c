@@ -177,10 +177,31 @@ static int check_switched_groups(const zd_system *system, text message)
     return ZD_DONE;
 }
 
+static int check_quaternions(const zd_system *system, text message)
+{
+    int end = 0;
+    if (system->quaternions < 0 || system->quaternions > system->nq / 4 || (system->quaternions && !system->quaternion))
+        return refuse(message, "quaternions: there are %d, and may be %d, each with where it begins", system->quaternions, system->nq / 4);
+    if (system->quaternions && !(system->provides & ZD_A))
+        return refuse(message, "quaternions: their rates are no velocities, and so there is a kinematic matrix");
+    for (int k = 0; k < system->quaternions; k++) {
+        const int first = system->quaternion[k];
+        if (first < end || first > system->nq - 4)
+            return refuse(message, "quaternions: quaternion %d begins at p[%d]; it has four of the %d coordinates, behind those of the one before",
+                          k, first, system->nq);
+        end = first + 4;
+        for (int i = first; i < end; i++)
+            if (system->lengths && system->lengths[i])
+                return refuse(message, "quaternions: p[%d] is in quaternion %d, and said to be a length", i, k);
+    }
+    return ZD_DONE;
+}
+
 int zd_check_interface(const zd_system *system, char *message, int size)
 {
     static int (*const checks[])(const zd_system *, text) = {
         check_structure, check_operations, check_direct, check_measures, check_series, check_residuals, check_inputs, check_switched_groups,
+        check_quaternions,
     };
     int status = ZD_DONE;
     for (size_t i = 0; i < sizeof checks / sizeof checks[0] && !status; i++) status = checks[i](system, (text){message, size});

@@ -9,6 +9,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/quaternions.h"
 #include "../point/units.h"
 #include "../registry.h"
 #include "../stepping/adaptive.h"
@@ -119,6 +120,20 @@ static int check_mass(zd_run *run, double *factor)
     return ZD_NOT_DEFINITE;
 }
 
+/* Refuses kinematics that change the length of a unit quaternion: it would be brought back at every step, and hide what is wrong. */
+static int check_quaternions(zd_run *run)
+{
+    zd_point *point = run->motion.point;
+    int velocity, status = point->system->quaternions ? zd_point_need(point, ZD_A) : ZD_DONE;
+    int wrong = status ? -1 : zd_quaternions_not_kept(point, &velocity);
+    if (wrong < 0) return status;
+    const int first = point->system->quaternion[wrong];
+    snprintf(run->outcome.message, sizeof run->outcome.message,
+             "p[%d] to p[%d] are a unit quaternion, and the kinematic matrix changes its length: velocity %d moves it along itself", first,
+             first + 3, velocity);
+    return ZD_NOT_KEPT;
+}
+
 /* The first step, where steps are chosen. */
 static int choose_step(zd_run *run, double *states, const double *p0, const double *v0)
 {
@@ -132,6 +147,7 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     zd_motion *motion = &run->motion;
     int status = !zd_suits(&motion->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
                : zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+    if (!status) status = check_quaternions(run);
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);
     if (!status) status = zd_motion_accelerate(motion);

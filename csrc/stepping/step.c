@@ -6,6 +6,7 @@
 #include "../constraints/rank.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/quaternions.h"
 #include "../point/units.h"
 
 void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator,
@@ -68,6 +69,7 @@ int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
     motion->state = self->y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
+    if (!status) zd_point_normalise(motion->point);
     if (!status) status = zd_motion_correct(motion, step, forced);
     if (!status) status = formulation->leave(motion->solver, motion->point, self->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
@@ -94,6 +96,7 @@ int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *
     self->t = t;
     motion->state = self->y;
     zd_point_move(motion->point, t, p, v);
+    zd_point_normalise(motion->point);
     int status = zd_point_measure(motion->point);
     return status ? status : motion->formulation->leave(motion->solver, motion->point, self->y);
 }

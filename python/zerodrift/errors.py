@@ -34,7 +34,9 @@ class UnsuitedIntegrator(ZerodriftError, ValueError):
 
 
 class InconsistentSystem(ZerodriftError, ValueError):
-    """What a system says of itself does not fit together: the Jacobian it brings is not that of its constraints."""
+    """What a system says of itself does not fit together: the Jacobian it brings is not that of its constraints,
+    or its kinematic matrix changes the length of a unit quaternion.
+    """
 
 
 class SingularSystem(ZerodriftError, ArithmeticError):

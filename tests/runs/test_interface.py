@@ -87,6 +87,10 @@ def brought(kind, member, **changed):
     return lambda made: made.of(kind, {member: made.function(kind, member)} | changed)
 
 
+def quaternions(*first):
+    return {"provides": lib.ZD_A, "quaternions": len(first), "quaternion": listed("int", *first)}
+
+
 FITTING = {
     "structure": {},
     "structure without masses": {"structure": {"mass": None}},
@@ -99,6 +103,7 @@ FITTING = {
     "residuals": {"residuals": brought("zd_residuals", "derivative", scratch=5)},
     "inputs": {"inputs": 2, "input": inputs(0.0, 3.0)},
     "groups": {"groups": 2, "group": groups((0, 1), (2, 2))},
+    "quaternions": quaternions(2),
 }
 
 
@@ -161,6 +166,15 @@ def in_structure(**changed):
     ({"groups": 1, "group": groups((0, 1), name="")}, "group 0 has a name"),
     ({"groups": 1, "group": groups((2, 3))}, "lock has 3 rows from row 2 on; it has at least one of the 4"),
     ({"groups": 2, "group": groups((0, 2), (1, 1))}, "lock has 1 rows from row 1 on"),
+    ({"quaternions": 1}, "quaternions: there are 1, and may be 1, each with where it begins"),
+    ({"quaternions": -1}, "quaternions: there are -1"),
+    ({"quaternions": 2, "quaternion": listed("int", 0, 2)}, "quaternions: there are 2, and may be 1"),
+    ({"quaternions": 1, "quaternion": listed("int", 0)}, "quaternions: .*so there is a kinematic matrix"),
+    (quaternions(3), r"quaternion 0 begins at p\[3\]; it has four of the 6"),
+    (quaternions(-1), r"quaternion 0 begins at p\[-1\]"),
+    (quaternions(1, 4) | {"nq": 8, "structure": {"coordinates": [2, 2, 4]}},
+     r"quaternion 1 begins at p\[4\]; .*behind those of the one before"),
+    (quaternions(1) | {"lengths": listed("int", *[0] * 4, 1, *[0] * 7)}, r"p\[4\] is in quaternion 0, and said to be a length"),
 ], ids=lambda value: value if isinstance(value, str) else "")
 def test_what_is_malformed_is_refused(changed, sentence):
     refusal = Made(**changed).refusal

@@ -9,6 +9,7 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
 from reference_files import ROUND_OFF, definition, end, falls_at_order_four, number, table
+from rotating_bodies import about_a_point, held_at_a_point
 from support import assert_close
 
 # ---- knife edge ----
@@ -201,3 +202,23 @@ def test_a_row_of_four_bars_by_fixed_steps(method, step, allowed, formulation):
     assert error < allowed
     changed = sol.stats["repartitions"]
     assert 0 < changed < sol.stats["steps"] / 10 if formulation in ("mixed", "independent") else changed == 0
+
+
+# ---- heavy top ----
+
+
+@pytest.mark.parametrize("coordinates", ["held by constraints", "about its fixed point"])
+def test_heavy_top_with_unit_quaternions(coordinates, formulation):
+    given, reference = definition("heavy_top"), table("heavy_top")
+    held = coordinates == "held by constraints"
+    make = held_at_a_point if held else about_a_point
+    inertia, arm = (0.234375, 0.46875, 0.234375), given["params"]["X"]
+    top = make(given["params"]["m"], inertia, tuple(arm), tuple(given["initial"]["omega_body"]))
+    sol = zd.simulate(top, 2.0, step=1e-3, save_every=10, formulation=formulation, integrator="dop853")
+    places = np.stack([reference[name] for name in ("x", "y", "z", "e0", "e1", "e2", "e3")], axis=1)
+    rates = np.stack([reference[name] for name in ("vx", "vy", "vz", "w1", "w2", "w3")], axis=1)
+    assert_close(sol.t, reference["t"], 1e-12)
+    assert np.abs(sol.p - (places if held else places[:, 3:])).max() < 1e-10
+    assert np.abs(sol.v - (rates if held else rates[:, 3:])).max() < 1e-10
+    if held:
+        assert_close(sol.multipliers, np.stack([reference[f"lam{i}"] for i in (1, 2, 3)], axis=1), 1e-10)

@@ -57,7 +57,8 @@ enum zd_status {
     ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
     ZD_BIFURCATION_PASSED = -21,    /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
     ZD_TOO_MANY_STEPS = -22,  /* settings->max_steps were taken */
-    ZD_NOT_JACOBIAN = -23     /* C or Phi_t are not the derivatives of Phi */
+    ZD_NOT_JACOBIAN = -23,    /* C or Phi_t are not the derivatives of Phi */
+    ZD_NOT_KEPT = -24         /* A v changes the length of a unit quaternion */
 };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
@@ -238,7 +239,8 @@ typedef struct zd_system {
     const zd_group *group;          /* (groups,) at most 64 */
     const zd_residuals *residuals;
     int quaternions;
-    const int *quaternion;          /* (quaternions,) where unit quaternions (w, x, y, z) begin in p: they are kept at length 1 */
+    const int *quaternion;          /* (quaternions,) where unit quaternions (w, x, y, z) begin in p: they are kept at length 1, and A is such
+                                     * that it does not change by itself */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

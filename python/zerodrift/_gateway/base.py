@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,6 +22,7 @@ ERRORS = {
     lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
     lib.ZD_DEPENDENT_ROWS: errors.SingularSystem,
     lib.ZD_NOT_JACOBIAN: errors.InconsistentSystem,
+    lib.ZD_NOT_KEPT: errors.InconsistentSystem,
     lib.ZD_BIFURCATION: errors.Bifurcation,
     lib.ZD_BIFURCATION_PASSED: errors.Bifurcation,
     lib.ZD_CONTRADICTION: errors.SingularSystem,
@@ -77,6 +78,14 @@ DIMENSIONLESS = ("", "1", "rad", "deg")
 def lengths(variables: Iterable[Variable]) -> Any:
     """`zd_system.lengths`: which variables are lengths or their rates."""
     return ffi.new("int[]", [is_length(variable) for variable in variables])
+
+
+def set_quaternions(system: Any, places: Sequence[int]) -> Any:
+    """Says in a `zd_system` where unit quaternions begin in p; what it returns has to live as long as that."""
+    if not places:
+        return None
+    system.quaternions, system.quaternion = len(places), (memory := ffi.new("int[]", list(places)))
+    return memory
 
 
 def is_length(variable: Variable) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths
+from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths, set_quaternions
 from .systems import CoreSystem
 
 
@@ -130,11 +130,11 @@ class PythonCore(CoreSystem):
 
     ``write(want, t, arrays)`` fills the arrays of the terms whose bits are in `want`, from `arrays["p"]` and `arrays["v"]`;
     ``write.not_finite(name, t, value)`` is the error for a term that came out not finite. `timeless` says that no term depends
-    on t.
+    on t; unit quaternions begin in p at `quaternions`.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
-                 variables: Iterable[Variable], *, timeless: bool = False) -> None:
+                 variables: Iterable[Variable], *, timeless: bool = False, quaternions: Sequence[int] = ()) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
@@ -142,6 +142,7 @@ class PythonCore(CoreSystem):
             system.provides |= TERMS[name].bit
         system.evaluate = lib.zd_evaluate_in_python
         system.lengths = self._lengths = lengths(variables)
+        self._quaternions = set_quaternions(system, quaternions)
         super().__init__(system, None)
         self.write, self.evaluator = write, None
 

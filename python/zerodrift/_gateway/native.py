@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from .._core import ffi, lib
-from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, text
+from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
 from .systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION
@@ -23,11 +23,12 @@ class NativeCore(CoreSystem):
 
     Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; the function receives
     `data`, and memory for `scratch` doubles of its own. `keep` is whatever must live as long as the system. `timeless` says
-    that no term depends on t.
+    that no term depends on t; unit quaternions begin in p at `quaternions`.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None,
-                 variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None, timeless: bool = False) -> None:
+                 variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None, timeless: bool = False,
+                 quaternions: Sequence[int] = ()) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
@@ -38,7 +39,7 @@ class NativeCore(CoreSystem):
         memory = ffi.NULL if data is None else doubles(data, data.size)
         system.data = memory
         system.lengths = dimensions = lengths(variables)
-        super().__init__(system, (memory, dimensions, keep))
+        super().__init__(system, (memory, dimensions, set_quaternions(system, quaternions), keep))
 
     def with_data(self, data: np.ndarray) -> NativeCore:
         """The same system, whose function receives other data."""

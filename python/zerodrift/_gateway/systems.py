@@ -68,6 +68,7 @@ class CoreSystem:
         self.r = self.nv - self.m
         self.provides, self.timeless = system.provides & ~lib.ZD_TIMELESS, bool(system.provides & lib.ZD_TIMELESS)
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
+        self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
     error: BaseException | None = None      # what a system written in Python raised
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong

@@ -193,6 +193,16 @@ def _velocity_violation(terms: Terms, v: np.ndarray) -> np.ndarray:
     return terms.C @ v + (0.0 if terms.Phi_t is None else terms.Phi_t)
 
 
+def _quaternions(state: _State) -> Iterator[tuple[str, str]]:
+    for first in state.system.quaternions:
+        q, A = state.p[first:first + 4], state.terms.A[first:first + 4]
+        growth = A.T @ q
+        worst = int(np.abs(growth).argmax())
+        kept = abs(growth[worst]) <= AGREE * np.abs(A).max() * max(np.linalg.norm(q), 1e-300)
+        yield "length of quaternions", "" if kept else (
+            f"A v changes that of the quaternion p[{first}] to p[{first + 3}], by {growth[worst]:.6g} at unit velocity {worst}")
+
+
 def _complement(state: _State) -> Iterator[tuple[str, str]]:
     terms = state.terms
     if terms.D is None:
@@ -228,4 +238,4 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
         f"T + V changes at {rate:.6g} W, and {given + reaction:.6g} W come in")
 
 
-COMPARISONS = (_mass, _consistency, _jacobian, _xi, _complement, _power)
+COMPARISONS = (_mass, _consistency, _jacobian, _xi, _quaternions, _complement, _power)

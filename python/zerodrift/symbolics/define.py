@@ -26,7 +26,7 @@ _derived: dict[str, Code] = {}
 def symbolic(
     coordinates: Any, *, kinetic: Any = None, potential: Any = 0, force: Any = None, constraints: Any = (),
     nonholonomic: Any = (), speeds: Any = None, kinematics: Any = None, parameters: Mapping[Any, float] | None = None,
-    time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (),
+    time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), quaternions: Any = (),
     units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic", progress: bool = True,
 ) -> SymbolicSystem:
     """A system from expressions: its terms are derived, written as C, compiled and kept for the next time.
@@ -59,6 +59,8 @@ def symbolic(
         M and d of (2) themselves, instead of `kinetic`.
     points : sequence of (Expr, Expr) or (Expr, Expr, Expr)
         Points of a drawing, joined by lines.
+    quaternions : sequence of int, str or Symbol
+        As of `zerodrift.System`: where unit quaternions begin in p. They need `kinematics`.
     units : sequence of str
         As of `zerodrift.System`: the unit of each coordinate, and where there are `kinematics` of each velocity, too.
     p0, v0 : array_like (nq,), (nv,), optional
@@ -115,7 +117,7 @@ def symbolic(
     definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
                             {} if parameters is None else parameters, time, mass, bias, points)
     with Progress(name, progress) as say:
-        return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say)
+        return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say, definition.named(quaternions))
 
 
 def _code(definition: Definition, say: Progress) -> Code:

@@ -58,6 +58,11 @@ class Definition:
             if name in (*self.coordinate_names, *self.velocity_names, self.time.name):
                 raise ValueError(f"parameter {name} is a coordinate, a velocity or time")
 
+    def named(self, given: Any) -> Any:
+        """Coordinates among what is given by their names."""
+        listed = _listed("quaternions", given, "coordinates")
+        return [self.coordinate_names[self.coordinates.index(q)] if q in self.coordinates else q for q in listed]
+
     def _check_times(self) -> None:
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):

@@ -24,7 +24,8 @@ DEPENDENT = 1e-9    # of a row: what others leave of it where they span it, afte
 
 def from_mechanics(
     method: Any, *, potential: Any = None, parameters: Mapping[Any, float] | None = None, points: Sequence[Any] = (),
-    units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic", progress: bool = True,
+    quaternions: Sequence[Any] = (), units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic",
+    progress: bool = True,
 ) -> SymbolicSystem:
     """The system that SymPy's mechanics describes, with all of its coordinates and constraints.
 
@@ -37,7 +38,7 @@ def from_mechanics(
     potential : Expr, optional
         V in J, of forces that are among the loads already: then there are energies. Left out: of a LagrangesMethod, what its
         Lagrangian has without velocities; else there are none.
-    parameters, points, units, p0, v0, name, progress
+    parameters, points, quaternions, units, p0, v0, name, progress
         As for `symbolic`.
 
     Returns
@@ -69,7 +70,8 @@ def from_mechanics(
         described = _of_system(method, potential)
     else:
         raise TypeError(f"method must be a LagrangesMethod, a KanesMethod or a System of sympy.physics.mechanics, not {method!r}")
-    return symbolic(**described, parameters=parameters, points=points, units=units, p0=p0, v0=v0, name=name, progress=progress)
+    return symbolic(**described, parameters=parameters, points=points, quaternions=quaternions, units=units, p0=p0, v0=v0,
+                    name=name, progress=progress)
 
 
 # ---- Lagrange ----

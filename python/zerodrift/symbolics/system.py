@@ -15,7 +15,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning
-from ..systems.base import BaseSystem, with_units
+from ..systems.base import BaseSystem, quaternion_places, with_units
 from . import compiling
 
 
@@ -58,9 +58,12 @@ class SymbolicSystem(BaseSystem):
     """
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
-                 v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None) -> None:
+                 v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
+                 quaternions: Sequence[int | str] = ()) -> None:
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
-        self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides)
+        self._places = quaternion_places(quaternions, code.coordinates, "A" in code.provides)
+        self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
+                                                       self._places)
         self.constraints = tuple(Variable(row, "") for row in code.constraints)
         self._set_start(p0, v0)
         self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
@@ -74,7 +77,7 @@ class SymbolicSystem(BaseSystem):
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
         return _gateway.NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
-                                   scratch=code.scratch, keep=self._library, timeless=code.timeless)
+                                   scratch=code.scratch, keep=self._library, timeless=code.timeless, quaternions=self._places)
 
     def _data(self) -> np.ndarray:
         """What the compiled function receives: the parameters, and the constants that follow from them."""
@@ -87,7 +90,7 @@ class SymbolicSystem(BaseSystem):
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
         return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
-                                   timeless=code.timeless)
+                                   timeless=code.timeless, quaternions=self._places)
 
     @property
     def c_source(self) -> str:
@@ -138,7 +141,12 @@ class SymbolicSystem(BaseSystem):
                 f"{self.mn} nonholonomic constraints{how}>")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return SymbolicSystem, (self._code, self.parameters, self._units, self.p0, self.v0, self.name)
+        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places)
+
+
+def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str,
+              places: tuple[int, ...]) -> SymbolicSystem:
+    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places)
 
 
 # ---- without a compiler ----

@@ -13,7 +13,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from . import jets as _jets
-from .base import BaseSystem, with_units
+from .base import BaseSystem, quaternion_places, with_units
 
 BIT = {name: term.bit for name, term in TERMS.items()}
 
@@ -49,6 +49,10 @@ class System(BaseSystem):
         Right side of (6), ``C vdot = xi``. Left out: derived exactly from `constraints` and `nonholonomic`.
     kinematics : callable -> (nq, nv)
         A of (1), ``pdot = A v``. Left out: the identity.
+    quaternions : sequence of int or str
+        Where unit quaternions, scalar first, begin in p: index or name of the first coordinate of each. They are kept at length 1
+        after each step, and each is one coordinate more than there are velocities. They need `kinematics` that keep their length,
+        and no constraint that says so.
     potential : callable -> float
         V in J. Without it there are no energies.
     power : callable -> float
@@ -94,9 +98,9 @@ class System(BaseSystem):
 
     def __init__(
         self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
-        jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None, potential: Any = None,
-        power: Any = None, units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None, p0: Any = None,
-        v0: Any = None, name: str | None = None,
+        jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None,
+        quaternions: Sequence[int | str] = (), potential: Any = None, power: Any = None, units: Sequence[str] | None = None,
+        parameters: dict[str, Any] | None = None, p0: Any = None, v0: Any = None, name: str | None = None,
     ) -> None:
         parameters = {key: _parameter(key, value) for key, value in _check.parameters(parameters).items()}
         self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}
@@ -106,13 +110,14 @@ class System(BaseSystem):
         functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
             raise ValueError("jacobian is given without constraints")
-        sizes = _sizes(len(names), functions, self.p0)
+        places = quaternion_places(quaternions, names, kinematics is not None)
+        sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
         writer = _Writer(functions, *sizes)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
-        self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None)
+        self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None, places)
         timeless = not any("t" in function.state_arguments for function in functions.values())
         self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
-                                         timeless=timeless)
+                                         timeless=timeless, quaternions=places)
         self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
@@ -244,9 +249,16 @@ def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[
         raise TypeError(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}") from error
 
 
-def _sizes(nq: int, functions: dict[str, _Function], p0: np.ndarray | None) -> tuple[int, int, int, int]:
-    """(nq, nv, mh, mn), from what the callables return at the start."""
-    p = _check.frozen(np.zeros(nq)) if p0 is None else p0
+def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
+    """Coordinates to call with where there is no start: zero, and no rotation."""
+    p = np.zeros(nq)
+    p[list(quaternions)] = 1.0
+    return _check.frozen(p)
+
+
+def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, int, int]:
+    """(nq, nv, mh, mn), from what the callables return at p."""
+    nq = len(p)
 
     def shape(name: str, dimensions: int) -> tuple[int, ...]:
         if name not in functions:

@@ -1,0 +1,96 @@
+/* With unit quaternions no nv entries of p determine it everywhere. Instead, about the p0 where a step begins,
+ *
+ *     q = A(p0)^+ (p - p0),        A^+ A = I,
+ *
+ * which is linear in p: so qdot = A(p0)^+ A(p) v, with no rates of a rotation vector, and an integrator keeps its order. At p0, qdot = v.
+ * Of a rotation by the angle a from p0 it is 2 sin(a / 2) along the axis, and determines p up to half a turn in one step.
+ *
+ * A^+ is that of least squares in natural units. One natural unit is added to each increment: relative errors of chosen steps are then
+ * relative to that, as those of a p are, and not to the increment, which is zero where a step begins.
+ */
+#include "increments.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/small.h"
+
+static const double ROUNDING = 4 * 0x1p-52;
+
+zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
+{
+    if (!system->quaternions) return (zd_increments){.nq = 0};
+    size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
+    return (zd_increments){
+        .nq = (int)nq,
+        .nv = (int)nv,
+        .base = zd_take_doubles(arena, nq),
+        .inverse = zd_take_doubles(arena, nv * nq),
+        .gram = zd_take_doubles(arena, nv * nv),
+        .rounding = zd_take_doubles(arena, nv),
+    };
+}
+
+/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v */
+static void weigh(zd_increments *self, const zd_point *point)
+{
+    const int nq = self->nq, nv = self->nv;
+    for (int j = 0; j < nv; j++)
+        for (int i = 0; i < nq; i++)
+            self->inverse[j * nq + i] = point->inverse_unit_p[i] * point->terms.A[i * nv + j] * point->unit[j];
+    for (int j = 0; j < nv; j++)
+        for (int l = 0; l <= j; l++)
+            self->gram[j * nv + l] = self->gram[l * nv + j] = zd_dot(nq, self->inverse + j * nq, self->inverse + l * nq);
+}
+
+/* Column i of the inverse: gram^-1 times what stands there, with the units. `column` (nv,) */
+static void invert_column(zd_increments *self, const zd_point *point, int i, double *column)
+{
+    const int nq = self->nq, nv = self->nv;
+    for (int j = 0; j < nv; j++) column[j] = self->inverse[j * nq + i];
+    zd_forward(nv, self->gram, column, column);
+    zd_backward(nv, self->gram, column, column);
+    for (int j = 0; j < nv; j++) self->inverse[j * nq + i] = point->unit[j] * column[j] * point->inverse_unit_p[i];
+}
+
+static double row_rounding(const zd_increments *self, const zd_point *point, int j)
+{
+    double sum = point->unit[j];
+    for (int i = 0; i < self->nq; i++)
+        sum += fabs(self->inverse[j * self->nq + i]) * fmax(1 / point->inverse_unit_p[i], fabs(point->p[i]));
+    return ROUNDING * sum;
+}
+
+int zd_increments_begin(zd_increments *self, zd_point *point)
+{
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
+    memcpy(self->base, point->p, (size_t)self->nq * sizeof(double));
+    weigh(self, point);
+    point->failed_index = zd_cholesky(self->nv, self->gram, self->gram);
+    if (point->failed_index < self->nv) return ZD_SINGULAR;
+    for (int i = 0; i < self->nq; i++) invert_column(self, point, i, self->rounding);
+    for (int j = 0; j < self->nv; j++) self->rounding[j] = row_rounding(self, point, j);
+    return ZD_DONE;
+}
+
+double zd_increments_value(const zd_increments *self, const zd_point *point, const double *p, int j)
+{
+    const double *row = self->inverse + j * self->nq;
+    double sum = 0;
+    for (int i = 0; i < self->nq; i++) sum += row[i] * (p[i] - self->base[i]);
+    return point->unit[j] + sum;
+}
+
+double zd_increments_rate(const zd_increments *self, const double *pdot, int j)
+{
+    return zd_dot(self->nq, self->inverse + j * self->nq, pdot);
+}
+
+void zd_increments_row(const zd_increments *self, const zd_point *point, int j, double *row)
+{
+    const double *inverse = self->inverse + j * self->nq;
+    memset(row, 0, (size_t)self->nv * sizeof *row);
+    for (int i = 0; i < self->nq; i++)
+        for (int l = 0; l < self->nv; l++) row[l] += inverse[i] * point->terms.A[i * self->nv + l];
+}

@@ -1,0 +1,69 @@
+/* Unit quaternions. No row of C holds their length, as pdot = A v does not change it; but steps of finite size do, by their error. What
+ * is taken out is along the quaternion, where it means no rotation: so the order of a method stays.
+ *
+ * One that is off by rounding alone is left as it is. What was normalised is then not changed again, and a run that goes on from a saved
+ * state has the same bits as one that was not interrupted.
+ */
+#include "quaternions.h"
+
+#include <math.h>
+
+static const double ROUNDING = 4 * 0x1p-52;     /* of the squared length */
+static const double WRITTEN = 1e-6;     /* of the length of a start: numbers with seven digits are meant to be what they nearly are */
+static const double KEPT = 1e-9;        /* of the largest entry of a column of A */
+enum { ENTRIES = 4, TRIES = 4 };        /* the first is nearly always enough, the next are for what its rounding leaves */
+
+static double squared_length(const double *q)
+{
+    return (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
+}
+
+static int is_off(double squared)
+{
+    return fabs(squared - 1) > ROUNDING && squared > 0 && squared < INFINITY;
+}
+
+int zd_quaternions_bring_back(const zd_system *system, double *p)
+{
+    int changed = 0;
+    for (int k = 0; k < system->quaternions; k++) {
+        double *q = p + system->quaternion[k];
+        double squared = squared_length(q);
+        for (int i = 0; i < TRIES && is_off(squared); i++) {
+            double factor = 1 / sqrt(squared);
+            for (int j = 0; j < ENTRIES; j++) q[j] *= factor;
+            squared = squared_length(q);
+            changed = 1;
+        }
+    }
+    return changed;
+}
+
+int zd_quaternions_wrong_length(const zd_system *system, const double *p, int any_length, double *length)
+{
+    for (int k = 0; k < system->quaternions; k++) {
+        *length = sqrt(squared_length(p + system->quaternion[k]));
+        int wrong = any_length ? *length == 0 : fabs(*length - 1) > WRITTEN;
+        if (wrong) return k;
+    }
+    return -1;
+}
+
+int zd_quaternions_not_kept(const zd_point *point, int *velocity)
+{
+    const zd_system *system = point->system;
+    const int nv = system->nv;
+    for (int k = 0; k < system->quaternions; k++) {
+        const int first = system->quaternion[k];
+        for (int j = 0; j < nv; j++) {
+            double along = 0, largest = 0;
+            for (int i = first; i < first + ENTRIES; i++) {
+                along += point->p[i] * point->terms.A[i * nv + j];
+                largest = fmax(largest, fabs(point->terms.A[i * nv + j]));
+            }
+            *velocity = j;
+            if (fabs(along) > KEPT * largest) return k;
+        }
+    }
+    return -1;
+}
