@@ -8,6 +8,7 @@
 #include "run/arguments.h"
 #include "run/create.h"
 #include "run/explain.h"
+#include "systems/expanded.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
@@ -60,15 +61,18 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     zd_held held;
     int status = zd_check_method(system, settings, message, message_size);
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
-    if (!status && settings->projection.positions) {
+    if (status) return status;
+    /* A row that holds something belongs to no group of rows: where there are such, the structure is given up. */
+    zd_system plain = system->structure && (hold_p || hold_v) ? zd_expanded(system) : *system;
+    if (settings->projection.positions) {
         stage.projection.velocities = 0;
-        zd_system holding = hold_p ? zd_hold_positions(&held, system, hold_p, p) : *system;     /* (25a) has all rows of C */
+        zd_system holding = hold_p ? zd_hold_positions(&held, &plain, hold_p, p) : plain;     /* (25a) has all rows of C */
         status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
     }
     if (!status && settings->projection.velocities) {
         stage.projection.velocities = 1;
         stage.projection.positions = 0;
-        zd_system holding = zd_hold_velocities(&held, system, hold_v, v);
+        zd_system holding = zd_hold_velocities(&held, &plain, hold_v, v);
         status = project_stage(&holding, &stage, t, p, v, NULL, message, message_size);
     }
     return status;

@@ -27,6 +27,7 @@
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* of the iteration for the acceleration from rest */
 
@@ -66,12 +67,12 @@ zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
 static int add_ahead(zd_point *point, double s, double weight)
 {
     zd_limits *self = point->rank->limits;
-    int n = point->rank->n, m = point->rank->m;
+    const int m = point->rank->m;
     for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
     zd_point_move(point, self->t + (self->is_at_rest ? 0 : s), self->moved, self->v);
     int status = zd_point_need(point, ZD_C | ZD_XI);
     if (status) return status;
-    zd_add_scaled(m * n, self->Cdot, weight, point->terms.C);
+    zd_add_C(point, weight, self->Cdot);
     zd_add_scaled(m, self->xidot, weight, point->terms.xi);
     return ZD_DONE;
 }
@@ -135,7 +136,8 @@ static void set_rates(const zd_point *point)
         double *w = limits->w + row * n, *wdot = limits->wdot + row * n;
         memset(wdot, 0, (size_t)n * sizeof(double));
         if (row < self->mh) {
-            zd_copy(n, point->terms.C + row * n, w);
+            zd_row_of_C own = zd_point_row(point, row);
+            zd_row_expand(&own, n, w);
             zd_rank_scale(point, row, w);
             split(point, row, w, limits->T + row * m);
             for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, limits->Cdot + i, n);
@@ -235,16 +237,20 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
     const int n = self->n, rows = self->independent + wanted, size = n + rows;
     double *K = self->limits->K, *y = self->limits->y, largest = 0;
     memset(K, 0, (size_t)(size * size) * sizeof(double));
-    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(point->terms.M[i * n + i]) * point->unit[i] * point->unit[i]);
+    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(zd_entry_of_M(point, i, i)) * point->unit[i] * point->unit[i]);
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) K[i * size + j] = point->terms.M[i * n + j] * point->unit[i] * point->unit[j] / largest;
+        for (int j = 0; j < n; j++) K[i * size + j] = zd_entry_of_M(point, i, j) * point->unit[i] * point->unit[j] / largest;
         y[i] = force ? force[i] * point->unit[i] / largest : 0;
     }
     for (int a = 0; a < rows; a++) {
         int row = self->row[a];
-        for (int i = 0; i < n; i++)
-            K[(n + a) * size + i] = K[i * size + n + a] = a < self->independent
-                ? point->terms.C[row * n + i] * point->unit[i] * point->inverse_size[row] : self->limits->wdot[row * n + i];
+        zd_row_of_C own = zd_point_row(point, row);
+        if (a >= self->independent) own = (zd_row_of_C){self->limits->wdot + row * n, n, NULL};
+        for (int j = 0; j < own.count; j++) {
+            int i = zd_column(&own, j);
+            K[(n + a) * size + i] = K[i * size + n + a] =
+                a < self->independent ? own.x[j] * point->unit[i] * point->inverse_size[row] : own.x[j];
+        }
         y[n + a] = rhs[a] * point->inverse_size[row];
     }
     if (zd_lu_factor(size, K, self->limits->order) < size) return 0;
@@ -343,7 +349,10 @@ static double enforced(const zd_point *point, int j, int row, const double *limi
 {
     double *Psi = point->rank->lambda;
     int n = point->rank->n;
-    for (int k = 0; k < point->rank->m; k++) Psi[k] = zd_dot(n, point->terms.C + k * n, point->v) - rhs[k];
+    for (int k = 0; k < point->rank->m; k++) {
+        zd_row_of_C own = zd_point_row(point, k);
+        Psi[k] = zd_row_times(&own, point->v) - rhs[k];
+    }
     return zd_dot(n, limit, point->v) - violation(point, j, row, ZD_LIMIT_PSI, Psi);
 }
 

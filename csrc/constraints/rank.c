@@ -22,6 +22,7 @@
 
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 static const double LEAST_PIVOT = 0x1p-44;      /* of the diagonal of M: smaller pivots make M^-1 no metric */
 
@@ -56,16 +57,18 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
 /* ---- the choice of rows ---- */
 
 /* Q <- C, or C L^-T D^-1/2: then plain products are those of M^-1. */
-static void set_rows(zd_rank *self, const double *C, const double *L)
+static void set_rows(const zd_point *point, const double *L)
 {
+    zd_rank *self = point->rank;
     int n = self->n;
     for (int k = 0; k < self->m; k++) {
         double *q = self->Q + k * n;
-        if (L) zd_forward(n, L, C + k * n, q);
-        else zd_copy(n, C + k * n, q);
+        zd_row_of_C row = zd_point_row(point, k);
+        zd_row_expand(&row, n, q);
+        if (L) zd_forward(n, L, q, q);
         for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
         self->square[k] = self->square_left[k] = zd_dot(n, q, q);
-        double length = zd_dot(n, C + k * n, C + k * n);
+        double length = zd_dot(row.count, row.x, row.x);
         if (!(length > self->tolerance * self->start_square[k])) self->square_left[k] = 0;
     }
 }
@@ -101,10 +104,11 @@ static void take_out(zd_rank *self, int chosen, int rank)
     }
 }
 
-static int orthogonalize(zd_rank *self, const double *C, const double *L)
+static int orthogonalize(const zd_point *point, const double *L)
 {
+    zd_rank *self = point->rank;
     int rank = 0, chosen;
-    set_rows(self, C, L);
+    set_rows(point, L);
     while (rank < self->most_rows && rank < self->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
         take_out(self, chosen, rank);
         self->row[rank++] = chosen;
@@ -124,27 +128,29 @@ static void set_weights(zd_rank *self)
 }
 
 /* Whether M^-1 can serve as a metric: with a smaller pivot, rounding in that metric would be as large as the tolerance. */
-static int has_metric(zd_rank *self, const double *M)
+static int has_metric(const zd_point *point)
 {
+    zd_rank *self = point->rank;
     int n = self->n;
-    if (zd_cholesky(n, M, self->L) < n) return 0;
+    if (zd_cholesky(n, zd_dense_M(point, self->L), self->L) < n) return 0;
     for (int i = 0; i < n; i++)
-        if (!(1 > LEAST_PIVOT * M[i * n + i] * self->L[i * n + i])) return 0;
+        if (!(1 > LEAST_PIVOT * zd_entry_of_M(point, i, i) * self->L[i * n + i])) return 0;
     return 1;
 }
 
 /* The larger of the ranks in the two metrics. G has the products of all rows with those chosen. */
-static int rank_of(zd_rank *self, const double *C, const double *M)
+static int rank_of(const zd_point *point)
 {
-    int rank = orthogonalize(self, C, NULL);
+    zd_rank *self = point->rank;
+    int rank = orthogonalize(point, NULL);
     if (rank == self->m) return rank;
-    set_rows(self, C, NULL);
+    set_rows(point, NULL);
     set_weights(self);
-    if (!has_metric(self, M)) return orthogonalize(self, C, NULL);
-    set_rows(self, C, self->L);
+    if (!has_metric(point)) return orthogonalize(point, NULL);
+    set_rows(point, self->L);
     set_weights(self);
-    int other = orthogonalize(self, C, self->L);
-    return other < rank ? orthogonalize(self, C, NULL) : other;
+    int other = orthogonalize(point, self->L);
+    return other < rank ? orthogonalize(point, NULL) : other;
 }
 
 /* T, in the rows of G that do not count: T G_r = G_d, where G_r is triangular in the order of choice. */
@@ -191,7 +197,8 @@ static void use_chosen(zd_point *point, int rank)
     set_shares(self, rank);
     for (int a = 0; a < rank; a++) {
         self->row_at[a] = self->row[a];
-        zd_copy(n, point->terms.C + self->row[a] * n, self->C + a * n);
+        zd_row_of_C row = zd_point_row(point, self->row[a]);
+        zd_row_expand(&row, n, self->C + a * n);
     }
     self->independent = point->rows = rank;
     self->lost = 0;
@@ -204,7 +211,7 @@ void zd_rank_choose(zd_point *point, double tolerance)
 {
     zd_rank *self = point->rank;
     self->tolerance = tolerance;
-    int rank = rank_of(self, point->terms.C, point->terms.M);
+    int rank = rank_of(point);
     if (rank < self->m) use_chosen(point, rank);
     else zd_rank_use_all(point);
 }
@@ -223,7 +230,8 @@ void zd_rank_set_basis(const zd_point *point)
     memset(self->R, 0, (size_t)(m * m) * sizeof(double));
     for (int a = 0; a < self->independent; a++) {
         double *q = self->Q + a * n, *r = self->R + a * m;
-        zd_copy(n, point->terms.C + self->row[a] * n, q);
+        zd_row_of_C row = zd_point_row(point, self->row[a]);
+        zd_row_expand(&row, n, q);
         zd_rank_scale(point, self->row[a], q);
         for (int again = 0; again < 2; again++)
             for (int b = 0; b < a; b++) {

@@ -7,6 +7,7 @@
 
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 #include "rows.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
@@ -17,8 +18,11 @@ static const double NO_ROW = 0x1p-80;   /* of the largest row, squared: a row th
 static void measure(const zd_point *point)
 {
     const zd_rank *self = point->rank;
-    int n = self->n, m = self->m;
-    for (int k = 0; k < m; k++) self->start_square[k] = zd_dot(n, point->terms.C + k * n, point->terms.C + k * n);
+    int m = self->m;
+    for (int k = 0; k < m; k++) {
+        zd_row_of_C row = zd_point_row(point, k);
+        self->start_square[k] = zd_dot(row.count, row.x, row.x);
+    }
     double largest = zd_max_abs(m, self->start_square);
     for (int k = 0; k < m; k++)
         if (!(self->start_square[k] > NO_ROW * largest)) self->start_square[k] = largest;

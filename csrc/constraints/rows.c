@@ -4,6 +4,7 @@
 
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 #include "limits.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
@@ -24,7 +25,7 @@ static int reduce(zd_point *point)
     self->was_doubtful = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
-    if (!zd_is_finite(self->m * self->n, point->terms.C)) return ZD_NOT_FINITE;
+    if (!zd_is_finite(zd_size_of_C(point->system), point->terms.C)) return ZD_NOT_FINITE;
     int by_limits = self->is_started && self->limits;
     zd_rank_choose(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->most_rows) {

@@ -2,6 +2,7 @@
  * of the position violation, as the paper's reference [16] proposes. The integral is part of the integrated state.
  */
 #include "../motion/motion.h"
+#include "../point/matrices.h"
 
 typedef struct baumgarte {
     zd_baumgarte gain;

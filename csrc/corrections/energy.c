@@ -11,8 +11,8 @@
 #include <math.h>
 
 #include "../constraints/limits.h"
-#include "../linalg/small.h"
 #include "../motion/motion.h"
+#include "../point/matrices.h"
 
 static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */
@@ -46,7 +46,9 @@ static int split(energy *self, zd_motion *motion, double *kinetic)
     status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, point->rhs);
     if (status) return status;
     zd_motion_solve(motion, NULL, point->rhs, self->enforced, NULL);
-    for (int i = 0; i < n; i++) *kinetic -= 0.5 * self->enforced[i] * zd_dot(n, point->terms.M + i * n, self->enforced);
+    double *momentum = self->scaled;
+    zd_times_M(point, point->terms.M, self->enforced, momentum);
+    for (int i = 0; i < n; i++) *kinetic -= 0.5 * self->enforced[i] * momentum[i];
     return ZD_DONE;
 }
 

@@ -16,6 +16,7 @@
 #include "../linalg/newton.h"
 #include "../linalg/small.h"
 #include "../motion/motion.h"
+#include "../point/matrices.h"
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
@@ -28,7 +29,7 @@ typedef struct projection {
     double *landed;     /* (nq,): p before its correction */
     double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far */
     double *rhs, *x;    /* (m,), (nv,) */
-    double *identity;   /* (nv, nv), in that metric */
+    double *identity;   /* M of that metric, stored as the system's is */
     void *plain;        /* (13) with it */
 } projection;
 
@@ -58,10 +59,10 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
         .change = zd_take_doubles(arena, nq),
         .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_take_doubles(arena, nv),
-        .identity = identity ? zd_take_doubles(arena, nv * nv) : NULL,
+        .identity = identity ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
         .plain = identity ? zd_schur.take(arena, system) : NULL,
     };
-    for (size_t i = 0; self.identity && i < nv; i++) self.identity[i * nv + i] = 1;
+    if (self.identity) zd_set_identity(system, self.identity);
     return zd_take_filled(arena, &self, sizeof self);
 }
 

@@ -15,9 +15,11 @@
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 typedef struct augmented {
     int n, m;
+    double *M, *C;      /* (n, n), (m, n): where the system's own are packed */
     double *scale;      /* (m,): of the rows of C in G */
     double *G;          /* (n + m, n + m) */
     double *b;          /* (n + m,) */
@@ -30,6 +32,8 @@ static void *take(zd_arena *arena, const zd_system *system)
     augmented self = {
         .n = (int)n,
         .m = (int)m,
+        .M = zd_take_dense(arena, system, n * n),
+        .C = zd_take_dense(arena, system, m * n),
         .scale = zd_take_doubles(arena, m),
         .G = zd_take_doubles(arena, size * size),
         .b = zd_take_doubles(arena, size),
@@ -67,8 +71,9 @@ static int factor(void *memory, zd_point *point)
     int status = zd_rows_find(point), size = self->n + point->rows;
     if (status) return status;
     self->m = point->rows;
-    set_scales(self, point->terms.M, point->C);
-    fill(self, point->terms.M, point->C);                               /* (8) */
+    const double *M = zd_dense_M(point, self->M), *C = zd_dense_C(point, self->C);
+    set_scales(self, M, C);
+    fill(self, M, C);                                                   /* (8) */
     int column = zd_lu_factor(size, self->G, self->order);
     if (column == size) return ZD_DONE;
     point->failed_index = column < self->n ? column : column - self->n;

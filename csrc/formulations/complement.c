@@ -8,6 +8,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 /* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
  * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
@@ -25,6 +26,7 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
         .own = own,
         .order = zd_take(arena, n * sizeof(int)),
         .pivots = zd_take(arena, n * sizeof(int)),
+        .memory = zd_take_dense(arena, system, (size_t)m * n),
         .D = zd_take_doubles(arena, n * n),
         .K = zd_take_doubles(arena, n * n),
         .gram = zd_take_doubles(arena, own ? n * n : 0),
@@ -38,7 +40,7 @@ static int choose(zd_complement *self, zd_point *point)
 {
     for (int k = 0; k < self->m; k++)       /* in natural units */
         for (int j = 0; j < self->n; j++)
-            self->work[k * self->n + j] = point->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
+            self->work[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
     point->failed_index = rank;
     self->chosen = rank == self->m;
@@ -63,7 +65,7 @@ void zd_complement_prefer(zd_complement *self, const int *independent)
 static void fill_partitioned(zd_complement *self, const zd_point *point)
 {
     int n = self->n, m = self->m, r = self->r;
-    const double *C = point->C;
+    const double *C = self->C;
     self->largest = 0;
     memset(self->D, 0, (size_t)(n * r) * sizeof(double));
     for (int j = 0; j < r; j++) {
@@ -82,7 +84,7 @@ static void fill_partitioned(zd_complement *self, const zd_point *point)
 static int partition(zd_complement *self, zd_point *point)
 {
     int n = self->n, m = self->m;
-    const double *C = point->C;
+    const double *C = self->C;
     if (!self->chosen) {
         int status = choose(self, point);
         if (status) return status;
@@ -102,7 +104,7 @@ static int adopt(zd_complement *self, zd_point *point)
     int n = self->n, m = self->m, r = self->r;
     memcpy(self->D, point->terms.D, (size_t)(n * r) * sizeof(double));
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) self->K[i * n + j] = i < m ? point->terms.C[i * n + j] : self->D[j * r + i - m];
+        for (int j = 0; j < n; j++) self->K[i * n + j] = i < m ? self->C[i * n + j] : self->D[j * r + i - m];
     point->failed_index = zd_lu_factor(n, self->K, self->pivots);
     if (point->failed_index < n) return ZD_DEPENDENT_ROWS;
     for (int a = 0; a < r; a++)
@@ -114,10 +116,11 @@ static int adopt(zd_complement *self, zd_point *point)
     return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
-static void count_rows(zd_complement *self, const zd_point *point)
+static void take_rows(zd_complement *self, const zd_point *point)
 {
     if (point->rows != self->m) self->chosen = 0;
     self->m = point->rows;
+    self->C = zd_dense_C(point, self->memory);
     self->r = self->n - self->m;
     self->own = self->brought && zd_rank_is_full(point);
 }
@@ -127,7 +130,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, self->brought ? ZD_C | ZD_COMPLEMENT : ZD_C);
     if (!status) status = zd_rows_find(point);
-    if (!status) count_rows(self, point);
+    if (!status) take_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
     return status;

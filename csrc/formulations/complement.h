@@ -18,6 +18,8 @@ typedef struct zd_complement {
     int chosen;         /* whether u has been */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */
+    double *memory;     /* (m, n): of C, where the system's own is packed */
+    const double *C;    /* (m, n): the rows that count */
     double *D;          /* (n, r) */
     double *K;          /* factored: W (m, m), or for an own D: [C; D^T] (n, n) */
     double *gram;       /* (r, r): Cholesky factor of D^T D, for an own D */

@@ -2,6 +2,7 @@
 #include "dependent.h"
 
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 int zd_dependent_state_size(const zd_system *system)
 {

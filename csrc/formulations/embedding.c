@@ -14,6 +14,7 @@
 #include "../linalg/lu.h"
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
+#include "../point/matrices.h"
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
@@ -34,17 +35,13 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
         .index = zd_take(arena, k * sizeof(int)),
         .increments = zd_increments_take(arena, system),
         .order = zd_take(arena, (mh + nq) * sizeof(int)),
+        .memory = zd_take_dense(arena, system, (size_t)zd_constraints(system) * nv),
         .K = zd_take_doubles(arena, nv * nv),
         .pivots = zd_take(arena, nv * sizeof(int)),
         .work = zd_take_doubles(arena, nv * (mh + nq)),
         .delta = zd_take_doubles(arena, nv),
         .p = zd_take_doubles(arena, nq),
     };
-}
-
-static double kinematic(const zd_point *point, int i, int j)
-{
-    return point->terms.A ? point->terms.A[i * point->system->nv + j] : i == j;
 }
 
 /* ---- q ---- */
@@ -68,7 +65,7 @@ static void fill_row(const zd_embedding *self, const zd_point *point, int k, dou
 {
     if (has_increments(self)) zd_increments_row(&self->increments, point, self->index[k], row);
     else
-        for (int j = 0; j < self->nv; j++) row[j] = kinematic(point, self->index[k], j);
+        for (int j = 0; j < self->nv; j++) row[j] = zd_entry_of_A(point, self->index[k], j);
 }
 
 /* 1 / the natural size of q_k */
@@ -86,11 +83,12 @@ static double mismatch(const zd_embedding *self, const zd_point *point, const do
 }
 
 /* C and A at the point, where as many rows of C_H have to count as q was made for. */
-static int need_rows(const zd_embedding *self, zd_point *point)
+static int need_rows(zd_embedding *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_A);
     if (status || !self->mh) return status;
     status = zd_rows_find(point);
+    if (!status) self->C = zd_dense_C(point, self->memory);
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
 
@@ -104,7 +102,7 @@ static int factor(zd_embedding *self, zd_point *point)
     double gradient = 0;
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
-        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = point->C[k * nv + j]) * point->unit[j];
+        for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = self->C[k * nv + j]) * point->unit[j];
         gradient = fmax(gradient, sum * point->inverse_size[zd_rank_row(point, k)]);
     }
     for (int k = 0; k < self->k; k++) fill_row(self, point, k, self->K + (self->mh + k) * nv);
@@ -237,7 +235,7 @@ static int choose_increments(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh;
     for (int i = 0; i < mh; i++)
         for (int j = 0; j < nv; j++)
-            self->work[i * nv + j] = point->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
+            self->work[i * nv + j] = self->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
     point->failed_index = zd_choose_columns(mh, nv, 0, self->work, self->order);
     if (point->failed_index < mh) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k];
@@ -250,8 +248,8 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = point->unit[j] * (i < mh ? point->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
-                                                                   : kinematic(point, i - mh, j) * point->inverse_unit_p[i - mh]);
+            self->work[j * columns + i] = point->unit[j] * (i < mh ? self->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
+                                                                   : zd_entry_of_A(point, i - mh, j) * point->inverse_unit_p[i - mh]);
     point->failed_index = zd_choose_columns(nv, columns, mh, self->work, self->order);
     if (point->failed_index < nv) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;

@@ -13,6 +13,8 @@ typedef struct zd_embedding {
     int *index;             /* (k,): which entries of p are q, or which increments */
     zd_increments increments;   /* where there are unit quaternions */
     int *order;             /* (mh + nq,) */
+    double *memory;         /* (m, nv): of C, where the system's own is packed */
+    const double *C;        /* (m, nv): the rows that count */
     double *K;              /* (nv, nv): [C_H; A_q], factored, where A_q gives qdot of v */
     int *pivots;            /* (nv,) */
     double *work;           /* (nv, mh + nq) */

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 static const double ROUNDING = 4 * 0x1p-52;
 
@@ -37,7 +38,7 @@ static void weigh(zd_increments *self, const zd_point *point)
     const int nq = self->nq, nv = self->nv;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < nq; i++)
-            self->inverse[j * nq + i] = point->inverse_unit_p[i] * point->terms.A[i * nv + j] * point->unit[j];
+            self->inverse[j * nq + i] = point->inverse_unit_p[i] * zd_entry_of_A(point, i, j) * point->unit[j];
     for (int j = 0; j < nv; j++)
         for (int l = 0; l <= j; l++)
             self->gram[j * nv + l] = self->gram[l * nv + j] = zd_dot(nq, self->inverse + j * nq, self->inverse + l * nq);
@@ -92,5 +93,5 @@ void zd_increments_row(const zd_increments *self, const zd_point *point, int j, 
     const double *inverse = self->inverse + j * self->nq;
     memset(row, 0, (size_t)self->nv * sizeof *row);
     for (int i = 0; i < self->nq; i++)
-        for (int l = 0; l < self->nv; l++) row[l] += inverse[i] * point->terms.A[i * self->nv + l];
+        for (int l = 0; l < self->nv; l++) row[l] += inverse[i] * zd_entry_of_A(point, i, l);
 }

@@ -12,6 +12,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 enum { MAX_ITERATIONS = 12 };
 static const double SETTLED = 0x1p-46;  /* of the speed: the velocity is found if it changes by no more */
@@ -22,6 +23,7 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
     size_t n = (size_t)system->nv;
     return (zd_minimal){
         .complement = zd_complement_take(arena, system),
+        .memory = zd_take_dense(arena, system, n * n),
         .Mu = zd_take_doubles(arena, n * n),
         .size = system->nv - zd_constraints(system),
         .u = zd_take_doubles(arena, n),
@@ -36,7 +38,7 @@ int zd_minimal_factor(void *memory, zd_point *point)
     int r = self->complement.r;
     int status = zd_complement_at(&self->complement, point);
     if (status) return status;
-    self->M = point->terms.M;
+    self->M = zd_dense_M(point, self->memory);
     zd_complement_mass(&self->complement, self->M, self->Mu);
     point->failed_index = ZD_SIZED(zd_cholesky, r, self->Mu, self->Mu);
     return point->failed_index < r ? ZD_NOT_DEFINITE : ZD_DONE;

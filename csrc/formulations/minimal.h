@@ -6,6 +6,7 @@
 
 typedef struct zd_minimal {
     zd_complement complement;
+    double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *Mu;         /* (r, r): Cholesky factor of D^T M D */
     int size;           /* of the u in the state */

@@ -2,6 +2,7 @@
  * Near a bifurcation, where D loses digits, a run integrates (p, v) instead: stepping/variables.c. */
 #include <string.h>
 
+#include "../point/matrices.h"
 #include "formulation.h"
 #include "minimal.h"
 

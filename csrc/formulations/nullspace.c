@@ -11,11 +11,13 @@
 
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
+#include "../point/matrices.h"
 #include "complement.h"
 #include "dependent.h"
 
 typedef struct nullspace {
     zd_complement complement;
+    double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *H;          /* (n, n): rows scaled, then factored */
     double *scale;      /* (n,): of the rows; powers of two */
@@ -28,6 +30,7 @@ static void *take(zd_arena *arena, const zd_system *system)
     size_t n = (size_t)system->nv;
     nullspace self = {
         .complement = zd_complement_take(arena, system),
+        .memory = zd_take_dense(arena, system, n * n),
         .H = zd_take_doubles(arena, n * n),
         .scale = zd_take_doubles(arena, n),
         .order = zd_take(arena, n * sizeof(int)),
@@ -66,8 +69,8 @@ static int factor(void *memory, zd_point *point)
     int n = self->complement.n;
     int status = zd_complement_review(&self->complement, point);
     if (status) return status;
-    self->M = point->terms.M;
-    fill(self, self->M, point->C);                                      /* (9) */
+    self->M = zd_dense_M(point, self->memory);
+    fill(self, self->M, self->complement.C);                                      /* (9) */
     point->failed_index = zd_lu_factor(n, self->H, self->order);
     return point->failed_index < n ? ZD_SINGULAR : ZD_DONE;
 }

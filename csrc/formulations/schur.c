@@ -19,12 +19,17 @@
 
 #include "../constraints/rows.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
+#include "coupling.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
 
 typedef struct schur {
     int n, m;
+    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count; else NULL */
+    int is_coupled;             /* whether that was factored */
+    double *dense_C;    /* (m, n): where the system's own is packed */
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
     double *Q;      /* (m, n) */
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
@@ -39,6 +44,8 @@ static void *take(zd_arena *arena, const zd_system *system)
     schur self = {
         .n = (int)n,
         .m = (int)m,
+        .coupling = zd_coupling_take(arena, system),
+        .dense_C = zd_take_dense(arena, system, m * n),
         .L = zd_take_doubles(arena, n * n),
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
@@ -120,15 +127,26 @@ ZD_INLINE int factor_rows(const int n, const schur *self)
     return ZD_ROWS(factor_all, n, self->m, self);
 }
 
+static int factor_packed(schur *self, zd_point *point)
+{
+    int status = zd_rows_find(point);
+    self->is_coupled = !status && zd_rank_is_full(point);
+    if (status || self->is_coupled) return status ? status : zd_coupling_factor(self->coupling, point);
+    zd_dense_M(point, self->L);
+    return ZD_DONE;
+}
+
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
-    point->failed_index = ZD_SIZED(zd_cholesky, self->n, point->terms.M, self->L);
+    int status = point->layout ? factor_packed(self, point) : ZD_DONE;
+    if (status || self->is_coupled) return status;
+    point->failed_index = ZD_SIZED(zd_cholesky, self->n, point->layout ? self->L : point->terms.M, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    int status = zd_rows_find(point);
+    status = zd_rows_find(point);
     if (status) return status;
     self->m = point->rows;
-    self->C = point->C;
+    self->C = zd_dense_C(point, self->dense_C);
     point->failed_index = ZD_SIZED(factor_rows, self->n, self);
     return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
@@ -187,6 +205,10 @@ static void refine(const schur *self, const double *rhs, double *x)
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
 {
     schur *self = memory;
+    if (self->is_coupled) {
+        zd_coupling_solve(self->coupling, force, rhs, x, lambda);
+        return;
+    }
     ZD_SIZED(zd_forward, self->m, self->G, rhs, self->b);                   /* z */
     ZD_SIZED(exchange, self->n, self, force, self->b, x);
     if (force) refine(self, rhs, x);

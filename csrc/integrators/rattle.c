@@ -26,6 +26,7 @@
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 #include "integrator.h"
 
 enum { MAX_ITERATIONS = 60 };
@@ -41,7 +42,9 @@ typedef struct rattle {
     double *v0, *w, *x;     /* (n,) */
     double *H, *s, *y;      /* (n, n), (n,), (n,): the last change s of w took y out of x */
     double *start, *mean;   /* (n,): M0 v0 and N w */
-    double *F, *Mdot;       /* (n,), (n, n) */
+    double *F, *Mdot;       /* (n,), stored as M is */
+    int stored;             /* how many entries of M are */
+    double *product;        /* (n,) */
     double *rhs;            /* (m,) */
     double *rate0, *rate1;  /* (size,): for what is integrated along */
     zd_motion *motion;      /* of the step being solved, as are the next four */
@@ -76,7 +79,9 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .start = zd_take_doubles(arena, n),
         .mean = zd_take_doubles(arena, n),
         .F = zd_take_doubles(arena, n),
-        .Mdot = zd_take_doubles(arena, n * n),
+        .Mdot = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
+        .stored = zd_size_of_M(system),
+        .product = zd_take_doubles(arena, n),
         .rhs = zd_take_doubles(arena, m),
         .rate0 = zd_take_doubles(arena, (size_t)size),
         .rate1 = zd_take_doubles(arena, (size_t)size),
@@ -84,10 +89,17 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* to <- A x, or where `add` is set to + s A x */
-static void multiply(int n, double s, const double *A, const double *x, int add, double *to)
+/* to <- H x, H (n, n) */
+static void multiply(int n, const double *H, const double *x, double *to)
 {
-    for (int i = 0; i < n; i++) to[i] = (add ? to[i] : 0) + s * zd_dot(n, A + i * n, x);
+    for (int i = 0; i < n; i++) to[i] = zd_dot(n, H + i * n, x);
+}
+
+/* to <- s M x, or where `add` is set to + s M x; M is stored as that of the motion */
+static void times_mass(const rattle *self, double s, const double *M, const double *x, int add, double *to)
+{
+    zd_times_M(self->probe, M, x, self->product);
+    for (int i = 0; i < self->n; i++) to[i] = (add ? to[i] : 0) + s * self->product[i];
 }
 
 /* Mdot at (t, p), by five points along the motion with w */
@@ -97,13 +109,13 @@ static int differentiate_mass(rattle *self, double t, const double *p)
     static const int place[4] = {2, 1, -1, -2};
     int n = self->n;
     double s = RESOLUTION * self->h;
-    memset(self->Mdot, 0, (size_t)(n * n) * sizeof(double));
+    memset(self->Mdot, 0, (size_t)self->stored * sizeof(double));
     for (int k = 0; k < 4; k++) {
         for (int i = 0; i < n; i++) self->moved[i] = p[i] + place[k] * s * self->w[i];
         zd_point_move(self->probe, t + place[k] * s, self->moved, self->w);
         int status = zd_point_need(self->probe, ZD_M);
         if (status) return status;
-        zd_add_scaled(n * n, self->Mdot, weight[k] / s, self->probe->terms.M);
+        zd_add_scaled(self->stored, self->Mdot, weight[k] / s, self->probe->terms.M);
     }
     return ZD_DONE;
 }
@@ -116,7 +128,7 @@ static int find_force(rattle *self, double t, const double *p)
     if (!status) status = zd_point_need(self->probe, ZD_FORCE | ZD_BIAS);
     if (status) return status;
     zd_point_force(self->probe, self->F);
-    if (self->varies) multiply(self->n, 1, self->Mdot, self->w, 1, self->F);
+    if (self->varies) times_mass(self, 1, self->Mdot, self->w, 1, self->F);
     return ZD_DONE;
 }
 
@@ -132,8 +144,8 @@ static int residual(void *context, double *size)
     zd_point_move(self->probe, self->t1, self->p, self->w);
     if (!status) status = zd_point_need(self->probe, ZD_PHI | (self->varies ? ZD_M : 0));
     if (status) return status;
-    multiply(n, self->varies ? 0.5 : 1, motion->point->terms.M, self->w, 0, self->mean);
-    if (self->varies) multiply(n, 0.5, self->probe->terms.M, self->w, 1, self->mean);
+    times_mass(self, self->varies ? 0.5 : 1, motion->point->terms.M, self->w, 0, self->mean);
+    if (self->varies) times_mass(self, 0.5, self->probe->terms.M, self->w, 1, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->start[i] + self->h / 2 * self->F[i] - self->mean[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = -self->probe->terms.Phi[k] / self->h;
     status = zd_limits_replace(motion->point, ZD_LIMIT_PHI, self->rhs);
@@ -154,7 +166,7 @@ static void learn(rattle *self)
     int n = self->n;
     double *y = self->y, *Hy = self->F, *sH = self->mean;       /* these two are free now */
     zd_subtract(n, self->y, self->x, y);
-    multiply(n, 1, self->H, y, 0, Hy);
+    multiply(n, self->H, y, Hy);
     for (int j = 0; j < n; j++) sH[j] = 0;
     for (int i = 0; i < n; i++) zd_add_scaled(n, sH, self->s[i], self->H + i * n);
     double denominator = zd_dot(n, sH, y);
@@ -167,7 +179,7 @@ static int improve(void *context)
     rattle *self = context;
     int n = self->n;
     learn(self);
-    multiply(n, 1, self->H, self->x, 0, self->s);
+    multiply(n, self->H, self->x, self->s);
     zd_add_scaled(n, self->w, 1, self->s);
     zd_copy(n, self->x, self->y);
     return ZD_DONE;
@@ -180,7 +192,7 @@ static int find_positions(rattle *self)
     int iterations, status = zd_motion_accelerate(motion);    /* what is recorded there, and needed for a first w */
     double left;
     if (status) return status;
-    multiply(self->n, 1, motion->point->terms.M, self->v0, 0, self->start);
+    times_mass(self, 1, motion->point->terms.M, self->v0, 0, self->start);
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
     self->before = INFINITY;
     for (int i = 0; i < self->n * self->n; i++) self->H[i] = i % (self->n + 1) == 0;
@@ -201,7 +213,7 @@ static int find_velocities(rattle *self)
     if (!status) status = zd_motion_factor(motion);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
     if (status) return status;
-    if (!self->varies) multiply(n, 1, point->terms.M, self->w, 0, self->mean);
+    if (!self->varies) times_mass(self, 1, point->terms.M, self->w, 0, self->mean);
     for (int i = 0; i < n; i++) self->F[i] = self->mean[i] + self->h / 2 * self->F[i];
     for (int k = 0; k < self->m; k++) self->rhs[k] = point->terms.Phi_t ? -point->terms.Phi_t[k] : 0;
     status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, self->rhs);
@@ -217,7 +229,7 @@ static int notice_variation(rattle *self, int *varies)
 {
     zd_point_move(self->probe, self->t1, self->p, self->w);
     int status = zd_point_need(self->probe, ZD_M);
-    *varies = memcmp(self->probe->terms.M, self->motion->point->terms.M, (size_t)(self->n * self->n) * sizeof(double)) != 0;
+    *varies = memcmp(self->probe->terms.M, self->motion->point->terms.M, (size_t)self->stored * sizeof(double)) != 0;
     return status;
 }
 

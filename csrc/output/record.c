@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "../point/matrices.h"
+
 static void copy_row(double *table, int64_t row, int width, const double *values)
 {
     if (width) memcpy(table + row * width, values, (size_t)width * sizeof *values);

@@ -25,6 +25,7 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
     zd_point point = {
         .system = system,
         .statistics = statistics,
+        .layout = zd_layout_take(arena, system),
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .terms = take_terms(arena, system),
@@ -80,41 +81,6 @@ void zd_point_force(const zd_point *point, double *force)
     if (f && d) ZD_SIZED(zd_subtract, nv, f, d, force);
     else
         for (int i = 0; i < nv; i++) force[i] = f ? f[i] : d ? -d[i] : 0;
-}
-
-/* y <- A x, A (rows, n) */
-ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x, double *y)
-{
-    for (int i = 0; i < rows; i++) y[i] = zd_dot(n, A + i * n, x);
-}
-
-void zd_point_velocity_violation(const zd_point *point, double *Psi)
-{
-    int m = zd_constraints(point->system);
-    const double *Phi_t = point->terms.Phi_t;
-    ZD_SIZED(multiply, point->system->nv, m, point->terms.C, point->v, Psi);    /* (5) */
-    for (int k = 0; Phi_t && k < m; k++) Psi[k] += Phi_t[k];
-}
-
-void zd_point_rate(const zd_point *point, const double *v, double *pdot)
-{
-    int nq = point->system->nq, nv = point->system->nv;
-    const double *A = point->terms.A;
-    if (A) ZD_SIZED(multiply, nv, nq, A, v, pdot);      /* (1) */
-    else ZD_SIZED(zd_copy, nq, v, pdot);
-}
-
-/* x^T A x, A (n, n) */
-ZD_INLINE double quadratic(const int n, const double *A, const double *x)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += x[i] * zd_dot(n, A + i * n, x);
-    return sum;
-}
-
-double zd_point_kinetic(const zd_point *point)
-{
-    return 0.5 * ZD_SIZED(quadratic, point->system->nv, point->terms.M, point->v);
 }
 
 double zd_point_potential(const zd_point *point)

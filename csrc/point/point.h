@@ -2,7 +2,7 @@
 #ifndef ZD_POINT_H
 #define ZD_POINT_H
 
-#include "../workspace.h"
+#include "layout.h"
 #include "terms.h"
 
 #define ZD_BIT_OF_VELOCITY(name, bit, member, shape, depends, text) | ((depends) == ZD_OF_POSITIONS ? 0 : (bit))
@@ -19,6 +19,7 @@ typedef struct zd_rank zd_rank;         /* constraints/rank.h */
 typedef struct zd_point {
     const zd_system *system;
     zd_statistics *statistics;
+    const zd_layout *layout;    /* of A, M and C; NULL where they are dense */
     int known;              /* what of all this is valid now */
     double t, *p, *v;
     zd_terms terms;
@@ -26,7 +27,7 @@ typedef struct zd_point {
     double *force, *rhs;    /* (nv,), (m,): right sides being put together */
     zd_rank *rank;          /* NULL where the point only serves to evaluate terms */
     int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
-    const double *C;        /* (rows, nv): those that count */
+    const double *C;        /* those that count: the system's own, stored as they are, or dense (rows, nv) */
     double *unit, *inverse_unit;    /* (nv,): natural size of what each velocity is the rate of, see units.c; and 1 / unit */
     double *inverse_unit_p;         /* (nq,): 1 / the same of the coordinates */
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
@@ -41,9 +42,6 @@ void zd_point_move(zd_point *point, double t, const double *p, const double *v);
 void zd_point_move_velocity(zd_point *point, const double *v);
 int zd_point_need_missing(zd_point *point, int missing);
 void zd_point_force(const zd_point *point, double *force);          /* f - d */
-void zd_point_velocity_violation(const zd_point *point, double *Psi);   /* (5); needs C, Phi_t */
-void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
-double zd_point_kinetic(const zd_point *point);     /* needs M */
 double zd_point_potential(const zd_point *point);   /* needs V */
 int zd_point_is_finite(const zd_point *point);      /* its p and v */
 

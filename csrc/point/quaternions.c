@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#include "matrices.h"
+
 static const double ROUNDING = 4 * 0x1p-52;     /* of the squared length */
 static const double WRITTEN = 1e-6;     /* of the length of a start: numbers with seven digits are meant to be what they nearly are */
 static const double KEPT = 1e-9;        /* of the largest entry of a column of A */
@@ -58,8 +60,8 @@ int zd_quaternions_not_kept(const zd_point *point, int *velocity)
         for (int j = 0; j < nv; j++) {
             double along = 0, largest = 0;
             for (int i = first; i < first + ENTRIES; i++) {
-                along += point->p[i] * point->terms.A[i * nv + j];
-                largest = fmax(largest, fabs(point->terms.A[i * nv + j]));
+                along += point->p[i] * zd_entry_of_A(point, i, j);
+                largest = fmax(largest, fabs(zd_entry_of_A(point, i, j)));
             }
             *velocity = j;
             if (fabs(along) > KEPT * largest) return k;

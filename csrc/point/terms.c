@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "../linalg/norms.h"
+#include "layout.h"
 
 #define ROW(name, bit, member, shape, depends, text) {bit, #name, #member, #shape, offsetof(zd_terms, member), depends, text},
 static const zd_term_row rows[] = {ZD_TERM_LIST(ROW)};
@@ -34,6 +35,7 @@ zd_shape zd_term_shape(const zd_system *system, int row)
 
 size_t zd_term_size(const zd_system *system, int row)
 {
+    if (system->structure && (rows[row].term & (ZD_A | ZD_M | ZD_C))) return (size_t)zd_packed_size(system, rows[row].term);
     zd_shape shape = zd_term_shape(system, row);
     return (size_t)shape.size[0] * (size_t)shape.size[1];
 }

@@ -12,18 +12,21 @@
 #include <math.h>
 
 #include "../linalg/norms.h"
+#include "matrices.h"
 
 static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
 
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[i]; }
 
 /* The lever arm of a row: its largest entry for an angle, over the largest for a length */
-static double lever(const zd_system *system, const double *row)
+static double lever(const zd_point *point, int k)
 {
+    const zd_system *system = point->system;
+    zd_row_of_C row = zd_point_row(point, k);
     double turn = 0, shift = 0;
-    for (int i = 0; i < system->nv; i++) {
-        double *largest = is_length(system, system->nq + i) ? &shift : &turn;
-        *largest = fmax(*largest, fabs(row[i]));
+    for (int j = 0; j < row.count; j++) {
+        double *largest = is_length(system, system->nq + zd_column(&row, j)) ? &shift : &turn;
+        *largest = fmax(*largest, fabs(row.x[j]));
     }
     return shift > 0 ? turn / shift : 0;
 }
@@ -34,7 +37,7 @@ static double length_of(const zd_point *point)
     double length = 0;
     for (int i = 0; i < system->nq; i++)
         if (is_length(system, i)) length = fmax(length, fabs(point->p[i]));
-    for (int k = 0; k < zd_constraints(system); k++) length = fmax(length, lever(system, point->terms.C + k * system->nv));
+    for (int k = 0; k < zd_constraints(system); k++) length = fmax(length, lever(point, k));
     return length > 0 && length < INFINITY ? length : 1;     /* nothing has a length here: the unit itself */
 }
 
@@ -63,8 +66,9 @@ int zd_point_measure(zd_point *point)
         point->inverse_unit[i] = 1 / point->unit[i];
     }
     for (int k = 0; k < zd_constraints(system); k++) {
+        zd_row_of_C row = zd_point_row(point, k);
         double size = 0;
-        for (int i = 0; i < nv; i++) size = fmax(size, fabs(point->terms.C[k * nv + i]) * point->unit[i]);
+        for (int j = 0; j < row.count; j++) size = fmax(size, fabs(row.x[j]) * point->unit[zd_column(&row, j)]);
         point->size[k] = size;
     }
     settle_sizes(zd_constraints(system), point->size, point->inverse_size);

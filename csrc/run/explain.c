@@ -6,15 +6,16 @@
 #include <string.h>
 
 #include "../constraints/rank.h"
+#include "../point/matrices.h"
 #include "blame.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 
 static void describe_asymmetry(const zd_point *point, char *to, size_t size)
 {
-    const int n = point->system->nv, i = point->failed_index, j = point->failed_column;
-    const double *M = point->terms.M;
-    snprintf(to, size, "the mass matrix is not symmetric: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", i, j, M[i * n + j], j, i, M[j * n + i]);
+    const int i = point->failed_index, j = point->failed_column;
+    snprintf(to, size, "the mass matrix is not symmetric: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", i, j, zd_entry_of_M(point, i, j), j, i,
+             zd_entry_of_M(point, j, i));
 }
 
 static void describe_jacobian(const zd_run *run, char *to, size_t size)

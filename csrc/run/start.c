@@ -9,6 +9,8 @@
 #include "../constraints/rows.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../point/mass.h"
+#include "../point/matrices.h"
 #include "../point/quaternions.h"
 #include "../point/units.h"
 #include "../registry.h"
@@ -19,7 +21,7 @@ static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is r
 
 typedef struct workspace {
     double *Psi;        /* (m,) */
-    double *factor;     /* (nv, nv): of M, to see whether it is positive definite */
+    double *factor;     /* stored as M is: to see whether it is positive definite */
     double *states;     /* (3, size): for the choice of the first step */
 } workspace;
 
@@ -63,8 +65,10 @@ static int check_tolerance(zd_run *run)
     if (!projection->every || !projection->positions || !run->motion.system.mh) return ZD_DONE;
     double reachable = 0;
     for (int k = 0; k < run->motion.system.mh; k++) {
+        zd_row_of_C row = zd_point_row(point, k);
         double rounding = 0;
-        for (int i = 0; i < n; i++) rounding += 0x1p-53 * fabs(point->terms.C[k * run->motion.system.nv + i] * point->p[i]);
+        for (int j = 0; j < row.count; j++)
+            if (zd_column(&row, j) < n) rounding += 0x1p-53 * fabs(row.x[j] * point->p[zd_column(&row, j)]);
         reachable = fmax(reachable, rounding * point->inverse_size[k]);
     }
     if (projection->tolerance > reachable) return ZD_DONE;
@@ -74,39 +78,40 @@ static int check_tolerance(zd_run *run)
     return ZD_UNREACHABLE;
 }
 
-static double unit(int n, const double *M, int i)
+static double unit(const zd_point *point, int i)
 {
-    return M[i * n + i] > 0 ? sqrt(M[i * n + i]) : 1;
+    double M = zd_entry_of_M(point, i, i);
+    return M > 0 ? sqrt(M) : 1;
 }
 
 /* factor <- M in units that make its diagonal one where there is any mass, + the sum of `rows` rows of C in these units, each of length
  * one, times itself */
 static void weigh(const zd_run *run, int rows, double *factor)
 {
+    const zd_point *point = run->motion.point;
     int n = run->motion.system.nv;
-    const double *M = run->motion.point->terms.M;
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) factor[i * n + j] = M[i * n + j] / (unit(n, M, i) * unit(n, M, j));
+        for (int j = 0; j < n; j++) factor[i * n + j] = zd_entry_of_M(point, i, j) / (unit(point, i) * unit(point, j));
     for (int k = 0; k < rows; k++) {
-        const double *c = run->motion.point->C + k * n;
+        zd_row_of_C row = zd_counted_row(point, k);
         double length = 0;
-        for (int i = 0; i < n; i++) length += c[i] * c[i] / (unit(n, M, i) * unit(n, M, i));
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++) factor[i * n + j] += c[i] * c[j] / (unit(n, M, i) * unit(n, M, j) * length);
+        for (int a = 0; a < row.count; a++) {
+            double u = unit(point, zd_column(&row, a));
+            length += row.x[a] * row.x[a] / (u * u);
+        }
+        for (int a = 0; a < row.count; a++)
+            for (int b = 0; b < row.count; b++) {
+                int i = zd_column(&row, a), j = zd_column(&row, b);
+                factor[i * n + j] += row.x[a] * row.x[b] / (unit(point, i) * unit(point, j) * length);
+            }
     }
 }
 
 /* M may be singular where constraints hold what has no mass: x^T M x > 0 for all other x that C x = 0 allows, and never negative. */
-static int check_mass(zd_run *run, double *factor)
+static int check_singular_mass(zd_run *run, double *factor)
 {
     zd_point *point = run->motion.point;
-    int n = run->motion.system.nv, status = zd_point_need(point, ZD_M);
-    if (!status) status = zd_consistency_mass(point);
-    if (status) return status;
-    point->failed_index = zd_cholesky(n, point->terms.M, factor);
-    if (point->failed_index == n) return ZD_DONE;
-    if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
-    status = zd_rows_find(point);
+    int n = run->motion.system.nv, status = zd_rows_find(point);
     if (status) return status;
     weigh(run, 0, factor);
     for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
@@ -118,6 +123,21 @@ static int check_mass(zd_run *run, double *factor)
     snprintf(run->outcome.message, sizeof run->outcome.message, "the mass matrix is singular, and no constraint holds what has no mass "
              "(first seen at velocity %d)", free);
     return ZD_NOT_DEFINITE;
+}
+
+static int check_mass(zd_run *run, double *factor)
+{
+    zd_point *point = run->motion.point;
+    int n = run->motion.system.nv, status = zd_point_need(point, ZD_M);
+    if (!status) status = zd_consistency_mass(point);
+    if (status) return status;
+    point->failed_index = zd_mass_factor(point, factor);
+    if (point->failed_index == n) return ZD_DONE;
+    if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
+    double *dense = zd_allocate((size_t)n * (size_t)n * sizeof *dense);
+    status = dense ? check_singular_mass(run, dense) : ZD_NO_MEMORY;
+    zd_release(dense);
+    return status;
 }
 
 /* Refuses kinematics that change the length of a unit quaternion: it would be brought back at every step, and hide what is wrong. */
@@ -160,10 +180,9 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
 
 static workspace lay_out(zd_arena *arena, const zd_motion *motion)
 {
-    size_t n = (size_t)motion->system.nv;
     return (workspace){
         .Psi = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .factor = zd_take_doubles(arena, n * n),
+        .factor = zd_take_doubles(arena, (size_t)zd_size_of_M(&motion->system)),
         .states = zd_take_doubles(arena, 3 * (size_t)motion->rate.size),
     };
 }

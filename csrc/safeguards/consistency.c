@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "../linalg/norms.h"
+#include "../point/matrices.h"
 
 static const double ROUNDING = 1e-12;       /* of the largest entry of M, */
 static const double ASYMMETRY = 1e-9;       /* or of the most that an entry of a mass matrix can be beside its diagonal: both are nothing */
@@ -27,19 +28,17 @@ enum { COMPARE_EVERY = 64 };                /* steps; and at 0, 1, 2, 4, 8 ... o
 
 static int is_symmetric(const zd_point *point, int i, int j)
 {
-    const int n = point->system->nv;
-    const double *M = point->terms.M;
-    double off = fabs(M[i * n + j] - M[j * n + i]);
-    return off <= ROUNDING * zd_max_abs(n * n, M) || off <= ASYMMETRY * sqrt(fabs(M[i * n + i] * M[j * n + j]));
+    double off = fabs(zd_entry_of_M(point, i, j) - zd_entry_of_M(point, j, i));
+    return off <= ROUNDING * zd_max_abs(zd_size_of_M(point->system), point->terms.M)
+        || off <= ASYMMETRY * sqrt(fabs(zd_entry_of_M(point, i, i) * zd_entry_of_M(point, j, j)));
 }
 
 int zd_consistency_mass(zd_point *point)
 {
     const int n = point->system->nv;
-    const double *M = point->terms.M;
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < i; j++) {
-            if (M[i * n + j] == M[j * n + i] || is_symmetric(point, i, j)) continue;
+        for (int j = zd_first_in_M(point, i); j < i; j++) {
+            if (zd_entry_of_M(point, i, j) == zd_entry_of_M(point, j, i) || is_symmetric(point, i, j)) continue;
             point->failed_index = i;
             point->failed_column = j;
             return ZD_NOT_SYMMETRIC;
@@ -111,18 +110,30 @@ static int differentiate(zd_consistency *self, double a, double b)
 static double entry(const zd_consistency *self, int k, int i)
 {
     const zd_terms *terms = &self->motion->point->terms;
-    return i < self->motion->system.nv ? terms->C[k * self->motion->system.nv + i] : terms->Phi_t ? terms->Phi_t[k] : 0;
+    if (i == self->motion->system.nv) return terms->Phi_t ? terms->Phi_t[k] : 0;
+    zd_row_of_C row = zd_point_row(self->motion->point, k);
+    if (!row.column) return row.x[i];
+    for (int j = 0; j < row.count; j++)
+        if (row.column[j] == i) return row.x[j];
+    return 0;
+}
+
+/* Adds what an entry makes of the direction; *size is the largest that one of them alone makes of a unit. */
+static void add_given(const zd_consistency *self, int i, double x, double *sum, double *size)
+{
+    *sum += x * self->direction[i];
+    *size = fmax(*size, fabs(x) * unit(self, i));
 }
 
 /* What C and Phi_t make of the direction in this row; and its size, the largest that one of its entries alone makes of a unit, or has. */
 static double given(const zd_consistency *self, int k, double *size)
 {
+    const int n = self->motion->system.nv;
+    zd_row_of_C row = zd_point_row(self->motion->point, k);
     double sum = 0;
     *size = self->motion->point->size[k];
-    for (int i = 0; i <= self->motion->system.nv; i++) {
-        sum += entry(self, k, i) * self->direction[i];
-        *size = fmax(*size, fabs(entry(self, k, i)) * unit(self, i));
-    }
+    for (int j = 0; j < row.count; j++) add_given(self, zd_column(&row, j), row.x[j], &sum, size);
+    add_given(self, n, entry(self, k, n), &sum, size);
     return sum;
 }
 

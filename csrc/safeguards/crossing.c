@@ -17,6 +17,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 #include "../point/units.h"
 
 enum { MOST_POINTS = 64 };     /* of a path at which C is evaluated */
@@ -27,12 +28,12 @@ static const double NEARBY = 1e-3;  /* in natural units: a larger violation says
 zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
     const zd_system *system = &motion->system;
-    size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv;
+    size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     return (zd_crossing){
         .motion = motion,
         .last = last,
-        .C = zd_take_doubles(arena, m * n),
-        .previous = zd_take_doubles(arena, m * n),
+        .C = zd_take_doubles(arena, stored),
+        .previous = zd_take_doubles(arena, stored),
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .p1 = zd_take_doubles(arena, (size_t)system->nq),
         .v1 = zd_take_doubles(arena, n),
@@ -52,6 +53,20 @@ ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)
         for (int i = 0; i < n; i++) C[k * n + i] = point->terms.C[k * n + i] * point->unit[i] * point->unit[i];
 }
 
+static void keep_packed_rows(const zd_point *point, double *C)
+{
+    for (int k = 0; k < point->rank->m; k++) {
+        zd_row_of_C row = zd_point_row(point, k);
+        for (int j = 0; j < row.count; j++) *C++ = row.x[j] * point->unit[row.column[j]] * point->unit[row.column[j]];
+    }
+}
+
+static void keep(const zd_point *point, double *C)
+{
+    if (point->layout) keep_packed_rows(point, C);
+    else ZD_SIZED(keep_rows, point->rank->n, point, C);
+}
+
 /* The sign of rows does not depend on their size. */
 ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *C0)
 {
@@ -63,11 +78,13 @@ ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *C
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
     const int n = point->rank->n, rows = point->rows;
-    if (rows == 2) return ZD_SIZED(turn_of_two, n, point, C0);
+    if (rows == 2 && !point->layout) return ZD_SIZED(turn_of_two, n, point, C0);
     for (int a = 0; a < rows; a++)
-        for (int b = 0; b < rows; b++)
+        for (int b = 0; b < rows; b++) {
+            zd_row_of_C now = zd_counted_row(point, a), before = zd_row_in(point, C0, zd_rank_row(point, b));
             self->turn[a * rows + b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[zd_rank_row(point, b)]
-                                     * zd_dot(n, point->C + a * n, C0 + zd_rank_row(point, b) * n);
+                                     * zd_row_product(&now, &before);
+        }
     if (rows == 1) return self->turn[0];
     return zd_lu_factor(rows, self->turn, self->order) == rows ? zd_lu_determinant(rows, self->turn, self->order) : 0;
 }
@@ -85,11 +102,11 @@ static void interpolate(const zd_crossing *self, double h, double s)
 static int follow(zd_crossing *self, double h, int points, int *is_kept)
 {
     zd_point *point = self->motion->point;
-    const int m = point->rank->m, n = point->rank->n;
+    const int n = point->rank->n;
     const double t1 = point->t;
     memcpy(self->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
     memcpy(self->v1, point->v, (size_t)n * sizeof(double));
-    memcpy(self->previous, self->C, (size_t)(m * n) * sizeof(double));
+    memcpy(self->previous, self->C, (size_t)zd_size_of_C(point->system) * sizeof(double));
     int status = ZD_DONE;
     *is_kept = 1;
     for (int i = 1; i <= points && *is_kept && !status; i++) {
@@ -98,7 +115,7 @@ static int follow(zd_crossing *self, double h, int points, int *is_kept)
         status = zd_point_need(point, ZD_C);
         if (!status) status = zd_rows_find(point);
         *is_kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->previous) > 0;
-        ZD_SIZED(keep_rows, n, point, self->previous);
+        keep(point, self->previous);
     }
     zd_point_move(point, t1, self->p1, self->v1);
     return status == ZD_BIFURCATION ? ZD_DONE : status;
@@ -143,7 +160,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
     }
     if (!status && !is_kept) status = judge(self);
     if (status) return status;
-    ZD_SIZED(keep_rows, point->rank->n, point, self->C);
+    keep(point, self->C);
     self->has_rows = 1;
     return ZD_DONE;
 }

@@ -13,7 +13,7 @@ typedef struct zd_crossing {
     int has_rows;           /* whether C is known: not where the step began at a bifurcation */
     int may_pass;           /* whether the step may pass a bifurcation */
     int constraints_hold;   /* whether (3) holds at the end of every step */
-    double *C;              /* (m, nv), times the squares of the natural units */
+    double *C;              /* stored as the point's is, times the squares of the natural units */
     double *previous;       /* likewise, at the point looked at before */
     double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): the point looked at, and the end of the step */
     double *turn;           /* (m, m): C1 W C0^T, factored */

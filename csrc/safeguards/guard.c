@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* in natural units: smaller detours come from rounding and tolerances */
@@ -49,7 +50,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
-        .C = zd_take_doubles(arena, (size_t)(system->mh * system->nv)),
+        .C = zd_take_doubles(arena, (size_t)zd_size_of_C(system)),
         .vdot = zd_take_doubles(arena, (size_t)system->nv),
     };
 }
@@ -83,12 +84,12 @@ static double least_detour(const zd_guard *guard, double h)
 }
 
 /* Whether this row of C, in natural units, differs in direction by more than 60 degrees or so from what it is at the end of the step. */
-static int is_turned(const zd_guard *guard, const zd_point *point, int row)
+static int is_turned(const zd_guard *guard, const zd_point *point, int k)
 {
-    int nv = point->system->nv;
+    zd_row_of_C at_start = zd_point_row(point, k), at_end = zd_row_in(point, guard->C, k);
     double turned = 0, before = 0, after = 0;
-    for (int i = 0; i < nv; i++) {
-        double a = point->terms.C[row * nv + i] * point->unit[i], b = guard->C[row * nv + i] * point->unit[i];
+    for (int j = 0; j < at_start.count; j++) {
+        double unit = point->unit[zd_column(&at_start, j)], a = at_start.x[j] * unit, b = at_end.x[j] * unit;
         turned += (b - a) * (b - a), before += a * a, after += b * b;
     }
     return !(turned <= fmax(before, after));
@@ -98,16 +99,16 @@ static int is_turned(const zd_guard *guard, const zd_point *point, int row)
 static int is_unresolved(zd_guard *guard, int *status)
 {
     zd_point *point = guard->motion->point;
-    int nq = point->system->nq, nv = point->system->nv, mh = point->system->mh, unresolved = 0;
+    int nq = point->system->nq, nv = point->system->nv, unresolved = 0;
     const double t = point->t;
     memcpy(guard->p, point->p, (size_t)nq * sizeof(double));
     memcpy(guard->v, point->v, (size_t)nv * sizeof(double));
     *status = zd_point_need(point, ZD_C);
     if (*status) return 0;
-    memcpy(guard->C, point->terms.C, (size_t)(mh * nv) * sizeof(double));
+    memcpy(guard->C, point->terms.C, (size_t)zd_size_of_C(point->system) * sizeof(double));
     zd_point_move(point, guard->last->t, guard->last->p, guard->last->v);
     *status = zd_point_need(point, ZD_C);
-    for (int k = 0; !*status && k < mh; k++) unresolved |= is_turned(guard, point, k);
+    for (int k = 0; !*status && k < point->system->mh; k++) unresolved |= is_turned(guard, point, k);
     zd_point_move(point, t, guard->p, guard->v);
     return unresolved;
 }

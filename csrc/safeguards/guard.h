@@ -15,7 +15,7 @@ typedef struct zd_guard {
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
     double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
-    double *p, *v, *C;      /* (nq,), (nv,), (mh, nv): at the end, while the point is elsewhere */
+    double *p, *v, *C;      /* (nq,), (nv,), as the point's: at the end, while the point is elsewhere */
     double speed;           /* |pdot|^2 where the step began, in natural units */
     int streak;             /* steps in succession that were longer than the method is stable for */
     double largest_fourth;  /* the largest (omega h)^4 of all steps */

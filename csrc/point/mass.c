@@ -1,0 +1,31 @@
+#include "mass.h"
+
+#include "../linalg/small.h"
+
+/* A diagonal M: D in reciprocals, and nothing of L. Returns n, or the index of an entry that is not positive. */
+static int invert_diagonal(int n, const double *M, double *L)
+{
+    for (int i = 0; i < n; i++) {
+        if (!(M[i] > 0) || !(M[i] < INFINITY)) return i;
+        L[i] = 1 / M[i];
+    }
+    return n;
+}
+
+static int factor_block(const zd_layout *layout, int b, const double *M, double *L)
+{
+    int n = layout->velocity_at[b + 1] - layout->velocity_at[b], at = layout->M_at[b];
+    return layout->is_diagonal[b] ? invert_diagonal(n, M + at, L + at) : ZD_SIZED(zd_cholesky, n, M + at, L + at);
+}
+
+int zd_mass_factor(const zd_point *point, double *L)
+{
+    const zd_layout *layout = point->layout;
+    const int n = point->system->nv;
+    if (!layout) return ZD_SIZED(zd_cholesky, n, point->terms.M, L);
+    for (int b = 0; b < layout->blocks; b++) {
+        int first = layout->velocity_at[b], found = first + factor_block(layout, b, point->terms.M, L);
+        if (found < layout->velocity_at[b + 1]) return found;
+    }
+    return n;
+}

@@ -1,0 +1,179 @@
+#include "matrices.h"
+
+#include <string.h>
+
+#include "../linalg/small.h"
+#include "expand.h"
+
+/* ---- rows of C ---- */
+
+zd_row_of_C zd_row_in(const zd_point *point, const double *C, int k)
+{
+    const int n = point->system->nv;
+    return point->layout ? zd_packed_row(point->layout, C, k) : (zd_row_of_C){C + k * n, n, NULL};
+}
+
+zd_row_of_C zd_counted_row(const zd_point *point, int k)
+{
+    const int n = point->system->nv;
+    return point->C == point->terms.C ? zd_point_row(point, k) : (zd_row_of_C){point->C + k * n, n, NULL};
+}
+
+double zd_row_times(const zd_row_of_C *row, const double *x)
+{
+    if (!row->column) return zd_dot(row->count, row->x, x);
+    double sum = 0;
+    for (int j = 0; j < row->count; j++) sum += row->x[j] * x[row->column[j]];
+    return sum;
+}
+
+void zd_row_expand(const zd_row_of_C *row, int n, double *x)
+{
+    if (row->column) memset(x, 0, (size_t)n * sizeof *x);
+    for (int j = 0; j < row->count; j++) x[zd_column(row, j)] = row->x[j];
+}
+
+/* Columns increase in both. */
+static double sparse_product(const zd_row_of_C *a, const zd_row_of_C *b)
+{
+    double sum = 0;
+    for (int i = 0, j = 0; i < a->count && j < b->count;) {
+        int of_a = a->column[i], of_b = b->column[j];
+        if (of_a == of_b) sum += a->x[i] * b->x[j];
+        i += of_a <= of_b;
+        j += of_b <= of_a;
+    }
+    return sum;
+}
+
+double zd_row_product(const zd_row_of_C *a, const zd_row_of_C *b)
+{
+    return !a->column ? zd_row_times(b, a->x) : !b->column ? zd_row_times(a, b->x) : sparse_product(a, b);
+}
+
+void zd_add_C(const zd_point *point, double weight, double *C)
+{
+    const int n = point->system->nv, m = zd_constraints(point->system);
+    if (!point->layout) zd_add_scaled(m * n, C, weight, point->terms.C);
+    for (int k = 0; point->layout && k < m; k++) {
+        zd_row_of_C row = zd_point_row(point, k);
+        for (int j = 0; j < row.count; j++) C[k * n + row.column[j]] += weight * row.x[j];
+    }
+}
+
+/* ---- products ---- */
+
+/* y <- A x, A (rows, n) */
+ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x, double *y)
+{
+    for (int i = 0; i < rows; i++) y[i] = zd_dot(n, A + i * n, x);
+}
+
+static void packed_times(const zd_point *point, const double *x, double *y)
+{
+    for (int k = 0; k < zd_constraints(point->system); k++) {
+        zd_row_of_C row = zd_point_row(point, k);
+        y[k] = zd_row_times(&row, x);
+    }
+}
+
+void zd_point_velocity_violation(const zd_point *point, double *Psi)
+{
+    int m = zd_constraints(point->system);
+    const double *Phi_t = point->terms.Phi_t;
+    if (point->layout) packed_times(point, point->v, Psi);
+    else ZD_SIZED(multiply, point->system->nv, m, point->terms.C, point->v, Psi);   /* (5) */
+    for (int k = 0; Phi_t && k < m; k++) Psi[k] += Phi_t[k];
+}
+
+void zd_point_rate(const zd_point *point, const double *v, double *pdot)
+{
+    const zd_layout *layout = point->layout;
+    const double *A = point->terms.A;
+    if (!A) ZD_SIZED(zd_copy, point->system->nq, v, pdot);
+    else if (!layout) ZD_SIZED(multiply, point->system->nv, point->system->nq, A, v, pdot);     /* (1) */
+    for (int b = 0; A && layout && b < layout->blocks; b++)
+        ZD_SIZED(multiply, layout->velocity_at[b + 1] - layout->velocity_at[b], layout->coordinate_at[b + 1] - layout->coordinate_at[b],
+                 A + layout->A_at[b], v + layout->velocity_at[b], pdot + layout->coordinate_at[b]);
+}
+
+static void times_block(const zd_layout *layout, int b, const double *M, const double *x, double *y)
+{
+    int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+    if (layout->is_diagonal[b])
+        for (int i = 0; i < n; i++) y[first + i] = M[layout->M_at[b] + i] * x[first + i];
+    else ZD_SIZED(multiply, n, n, M + layout->M_at[b], x + first, y + first);
+}
+
+void zd_times_M(const zd_point *point, const double *M, const double *x, double *y)
+{
+    const zd_layout *layout = point->layout;
+    const int n = point->system->nv;
+    if (!layout) ZD_SIZED(multiply, n, n, M, x, y);
+    for (int b = 0; layout && b < layout->blocks; b++) times_block(layout, b, M, x, y);
+}
+
+/* x^T A x, A (n, n) */
+ZD_INLINE double quadratic(const int n, const double *A, const double *x)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += x[i] * zd_dot(n, A + i * n, x);
+    return sum;
+}
+
+static double quadratic_of_block(const zd_layout *layout, int b, const double *M, const double *x)
+{
+    int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+    double sum = 0;
+    if (!layout->is_diagonal[b]) return ZD_SIZED(quadratic, n, M + layout->M_at[b], x + first);
+    for (int i = 0; i < n; i++) sum += x[first + i] * (M[layout->M_at[b] + i] * x[first + i]);
+    return sum;
+}
+
+double zd_times_M_times(const zd_point *point, const double *M, const double *x)
+{
+    const zd_layout *layout = point->layout;
+    double sum = 0;
+    if (!layout) return ZD_SIZED(quadratic, point->system->nv, M, x);
+    for (int b = 0; b < layout->blocks; b++) sum += quadratic_of_block(layout, b, M, x);
+    return sum;
+}
+
+double zd_point_kinetic(const zd_point *point)
+{
+    return 0.5 * zd_times_M_times(point, point->terms.M, point->v);
+}
+
+/* ---- entries ---- */
+
+double zd_packed_entry_of_M(const zd_layout *layout, const double *M, int i, int j)
+{
+    int b = layout->block_of[i], first = layout->velocity_at[b];
+    if (layout->block_of[j] != b) return 0;
+    M += layout->M_at[b];
+    if (layout->is_diagonal[b]) return i == j ? M[i - first] : 0;
+    return M[(i - first) * (layout->velocity_at[b + 1] - first) + j - first];
+}
+
+double zd_packed_entry_of_A(const zd_layout *layout, const double *A, int i, int j)
+{
+    int b = layout->block_of[j], row = i - layout->coordinate_at[b], first = layout->velocity_at[b];
+    if (row < 0 || i >= layout->coordinate_at[b + 1]) return 0;
+    return A[layout->A_at[b] + row * (layout->velocity_at[b + 1] - first) + j - first];
+}
+
+/* ---- dense ---- */
+
+const double *zd_dense_M(const zd_point *point, double *memory)
+{
+    if (!point->layout) return point->terms.M;
+    zd_expand(point->system, ZD_M, point->terms.M, memory);
+    return memory;
+}
+
+const double *zd_dense_C(const zd_point *point, double *memory)
+{
+    if (!point->layout || point->C != point->terms.C) return point->C;
+    zd_expand(point->system, ZD_C, point->terms.C, memory);
+    return memory;
+}
