@@ -1,0 +1,361 @@
+"""Mechanisms from bodies and joints: the core's tables of joints and elements, and the system it makes from tables of numbers."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import CALLBACK, DONE, MESSAGE_SIZE, Card, card_of, doubles, text
+from .systems import CoreSystem
+
+GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
+          "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE}
+CARRIERS = {lib.ZD_CARRIES_NOTHING: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
+ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
+         lib.ZD_ZERO_LENGTH: "length"}
+EFFORTS = {"spring": lib.ZD_EFFORT_SPRING, "constant": lib.ZD_EFFORT_CONSTANT, "law": lib.ZD_EFFORT_LAW}
+QUANTITIES = {
+    "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
+    "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "effort": lib.ZD_EFFORT_VALUE,
+    "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER}
+COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDINATE_ANGLE: "angle",
+               lib.ZD_COORDINATE_DISPLACEMENT: "displacement"}
+DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
+
+
+class JointRow(NamedTuple):
+    """A row of a kind of joint: the gauge that is held at zero, and which number of the joint is taken from its reading."""
+
+    gauge: str
+    zero: str | None
+    rolls: bool
+    nonholonomic: bool
+
+
+class JointKind(NamedTuple):
+    """A kind of joint; see `zd_joint_kind`. `carrier` None: it cannot be in the tree."""
+
+    number: int
+    card: Card
+    carrier: str | None
+    rows: tuple[JointRow, ...]
+    coordinate: str | None      # "angle" or "displacement"
+    gauge: str | None           # the kind of that gauge
+    zero: str | None
+    takes_axis: bool
+    takes_length: bool
+    at_contact: bool
+    tension: str | None
+
+
+class ElementKind(NamedTuple):
+    """A kind of force element: its gauges with their zeros, and its scalar measure."""
+
+    number: int
+    card: Card
+    gauges: tuple[tuple[str, str | None], ...]
+    is_spring: bool
+    effort: str | None
+    sign: int
+
+
+class Body(NamedTuple):
+    """A row of `zd_body`; bodies have the numbers from 1 on, 0 is the ground."""
+
+    mass: float
+    inertia: float = 0.0
+    is_particle: bool = False
+    carrier: int = -1           # the joint of the tree that carries it; -1: it is free
+
+
+class Joint(NamedTuple):
+    """A row of `zd_joint`. Points are in the axes of their body and from its mass centre; `axis` in the first body's axes."""
+
+    kind: int                   # JointKind.number
+    first: int
+    second: int
+    point1: tuple[float, float] = (0.0, 0.0)
+    point2: tuple[float, float] = (0.0, 0.0)
+    axis: tuple[float, float] = (1.0, 0.0)
+    along: float = 0.0          # what e . (Q - P), n . (Q - P) and the angle are where the joint says zero
+    across: float = 0.0
+    angle: float = 0.0
+    length: float = 0.0         # of a rod; radius of a rolling wheel
+
+
+class Gauge(NamedTuple):
+    """A row of `zd_gauge`; `kind` is a key of GAUGES."""
+
+    kind: str
+    first: int
+    second: int
+    point1: tuple[float, float] = (0.0, 0.0)
+    point2: tuple[float, float] = (0.0, 0.0)
+    axis: tuple[float, float] = (1.0, 0.0)
+    zero: float = 0.0           # taken from the reading
+
+
+class Relation(NamedTuple):
+    """A row of `zd_relation`: sum of coefficients times gauges - constant - slope t = 0, or by a law."""
+
+    gauges: Sequence[int]
+    coefficients: Sequence[float] = ()      # without a law
+    constant: float = 0.0
+    slope: float = 0.0
+    nonholonomic: bool = False
+    law: int = -1
+    joint: int = -1             # to whose force and torque it contributes as its drive
+
+
+class Effort(NamedTuple):
+    """A row of `zd_effort`; `kind` is a key of EFFORTS."""
+
+    kind: str
+    gauge: int
+    stiffness: float = 0.0
+    damping: float = 0.0
+    value: float = 0.0
+    law: int = -1
+    inputs: Sequence[int] = ()  # gauges that the law depends on
+    joint: int = -1             # to whose force and torque it contributes
+
+
+class Observed(NamedTuple):
+    """A row of `zd_observed`: a measure by its name; `quantity` is a key of QUANTITIES."""
+
+    name: str
+    unit: str
+    quantity: str
+    index: int                  # of the first gauge, the joint, effort or relation
+    size: int = 1               # of values, rates and accelerations
+    scale: float = 1.0
+
+
+class Tables(NamedTuple):
+    """All that the core is told of a mechanism."""
+
+    bodies: Sequence[Body]
+    joints: Sequence[Joint] = ()
+    gauges: Sequence[Gauge] = ()
+    relations: Sequence[Relation] = ()
+    efforts: Sequence[Effort] = ()
+    measures: Sequence[Observed] = ()
+    gravity: tuple[float, float] = (0.0, 0.0)
+
+
+class Row(NamedTuple):
+    """What a row of C is: of a joint (component: which row of its kind), or of a relation."""
+
+    owner: str                  # "joint" or "relation"
+    index: int
+    component: int
+
+
+class Coordinate(NamedTuple):
+    """What an entry of p and of v is: "x", "y" or "angle" of a body, or "displacement" of the joint that carries it."""
+
+    body: int
+    kind: str
+
+
+Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
+
+
+def _joint_kind(number: int) -> JointKind:
+    c = lib.zd_joint_kind_of(number)
+    names = {value: name for name, value in GAUGES.items()}
+    rows = tuple(JointRow(names[row.gauge], ZEROS[row.zero], bool(row.rolls), bool(row.nonholonomic))
+                 for row in (c.row[i] for i in range(c.rows)))
+    coordinate = text(c.coordinate) if c.coordinate else None
+    return JointKind(number, card_of(c.card), CARRIERS[c.carrier], rows, coordinate, names[c.gauge] if coordinate else None,
+                     ZEROS[c.zero] if coordinate else None, bool(c.takes_axis), bool(c.takes_length), bool(c.at_contact),
+                     text(c.tension) if c.tension else None)
+
+
+def _element_kind(number: int) -> ElementKind:
+    c = lib.zd_element_kind_of(number)
+    names = {value: name for name, value in GAUGES.items()}
+    gauges = tuple((names[c.gauge[i]], ZEROS[c.zero[i]]) for i in range(c.gauges))
+    return ElementKind(number, card_of(c.card), gauges, bool(c.is_spring), text(c.effort) if c.effort else None, c.sign)
+
+
+def joint_kinds() -> dict[str, JointKind]:
+    """The core's table of joints by name."""
+    return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_joint_kinds()))}
+
+
+def element_kinds() -> dict[str, ElementKind]:
+    """The core's table of force elements by name."""
+    return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_element_kinds()))}
+
+
+class LawOwner:
+    """Calls the laws of one run, and keeps what they raise."""
+
+    def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
+        self.error: BaseException | None = None
+        self._law, self._sizes = law, sizes
+
+    def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
+        """The function that the core calls: `sizes` says how many gauges go in and how many numbers come out."""
+        try:
+            k, size = self._sizes[law]
+            values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
+            if values.shape != (size,):
+                raise ValueError(f"law {law} must give {size} numbers, not an array of shape {values.shape}")
+            for i, value in enumerate(values):
+                out[i] = value
+        except BaseException as error:      # raised again where the run was started
+            self.error = error
+            return CALLBACK
+        return DONE
+
+
+@ffi.def_extern(error=lib.ZD_CALLBACK)
+def zd_law_in_python(owner, law, t, x, xdot, out):
+    return ffi.from_handle(owner).evaluate(law, t, x, xdot, out)
+
+
+class MechanismCore(CoreSystem):
+    """The core's system of a mechanism.
+
+    Parameters
+    ----------
+    tables : Tables
+    law : callable, optional
+        ``law(number, t, x, xdot)`` gives, for an effort, (1,): its value; for a relation with k gauges (k + 3,): g, dg/dx_i, dg/dt, and
+        d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
+    laws_know_time : bool
+        Whether a law depends on t but through positions and velocities.
+
+    Attributes
+    ----------
+    rows : tuple of Row
+        What each row of C is, holonomic ones first.
+    coordinates : tuple of Coordinate
+        What each entry of p is.
+    measures : tuple of Observed
+
+    Raises
+    ------
+    ValueError
+        If the tables contradict themselves; the sentence says where.
+    """
+
+    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
+        self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
+        self._owner: LawOwner | None = None
+        self._mechanism, self._kept = _create(tables, law is not None, laws_know_time)
+        super().__init__(lib.zd_mechanism_system(self._mechanism), self._mechanism)
+        rows, coordinates = lib.zd_mechanism_rows(self._mechanism), lib.zd_mechanism_coordinates(self._mechanism)
+        self.rows = tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
+                          for i in range(self.m))
+        self.coordinates = tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
+        self.measures = tuple(tables.measures)
+
+    def for_run(self) -> MechanismCore:
+        """The same system; with laws, one that keeps what they raise for itself."""
+        if self._law is None:
+            return self
+        mine = copy.copy(self)
+        mine._owner = LawOwner(self._law, _law_sizes(self.tables))
+        handle, data = ffi.new_handle(mine._owner), ffi.new("char[]", lib.zd_mechanism_data_size())
+        lib.zd_mechanism_with_owner(self._mechanism, handle, data)
+        mine.c = ffi.new("zd_system *", self.c[0])
+        mine.c.data, mine._data = data, (handle, data, self._mechanism)
+        return mine
+
+    @property
+    def error(self) -> BaseException | None:
+        """What a law raised."""
+        return self._owner.error if self._owner else None
+
+    def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
+        """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
+        scratch, shape = np.zeros(max(1, self.c.scratch)), (len(self.tables.bodies), 3)
+        poses, rates = np.zeros(shape), None if v is None else np.zeros(shape)
+        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), _given(v, self.nv), doubles(poses, poses.size, writable=True),
+                               _given(rates, poses.size), doubles(scratch, scratch.size, writable=True))
+        return poses, rates
+
+    def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
+        size = 3 * len(self.tables.bodies)
+        p, v = np.zeros(self.nq), np.zeros(self.nv)
+        lib.zd_mechanism_state(self._mechanism, doubles(poses, size), _given(rates, size), doubles(p, p.size, writable=True),
+                               doubles(v, v.size, writable=True))
+        return p, v
+
+    def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
+                multipliers: np.ndarray | None = None) -> np.ndarray:
+        """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
+
+        vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
+        """
+        core, k = self.for_run(), len(t)
+        size = self.c.measures.measure[index].size
+        values, scratch = np.zeros((k, size)), np.zeros(max(1, self.c.measures.scratch))
+        status = lib.zd_measure_states(core.c, index, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv),
+                                       _given(vdot, k * self.nv), _given(multipliers, k * self.m),
+                                       doubles(values, values.size, writable=True), doubles(scratch, scratch.size, writable=True))
+        if status:
+            raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
+        return values
+
+    def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """Value (size,), rate (size,), row (size, nv) and bias (size,) of a measure of positions or velocities at one state."""
+        core, size = self.for_run(), self.c.measures.measure[index].size
+        arrays = {"value": np.zeros(size), "rate": np.zeros(size), "row": np.zeros((size, self.nv)), "bias": np.zeros(size)}
+        out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
+        scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
+        status = core.c.measures.evaluate(core.c.data, index, t, doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL, out, scratch)
+        if status:
+            raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
+        return arrays
+
+    def measure_depends(self, index: int) -> str:
+        """On what a measure depends: "positions", "velocities" or "accelerations"."""
+        return DEPENDS[self.c.measures.measure[index].depends]
+
+
+def _given(array: np.ndarray | None, size: int) -> Any:
+    return ffi.NULL if array is None else doubles(array, size)
+
+
+def _law_sizes(tables: Tables) -> dict[int, tuple[int, int]]:
+    """How many gauges each law is handed, and how many numbers it gives."""
+    sizes = {effort.law: (len(effort.inputs), 1) for effort in tables.efforts if effort.law >= 0}
+    return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
+
+
+def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
+    """The core's mechanism, and what has to live as long."""
+    terms: list[tuple[int, float]] = []
+    relations, efforts = [], []
+    for row in tables.relations:
+        relations.append((len(terms), len(row.gauges), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
+        terms += zip(row.gauges, row.coefficients or [1.0] * len(row.gauges), strict=True)
+    for effort in tables.efforts:
+        efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law, len(terms),
+                        len(effort.inputs), effort.joint))
+        terms += ((gauge, 1.0) for gauge in effort.inputs)
+    names = {word: ffi.new("char[]", word.encode()) for row in tables.measures for word in (row.name, row.unit)}
+    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], row.index, row.size, row.scale) for row in tables.measures]
+    given = {
+        "body": ffi.new("zd_body[]", list(tables.bodies)), "joint": ffi.new("zd_joint[]", list(tables.joints)),
+        "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),
+        "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
+        "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_observed[]", measures)}
+    c = ffi.new("zd_tables *", {
+        "gravity": tables.gravity, "bodies": len(tables.bodies), "joints": len(tables.joints), "gauges": len(tables.gauges),
+        "terms": len(terms), "relations": len(relations), "efforts": len(efforts), "measures": len(measures), **given,
+        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time})
+    message = ffi.new("char[]", MESSAGE_SIZE)
+    mechanism = lib.zd_mechanism_create(c, message, MESSAGE_SIZE)
+    if not mechanism:
+        raise ValueError(text(message))
+    return ffi.gc(mechanism, lib.zd_mechanism_free), names
