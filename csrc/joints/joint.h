@@ -22,6 +22,7 @@ enum zd_gauge_kind {
     ZD_GAUGE_ACROSS,        /* m: n . (Q - P) */
     ZD_GAUGE_DISTANCE,      /* m: |Q - P| */
     ZD_GAUGE_GLIDE,         /* m: has no value, only a rate, the velocity of Q along e. It does nothing to the first body. */
+    ZD_GAUGE_SKID,          /* m: as that, along n */
     ZD_GAUGE_KINDS
 };
 

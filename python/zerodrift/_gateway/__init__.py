@@ -21,6 +21,7 @@ from .base import (
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
+from .mechanisms import MechanismCore, element_kinds, joint_kinds
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .perturbed import perturbed
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
@@ -28,9 +29,9 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
-    "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
-    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "error_of", "find", "in_library",
-    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step",
+    "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
+    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library",
+    "is_length", "joint_kinds", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step",
     "terms_of",
 ]
 

@@ -13,7 +13,8 @@ from .base import CALLBACK, DONE, MESSAGE_SIZE, Card, card_of, doubles, text
 from .systems import CoreSystem
 
 GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
-          "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE}
+          "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE,
+          "skid": lib.ZD_GAUGE_SKID}
 CARRIERS = {lib.ZD_CARRIES_NOTHING: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
 ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
          lib.ZD_ZERO_LENGTH: "length"}

@@ -1,0 +1,9 @@
+/* Knife edge, as a skate or a blade: a point has no velocity across its axis. First and second are the body that it belongs to. */
+#include "joint.h"
+
+const zd_joint_kind zd_knife_edge_joint = {
+    .card = {"knife_edge", "Lets a point of a body glide along a direction that turns with the body, and not across.", "(5)", 0, 0, 0},
+    .rows = 1,
+    .row = {{.gauge = ZD_GAUGE_SKID, .nonholonomic = 1}},
+    .takes_axis = 1,
+};

@@ -1,0 +1,10 @@
+/* Rod: two points keep their distance. Its one row is a length, so that its multiplier is a force. */
+#include "joint.h"
+
+const zd_joint_kind zd_rod = {
+    .card = {"rod", "Keeps two points at a distance, as a massless rod with a hinge at each end.", "(3), (5)", 0, 0, 0},
+    .rows = 1,
+    .row = {{.gauge = ZD_GAUGE_DISTANCE, .zero = ZD_ZERO_LENGTH}},
+    .takes_length = 1,
+    .tension = "tension",
+};

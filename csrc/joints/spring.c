@@ -1,0 +1,10 @@
+/* Spring and damper along the line between two points: slack at its free length. Its force is positive where it pulls. */
+#include "joint.h"
+
+const zd_element_kind zd_spring = {
+    .card = {"spring", "Spring with a damper between two points.", "(2), (28)", 0, 0, 0},
+    .gauges = 1,
+    .gauge = {ZD_GAUGE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
+    .is_spring = 1,
+    .effort = "force", .sign = -1,
+};

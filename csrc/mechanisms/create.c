@@ -1,0 +1,354 @@
+/* From tables to a mechanism: bodies are renumbered so that inner ones come first, and joints outside the tree become rows. */
+#include <stdio.h>
+
+#include "../workspace.h"
+#include "check.h"
+#include "evaluate.h"
+#include "measures.h"
+
+/* What is filled in here, and constant afterwards. */
+typedef struct parts {
+    int *number, *row_of_relation;
+    zd_link *link;
+    zd_joint *joint;
+    zd_planned_joint *planned;
+    zd_gauge *gauge;
+    zd_gauge_term *term;
+    zd_relation *row;
+    zd_row_owner *owner_of_row;
+    zd_effort *effort;
+    zd_observed *observed;
+    zd_measure *measure;
+    zd_coordinate_owner *coordinate;
+    int *lengths;
+    int gauges, terms, rows;        /* so many are there by now */
+} parts;
+
+/* ---- memory ---- */
+
+static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
+{
+    size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints;
+    size_t extra = joints * (ZD_JOINT_ROWS + 1), rows = joints * ZD_JOINT_ROWS + (size_t)tables->relations;
+#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+    TAKE(number, bodies + 1);
+    TAKE(row_of_relation, (size_t)tables->relations);
+    TAKE(link, bodies + 1);
+    TAKE(joint, joints);
+    TAKE(planned, joints);
+    TAKE(gauge, (size_t)tables->gauges + extra);
+    TAKE(term, (size_t)tables->terms + extra);
+    TAKE(row, rows);
+    TAKE(owner_of_row, rows);
+    TAKE(effort, (size_t)tables->efforts);
+    TAKE(observed, (size_t)tables->measures);
+    TAKE(measure, (size_t)tables->measures);
+    TAKE(coordinate, 3 * bodies);
+    TAKE(lengths, 6 * bodies);
+#undef TAKE
+}
+
+/* ---- the tree ---- */
+
+static int inner_of(const zd_tables *tables, int body)
+{
+    int carrier = tables->body[body - 1].carrier;
+    if (carrier < 0) return 0;
+    const zd_joint *joint = tables->joint + carrier;
+    return joint->first == body ? joint->second : joint->first;
+}
+
+/* Numbers bodies so that the one that each hangs on comes first; returns whether they hang on the ground, all of them. */
+static int number_bodies(const zd_tables *tables, int *number)
+{
+    int numbered = 0, before = -1;
+    while (numbered > before) {
+        before = numbered;
+        for (int body = 1; body <= tables->bodies; body++) {
+            int inner = inner_of(tables, body);
+            if (!number[body] && (inner == 0 || number[inner])) number[body] = ++numbered;
+        }
+    }
+    return numbered == tables->bodies;
+}
+
+static zd_vector vector_of(const double *x) { return (zd_vector){x[0], x[1]}; }
+
+/* How a body hangs on the other one of the joint that carries it: as the second body on the first, or the other way round. */
+static zd_link hang_on(const zd_joint *joint, const zd_body *body, int is_second)
+{
+    static const enum zd_hang hang[] = {[ZD_TURNS] = ZD_HANGS_TURNING, [ZD_SLIDES] = ZD_HANGS_SLIDING, [ZD_FIXED] = ZD_HANGS_FIXED};
+    const zd_joint_kind *kind = zd_joint_kind_of(joint->kind);
+    double angle = is_second ? joint->angle : -joint->angle, sign = is_second ? 1 : -1;
+    double cosine = cos(angle), sine = sin(angle);
+    zd_link link = {
+        .hang = body->is_particle ? ZD_HANGS_PINNED : hang[kind->carrier],
+        .near = vector_of(is_second ? joint->point1 : joint->point2),
+        .far = zd_times(-1, vector_of(is_second ? joint->point2 : joint->point1)),
+        .angle = angle, .cosine = cosine, .sine = sine,
+    };
+    if (kind->carrier != ZD_SLIDES) return link;
+    zd_vector axis = zd_times(sign, vector_of(joint->axis));
+    link.axis = is_second ? axis : zd_rotated(cosine, sine, axis);
+    link.along = joint->along;
+    link.near = zd_plus(link.near, zd_turned(joint->across, link.axis));
+    return link;
+}
+
+static int coordinates_of(enum zd_hang hang)
+{
+    static const int count[] = {[ZD_HANGS_FREE] = 3, [ZD_HANGS_FREE_POINT] = 2, [ZD_HANGS_TURNING] = 1, [ZD_HANGS_SLIDING] = 1};
+    return hang <= ZD_HANGS_SLIDING ? count[hang] : 0;
+}
+
+static void name_coordinates(const zd_link *link, int body, zd_coordinate_owner *to)
+{
+    enum zd_coordinate_kind first = link->hang == ZD_HANGS_TURNING   ? ZD_COORDINATE_ANGLE
+                                    : link->hang == ZD_HANGS_SLIDING ? ZD_COORDINATE_DISPLACEMENT
+                                                                     : ZD_COORDINATE_X;
+    for (int i = 0; i < coordinates_of(link->hang); i++) to[i] = (zd_coordinate_owner){body, first + (unsigned)i};
+}
+
+/* Links, in the tree's order; coordinates, in that of the bodies as given. Returns how many coordinates there are. */
+static int plan_tree(const zd_tables *tables, parts *to)
+{
+    int coordinates = 0;
+    for (int body = 1; body <= tables->bodies; body++) {
+        const zd_body *given = tables->body + body - 1;
+        zd_link link = {.hang = given->is_particle ? ZD_HANGS_FREE_POINT : ZD_HANGS_FREE};
+        if (given->carrier >= 0) link = hang_on(tables->joint + given->carrier, given, tables->joint[given->carrier].second == body);
+        link.inner = to->number[inner_of(tables, body)];
+        link.coordinate = coordinates;
+        link.mass = link.carried = given->mass;
+        link.inertia = given->inertia;
+        name_coordinates(&link, body, to->coordinate + coordinates);
+        coordinates += coordinates_of(link.hang);
+        to->link[to->number[body]] = link;
+    }
+    for (int i = tables->bodies; i; i--) to->link[to->link[i].inner].carried += to->link[i].carried;
+    for (int i = 0; i < coordinates; i++)
+        to->lengths[i] = to->lengths[coordinates + i] = to->coordinate[i].kind != ZD_COORDINATE_ANGLE;
+    return coordinates;
+}
+
+/* ---- joints, gauges, relations ---- */
+
+static void plan_joints(const zd_tables *tables, parts *to)
+{
+    for (int i = 0; i < tables->joints; i++) {
+        to->joint[i] = tables->joint[i];
+        to->joint[i].first = to->number[tables->joint[i].first];
+        to->joint[i].second = to->number[tables->joint[i].second];
+    }
+    for (int body = 1; body <= tables->bodies; body++) {
+        int carrier = tables->body[body - 1].carrier;
+        if (carrier < 0) continue;
+        to->planned[carrier].carried = to->number[body];
+        to->planned[carrier].sign = tables->joint[carrier].second == body ? 1 : -1;
+    }
+}
+
+static void copy_gauges(const zd_tables *tables, parts *to)
+{
+    for (int i = 0; i < tables->gauges; i++) {
+        to->gauge[i] = tables->gauge[i];
+        to->gauge[i].first = to->number[tables->gauge[i].first];
+        to->gauge[i].second = to->number[tables->gauge[i].second];
+    }
+    for (int i = 0; i < tables->terms; i++) to->term[i] = tables->term[i];
+    to->gauges = tables->gauges;
+    to->terms = tables->terms;
+}
+
+static double zero_of(const zd_joint *joint, enum zd_zero zero)
+{
+    switch (zero) {
+    case ZD_ZERO_ALONG: return joint->along;
+    case ZD_ZERO_ACROSS: return joint->across;
+    case ZD_ZERO_ANGLE: return joint->angle;
+    case ZD_ZERO_LENGTH: return joint->length;
+    default: return 0;
+    }
+}
+
+static void add_term(const zd_joint *joint, int kind, enum zd_zero zero, double coefficient, parts *to)
+{
+    to->gauge[to->gauges] = (zd_gauge){
+        kind, joint->first, joint->second, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
+        {joint->axis[0], joint->axis[1]}, zero_of(joint, zero)};
+    to->term[to->terms++] = (zd_gauge_term){to->gauges++, coefficient};
+}
+
+static void add_row(parts *to, zd_relation row, zd_row_owner owner)
+{
+    to->row[to->rows] = row;
+    to->owner_of_row[to->rows++] = owner;
+}
+
+/* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
+static void plan_rows(const zd_tables *tables, int nonholonomic, parts *to)
+{
+    for (int j = 0; j < tables->joints; j++) {
+        const zd_joint_kind *kind = zd_joint_kind_of(to->joint[j].kind);
+        if (to->planned[j].carried) continue;
+        for (int i = 0; i < kind->rows; i++) {
+            const zd_joint_row *row = kind->row + i;
+            if (row->nonholonomic != nonholonomic) continue;
+            int first = to->terms;
+            add_term(to->joint + j, (int)row->gauge, row->zero, 1, to);
+            if (row->rolls) add_term(to->joint + j, ZD_GAUGE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
+            to->planned[j].rows[to->planned[j].row_count++] = to->rows;
+            add_row(to, (zd_relation){first, to->terms - first, nonholonomic, -1, 0, 0, j}, (zd_row_owner){ZD_OF_JOINT, j, i});
+        }
+    }
+    for (int i = 0; i < tables->relations; i++) {
+        if (tables->relation[i].nonholonomic != nonholonomic) continue;
+        to->row_of_relation[i] = to->rows;
+        add_row(to, tables->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0});
+    }
+}
+
+/* ---- the system ---- */
+
+static int longest_of(const zd_tables *tables)
+{
+    int longest = 2;        /* a rolling joint's second row */
+    for (int i = 0; i < tables->relations; i++)
+        if (tables->relation[i].terms > longest) longest = tables->relation[i].terms;
+    for (int i = 0; i < tables->efforts; i++)
+        if (tables->effort[i].terms > longest) longest = tables->effort[i].terms;
+    return longest;
+}
+
+static int forces_know_velocity(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->efforts; i++)
+        if (tables->effort[i].damping != 0 || tables->effort[i].kind == ZD_EFFORT_LAW) return 1;
+    return 0;
+}
+
+static int forces_have_power(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->efforts; i++)
+        if (tables->effort[i].damping != 0 || tables->effort[i].kind != ZD_EFFORT_SPRING) return 1;
+    return 0;
+}
+
+/* Whether a row's rate has a part of its own, dg/dt or a_0 of (5). */
+static int rows_have_explicit_rate(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->relations; i++) {
+        const zd_relation *row = tables->relation + i;
+        if (row->slope != 0 || (row->nonholonomic && row->constant != 0)) return 1;
+        if (row->law >= 0 && (row->nonholonomic || tables->laws_know_time)) return 1;
+    }
+    return 0;
+}
+
+static int knows_time(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->relations; i++)
+        if (tables->relation[i].slope != 0) return 1;
+    return tables->law && tables->laws_know_time;
+}
+
+static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tree)
+{
+    int terms = ZD_M | ZD_POTENTIAL;
+    int has_gravity = self->gravity.x != 0 || self->gravity.y != 0;
+    if (is_tree) terms |= ZD_BIAS;
+    if (has_gravity || tables->efforts) terms |= ZD_FORCE;
+    if (self->m) terms |= ZD_C | ZD_XI;
+    if (self->mh) terms |= ZD_PHI;
+    if (rows_have_explicit_rate(tables)) terms |= ZD_PHI_T;
+    if (forces_have_power(tables)) terms |= ZD_POWER;
+    if (!knows_time(tables)) terms |= ZD_TIMELESS;
+    return terms;
+}
+
+static int has_tree(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->bodies; i++)
+        if (tables->body[i].carrier >= 0) return 1;
+    return 0;
+}
+
+static void make_system(const zd_tables *tables, const parts *from, int coordinates, zd_mechanism *self)
+{
+    for (int i = 0; i < tables->efforts; i++) from->effort[i] = tables->effort[i];
+    for (int i = 0; i < tables->measures; i++) from->observed[i] = tables->measure[i];
+    self->system = (zd_system){
+        .nq = coordinates, .nv = coordinates, .mh = self->mh, .mn = self->m - self->mh,
+        .provides = terms_of(tables, self, has_tree(tables)),
+        .scratch = zd_frame_size(self),
+        .evaluate = zd_mechanism_evaluate,
+        .data = self,
+        .lengths = from->lengths,
+        .failure = "a law of the mechanism failed",
+        .measures = &self->measures,
+    };
+    self->measures = zd_mechanism_measures(self, from->measure);
+}
+
+static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
+{
+    int coordinates = plan_tree(tables, all);
+    plan_joints(tables, all);
+    copy_gauges(tables, all);
+    plan_rows(tables, 0, all);
+    int mh = all->rows;
+    plan_rows(tables, 1, all);
+    *self = (zd_mechanism){
+        .gravity = {tables->gravity[0], tables->gravity[1]},
+        .tree = {tables->bodies, coordinates, all->link},
+        .joints = tables->joints, .relations = tables->relations, .efforts = tables->efforts, .mh = mh, .m = all->rows,
+        .longest = longest_of(tables),
+        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term, .row = all->row,
+        .owner_of_row = all->owner_of_row, .row_of_relation = all->row_of_relation, .effort = all->effort, .observed = all->observed,
+        .coordinate = all->coordinate,
+        .law = tables->law, .owner = tables->owner,
+        .has_velocity_forces = forces_know_velocity(tables),
+    };
+    self->measures.count = tables->measures;
+    make_system(tables, all, coordinates, self);
+}
+
+zd_mechanism *zd_mechanism_create(const zd_tables *tables, char *message, int message_size)
+{
+    if (!zd_tables_are_right(tables, message, message_size)) return NULL;
+    zd_arena arena = {NULL, 0};
+    parts all = {.gauges = 0};
+    zd_take(&arena, sizeof(zd_mechanism));
+    take_parts(tables, &arena, &all);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) {
+        snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
+        return NULL;
+    }
+    zd_mechanism *self = zd_take(&arena, sizeof *self);
+    take_parts(tables, &arena, &all);
+    if (!number_bodies(tables, all.number)) {
+        snprintf(message, (size_t)message_size, "the tree has a circle: bodies carry each other");
+        zd_release(self);
+        return NULL;
+    }
+    plan(tables, &all, self);
+    return self;
+}
+
+void zd_mechanism_free(zd_mechanism *mechanism)
+{
+    zd_release(mechanism);
+}
+
+const zd_system *zd_mechanism_system(const zd_mechanism *mechanism) { return &mechanism->system; }
+const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return mechanism->owner_of_row; }
+const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism) { return mechanism->coordinate; }
+int zd_mechanism_data_size(void) { return (int)sizeof(zd_mechanism); }
+
+void zd_mechanism_with_owner(const zd_mechanism *mechanism, void *owner, void *data)
+{
+    zd_mechanism *mine = data;
+    *mine = *mechanism;
+    mine->owner = owner;
+}

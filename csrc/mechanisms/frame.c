@@ -1,0 +1,39 @@
+/* How the scratch of a mechanism is divided. */
+#include "plan.h"
+
+/* The next `count` structures of `size` doubles each. */
+static double *next(double *scratch, int *used, int count, size_t bytes)
+{
+    double *here = scratch ? scratch + *used : NULL;
+    *used += count * (int)(bytes / sizeof(double));
+    return here;
+}
+
+static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
+{
+    int used = 0, bodies = self->tree.bodies + 1, longest = self->longest;
+    to->pose = (zd_pose *)next(scratch, &used, bodies, sizeof(zd_pose));
+    to->twist = (zd_twist *)next(scratch, &used, bodies, sizeof(zd_twist));
+    to->wrench = (zd_wrench *)next(scratch, &used, bodies, sizeof(zd_wrench));
+    to->composite = (zd_composite *)next(scratch, &used, bodies, sizeof(zd_composite));
+    to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
+    to->row = next(scratch, &used, self->tree.nv, sizeof(double));
+    to->x = next(scratch, &used, longest, sizeof(double));
+    to->xdot = next(scratch, &used, longest, sizeof(double));
+    to->bias = next(scratch, &used, longest, sizeof(double));
+    to->out = next(scratch, &used, longest + 3, sizeof(double));
+    return used;
+}
+
+zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch)
+{
+    zd_frame frame;
+    divide(mechanism, scratch, &frame);
+    return frame;
+}
+
+int zd_frame_size(const zd_mechanism *mechanism)
+{
+    zd_frame frame;
+    return divide(mechanism, NULL, &frame);
+}

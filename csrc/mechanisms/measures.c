@@ -1,0 +1,145 @@
+/* Measures are gauges with their rates and accelerations, and what goes through joints, springs and drives. */
+#include "measures.h"
+
+#include "efforts.h"
+#include "gauge.h"
+#include "reactions.h"
+#include "rows.h"
+
+typedef struct state {
+    double t;
+    const double *v, *vdot, *lambda;
+} state;
+
+static int size_of(const zd_observed *measure)
+{
+    if (measure->quantity <= ZD_ACCELERATIONS) return measure->size;
+    return measure->quantity == ZD_JOINT_FORCE ? 2 : 1;
+}
+
+static enum zd_measured_at depends_on(const zd_observed *measure)
+{
+    return measure->quantity == ZD_VALUES ? ZD_OF_POSITIONS : measure->quantity == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
+}
+
+static void write_row(const zd_mechanism *self, const zd_frame *frame, const zd_gauge *gauge, double scale, double *row)
+{
+    zd_reading reading = zd_gauge_read(gauge, frame->pose);
+    memset(row, 0, (size_t)self->tree.nv * sizeof *row);
+    zd_tree_inward(&self->tree, frame->pose, gauge->first, scale, reading.first, row);
+    zd_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading.second, row);
+}
+
+/* Component i of a measure that is a gauge, its rate, or the rate's rate. */
+static void measure_gauge(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, int i, const state *at,
+                          const zd_measured *out)
+{
+    const zd_gauge *gauge = self->gauge + measure->index + i;
+    double bias, rate = zd_gauge_rate(gauge, frame->pose, frame->twist, &bias), s = measure->scale;
+    if (measure->quantity == ZD_ACCELERATIONS) {
+        write_row(self, frame, gauge, s, frame->row);
+        if (out->value) out->value[i] = s * bias + zd_dot(self->tree.nv, frame->row, at->vdot);
+        return;
+    }
+    if (out->value) out->value[i] = s * (measure->quantity == ZD_RATES ? rate : zd_gauge_read(gauge, frame->pose).value);
+    if (out->rate && measure->quantity == ZD_VALUES) out->rate[i] = s * rate;
+    if (out->row) write_row(self, frame, gauge, s, out->row + i * self->tree.nv);
+    if (out->bias) out->bias[i] = s * bias;
+}
+
+/* The force of a joint's first row along its gauge, positive where it pulls the second towards the first. */
+static int measure_tension(const zd_mechanism *self, const zd_frame *frame, int joint, const state *at, double *value)
+{
+    zd_wrench reaction;
+    int status = zd_joint_reaction(self, frame, joint, at->t, at->vdot, at->lambda, &reaction);
+    const zd_joint *ends = self->joint + joint;
+    zd_vector apart = zd_minus(zd_point_of(frame->pose + ends->second, ends->point2), zd_point_of(frame->pose + ends->first, ends->point1));
+    *value = -zd_inner(reaction.force, apart) / sqrt(zd_inner(apart, apart));
+    return status;
+}
+
+static int measure_effort(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+{
+    double rate;
+    int status = zd_effort_value(self, frame, self->effort + measure->index, at->t, value, &rate);
+    if (measure->quantity == ZD_EFFORT_POWER) *value *= rate;
+    return status;
+}
+
+static int measure_drive(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+{
+    double bias;
+    int status = zd_drive_effort(self, frame, measure->index, at->t, at->lambda, value);
+    const zd_relation *row = self->row + self->row_of_relation[measure->index];
+    if (measure->quantity == ZD_DRIVE_POWER)
+        *value *= zd_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist, &bias);
+    return status;
+}
+
+static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+{
+    zd_wrench reaction;
+    int status;
+    switch (measure->quantity) {
+    case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
+    case ZD_EFFORT_VALUE:
+    case ZD_EFFORT_POWER: return measure_effort(self, frame, measure, at, value);
+    case ZD_DRIVE_VALUE:
+    case ZD_DRIVE_POWER: return measure_drive(self, frame, measure, at, value);
+    default: status = zd_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
+    }
+    if (measure->quantity == ZD_JOINT_TORQUE) *value = reaction.torque;
+    else value[0] = reaction.force.x, value[1] = reaction.force.y;
+    return status;
+}
+
+static int has_what_it_needs(const zd_mechanism *self, const zd_observed *measure, const state *at)
+{
+    int is_effort = measure->quantity == ZD_EFFORT_VALUE || measure->quantity == ZD_EFFORT_POWER;
+    if (measure->quantity <= ZD_RATES || is_effort) return 1;
+    return at->vdot && (measure->quantity == ZD_ACCELERATIONS || at->lambda || self->m == 0);
+}
+
+static int evaluate(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+                    const zd_measured *out, double *scratch)
+{
+    const zd_mechanism *self = data;
+    const zd_observed *observed = self->observed + measure;
+    const zd_frame frame = zd_frame_of(self, scratch);
+    const state at = {t, v, vdot, lambda};
+    if (!has_what_it_needs(self, observed, &at)) return ZD_BAD_ARGUMENT;
+    zd_tree_place(&self->tree, p, frame.pose);
+    zd_tree_move(&self->tree, frame.pose, v, frame.twist);
+    if (observed->quantity <= ZD_ACCELERATIONS) {
+        for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
+        return ZD_DONE;
+    }
+    if (!out->value) return ZD_DONE;
+    int status = measure_transmitted(self, &frame, observed, &at, out->value);
+    for (int i = 0; i < size_of(observed); i++) out->value[i] *= observed->scale;
+    return status;
+}
+
+zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
+{
+    int count = self->measures.count;
+    for (int i = 0; i < count; i++) {
+        const zd_observed *observed = self->observed + i;
+        measure[i] = (zd_measure){observed->name, observed->unit, size_of(observed), depends_on(observed)};
+    }
+    return (zd_measures){count, measure, zd_frame_size(self), evaluate};
+}
+
+int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
+                      const double *vdot, const double *multipliers, double *values, double *scratch)
+{
+    const zd_measures *all = system->measures;
+    int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = system->mh + system->mn;
+    for (int64_t i = 0; i < rows; i++) {
+        const zd_measured out = {.value = values + i * size};
+        int status = all->evaluate(system->data, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
+                                   multipliers ? multipliers + i * m : NULL, &out, scratch);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}

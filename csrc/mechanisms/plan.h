@@ -1,0 +1,52 @@
+/* A mechanism as the core keeps it: bodies renumbered so that inner ones come first, joints turned into rows of gauges. */
+#ifndef ZD_PLAN_H
+#define ZD_PLAN_H
+
+#include "mechanism.h"
+#include "tree.h"
+
+typedef struct zd_planned_joint {
+    int carried;            /* the body that it carries, 0: none */
+    int sign;               /* 1: that is the second body, -1: the first */
+    int rows[ZD_JOINT_ROWS];    /* which rows of C are its own */
+    int row_count;
+} zd_planned_joint;
+
+/* Body numbers in all of these are those of the tree. */
+struct zd_mechanism {
+    zd_vector gravity;
+    zd_tree tree;
+    int joints, relations, efforts, mh, m, longest;     /* `longest`: most terms of any relation or effort */
+    const int *number;              /* (bodies + 1,): of each body as given, in the tree */
+    const zd_joint *joint;
+    const zd_planned_joint *planned;    /* (joints,) */
+    const zd_gauge *gauge;          /* those given, then those of the joints' rows */
+    const zd_gauge_term *term;
+    const zd_relation *row;         /* (m,) of the joints and the relations given, holonomic ones first */
+    const zd_row_owner *owner_of_row;           /* (m,) */
+    const int *row_of_relation;     /* (relations,) */
+    const zd_effort *effort;
+    const zd_observed *observed;
+    const zd_coordinate_owner *coordinate;      /* (nq,) */
+    zd_law *law;
+    void *owner;
+    zd_system system;               /* its data is the mechanism */
+    zd_measures measures;
+    int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
+};
+
+/* What a mechanism keeps in a system's scratch while (t, p) stays; then what is made anew for each call. */
+typedef struct zd_frame {
+    zd_pose *pose;
+    zd_twist *twist;
+    zd_wrench *wrench;
+    zd_composite *composite;
+    zd_spin *spin;                  /* of measures alone */
+    double *row;                    /* (nv,) of measures alone */
+    double *x, *xdot, *bias, *out;  /* of a row's gauges: (longest,), and (longest + 3,) */
+} zd_frame;
+
+zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch);
+int zd_frame_size(const zd_mechanism *mechanism);       /* doubles */
+
+#endif

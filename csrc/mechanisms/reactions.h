@@ -1,0 +1,14 @@
+/* What goes through joints. */
+#ifndef ZD_REACTIONS_H
+#define ZD_REACTIONS_H
+
+#include "plan.h"
+
+/* What the first body of a joint does to the second: a force at the joint's point of the second body, with the torque about it, from a
+ * frame that is placed and moving. With the joint's drives and damping. Returns ZD_DONE or ZD_CALLBACK. */
+int zd_joint_reaction(const zd_mechanism *self, const zd_frame *frame, int joint, double t, const double *vdot, const double *lambda,
+                      zd_wrench *reaction);
+/* The effort of a relation along its first gauge, positive where it drives it up. */
+int zd_drive_effort(const zd_mechanism *self, const zd_frame *frame, int relation, double t, const double *lambda, double *effort);
+
+#endif

@@ -1,0 +1,73 @@
+/* The kinematics of a tree of bodies in the plane: from coordinates outward to bodies, from forces on bodies inward to coordinates.
+ *
+ * Bodies are numbered here so that each one comes after the body that it hangs on; 0 is the ground. Angles of bodies that turn are their
+ * own coordinates, measured from the ground, so that a torque on such a body reaches its own coordinate alone, while a force goes on to the
+ * bodies further in. Nothing here knows of constraints, springs or drives.
+ */
+#ifndef ZD_TREE_H
+#define ZD_TREE_H
+
+#include "plane.h"
+
+enum zd_hang {
+    ZD_HANGS_FREE,          /* coordinates x, y, angle */
+    ZD_HANGS_FREE_POINT,    /* a free particle: x, y */
+    ZD_HANGS_TURNING,       /* its angle */
+    ZD_HANGS_SLIDING,       /* its displacement */
+    ZD_HANGS_FIXED,
+    ZD_HANGS_PINNED         /* a particle at a point of the inner body */
+};
+
+typedef struct zd_link {
+    enum zd_hang hang;
+    int inner;              /* the body it hangs on */
+    int coordinate;         /* where its own coordinates begin */
+    zd_vector near;         /* from the inner mass centre to the joint, in the inner body's axes */
+    zd_vector far;          /* from the joint to its own mass centre, in its own axes */
+    zd_vector axis;         /* along which it slides, in the inner body's axes */
+    double along;           /* m: how far along the axis it is at displacement 0 */
+    double angle, cosine, sine;     /* of it less that of the inner body, where it slides or is fixed */
+    double mass, inertia;
+    double carried;         /* kg: with all bodies that hang on it */
+} zd_link;
+
+typedef struct zd_tree {
+    int bodies;             /* without the ground */
+    int nv;
+    const zd_link *link;    /* (bodies + 1,) the first one unused */
+} zd_tree;
+
+typedef struct zd_pose {    /* of a mass centre */
+    zd_vector at;
+    double angle, cosine, sine;
+    zd_vector near, far;    /* of the link, in the drawing's axes; `near` with the displacement */
+    zd_vector axis;
+} zd_pose;
+
+typedef struct zd_twist {
+    zd_vector speed, bias;  /* m/s of the mass centre, and its acceleration where vdot is zero; the angle's is always zero then */
+    double turn;            /* rad/s */
+} zd_twist;
+
+typedef struct zd_spin {    /* an acceleration */
+    zd_vector speed;
+    double turn;
+} zd_spin;
+
+typedef struct zd_composite {   /* a body with all that hangs on it, as it moves with the body's own joint */
+    zd_vector first;        /* kg m: its mass times the way from the body's mass centre to its own */
+    double inertia;         /* kg m^2 about the body's mass centre */
+} zd_composite;
+
+void zd_tree_place(const zd_tree *tree, const double *p, zd_pose *pose);
+void zd_tree_move(const zd_tree *tree, const zd_pose *pose, const double *v, zd_twist *twist);
+void zd_tree_accelerate(const zd_tree *tree, const zd_pose *pose, const zd_twist *twist, const double *vdot, zd_spin *spin);
+/* row += what `scale` times the wrench on one body does to the coordinates. */
+void zd_tree_inward(const zd_tree *tree, const zd_pose *pose, int body, double scale, zd_wrench what, double *row);
+/* to (nv,) <- what the wrenches on all bodies do to the coordinates; the wrenches are used up. */
+void zd_tree_gather(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench, double *to);
+/* wrench <- what has to come through each body's own joint, where it is what each body needs by itself. */
+void zd_tree_transmit(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench);
+void zd_tree_mass(const zd_tree *tree, const zd_pose *pose, zd_composite *composite, double *M);
+
+#endif
