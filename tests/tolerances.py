@@ -10,6 +10,7 @@ ENERGY = 32 * EPS           # E after (29), of T + |V| + |E0|: the balance is a 
 VELOCITY = 256 * EPS        # |Psi| after (25b), of sum |C v|: what one solve leaves, its condition included
 IMPLICIT = 64 * EPS         # defect of an implicit step among its terms: the core iterates to 4 EPS, our own f differs by SOLVED
 
+REACTION = 1e-10            # random mechanisms in two kinds of coordinates: SOLVED times conditions up to 1e3, through joints
 EXACT = 128 * EPS           # against exact arithmetic, masses nine powers of ten apart: with no condition number beside it
 
 # ---- truncation ----

@@ -49,10 +49,11 @@ static int body_is_right(const zd_tables *tables, int i, complaint to)
     return carrier_is_right(tables, i, to);
 }
 
-/* A particle has no axes: its point is its place, and where it is the first body, an axis has nothing to turn with. */
+/* A particle has no axes: its point is its place. */
 static int suits_particles(const zd_tables *tables, int first, int second, const double *point1, const double *point2)
 {
-    return !(is_particle(tables, first) && (point1[0] != 0 || point1[1] != 0)) && !(is_particle(tables, second) && (point2[0] != 0 || point2[1] != 0));
+    return !(is_particle(tables, first) && (point1[0] != 0 || point1[1] != 0)) &&
+           !(is_particle(tables, second) && (point2[0] != 0 || point2[1] != 0));
 }
 
 static int joint_is_right(const zd_tables *tables, int i, complaint to)

@@ -29,10 +29,10 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
-    "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter", "PythonCore", "Record", "Run", "Variable",
-    "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library",
-    "is_length", "joint_kinds", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step",
-    "terms_of",
+    "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter", "PythonCore", "Record",
+    "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles",
+    "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds", "load_data",
+    "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

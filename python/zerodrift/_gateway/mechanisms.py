@@ -228,8 +228,8 @@ class MechanismCore(CoreSystem):
     ----------
     tables : Tables
     law : callable, optional
-        ``law(number, t, x, xdot)`` gives, for an effort, (1,): its value; for a relation with k gauges (k + 3,): g, dg/dx_i, dg/dt, and
-        d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
+        ``law(number, t, x, xdot)`` gives, for an effort, (1,): its value; for a relation with k gauges (k + 3,): g, dg/dx_i,
+        dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
     laws_know_time : bool
         Whether a law depends on t but through positions and velocities.
 
@@ -279,7 +279,7 @@ class MechanismCore(CoreSystem):
         """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
         scratch, shape = np.zeros(max(1, self.c.scratch)), (len(self.tables.bodies), 3)
         poses, rates = np.zeros(shape), None if v is None else np.zeros(shape)
-        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), _given(v, self.nv), doubles(poses, poses.size, writable=True),
+        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), _given(v, self.nv), _given(poses, poses.size),
                                _given(rates, poses.size), doubles(scratch, scratch.size, writable=True))
         return poses, rates
 
@@ -302,7 +302,8 @@ class MechanismCore(CoreSystem):
         values, scratch = np.zeros((k, size)), np.zeros(max(1, self.c.measures.scratch))
         status = lib.zd_measure_states(core.c, index, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv),
                                        _given(vdot, k * self.nv), _given(multipliers, k * self.m),
-                                       doubles(values, values.size, writable=True), doubles(scratch, scratch.size, writable=True))
+                                       doubles(values, values.size, writable=True),
+                                       doubles(scratch, scratch.size, writable=True))
         if status:
             raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
         return values
@@ -313,7 +314,8 @@ class MechanismCore(CoreSystem):
         arrays = {"value": np.zeros(size), "rate": np.zeros(size), "row": np.zeros((size, self.nv)), "bias": np.zeros(size)}
         out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
         scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
-        status = core.c.measures.evaluate(core.c.data, index, t, doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL, out, scratch)
+        at = doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL
+        status = core.c.measures.evaluate(core.c.data, index, t, *at, out, scratch)
         if status:
             raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
         return arrays
@@ -341,11 +343,12 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
         relations.append((len(terms), len(row.gauges), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
         terms += zip(row.gauges, row.coefficients or [1.0] * len(row.gauges), strict=True)
     for effort in tables.efforts:
-        efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law, len(terms),
-                        len(effort.inputs), effort.joint))
+        efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law,
+                        len(terms), len(effort.inputs), effort.joint))
         terms += ((gauge, 1.0) for gauge in effort.inputs)
     names = {word: ffi.new("char[]", word.encode()) for row in tables.measures for word in (row.name, row.unit)}
-    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], row.index, row.size, row.scale) for row in tables.measures]
+    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], row.index, row.size, row.scale)
+                for row in tables.measures]
     given = {
         "body": ffi.new("zd_body[]", list(tables.bodies)), "joint": ffi.new("zd_joint[]", list(tables.joints)),
         "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),

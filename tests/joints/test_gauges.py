@@ -1,0 +1,115 @@
+"""Gauges against what they are said to be, in NumPy, and the tables of joints and elements."""
+
+import numpy as np
+import pytest
+
+import tolerances as tol
+from mechanism_tables import KINDS, TREE, Body, Gauge, Observed, Tabled, Tables, rotation
+from support import along, assert_close
+from zerodrift import _gateway
+from zerodrift._gateway.mechanisms import GAUGES
+
+FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
+INTEGRABLE = sorted(GAUGES.keys() - {"glide", "skid"})
+
+
+def points(poses):
+    """P, Q, e and n of two bodies."""
+    (r1, a1), (r2, a2) = ((pose[:2], pose[2]) for pose in poses)
+    e = rotation(a1) @ AXIS
+    return r1 + rotation(a1) @ FIRST, r2 + rotation(a2) @ SECOND, e, np.array([-e[1], e[0]])
+
+
+READINGS = {
+    "x": lambda poses: (points(poses)[1] - points(poses)[0])[0],
+    "y": lambda poses: (points(poses)[1] - points(poses)[0])[1],
+    "angle": lambda poses: poses[1][2] - poses[0][2],
+    "along": lambda poses: (points(poses)[1] - points(poses)[0]) @ points(poses)[2],
+    "across": lambda poses: (points(poses)[1] - points(poses)[0]) @ points(poses)[3],
+    "distance": lambda poses: np.linalg.norm(points(poses)[1] - points(poses)[0]),
+}
+
+
+def gauged(which, first=1, second=2):
+    """Two free bodies, and measures of a gauge between them."""
+    gauge = Gauge(which, first, second, FIRST, SECOND, AXIS, ZERO)
+    measures = [Observed(name, "", name, 0, scale=-2.0) for name in ("values", "rates", "accelerations")]
+    return Tabled(Tables([Body(1, 1), Body(1, 1)], gauges=[gauge], measures=measures))
+
+
+@pytest.fixture
+def state():
+    rng = np.random.default_rng(7)
+    return rng.normal(size=6), rng.normal(size=6), rng.normal(size=6)
+
+
+def test_readings_are_there_for_all_kinds():
+    assert sorted(READINGS) == INTEGRABLE
+
+
+@pytest.mark.parametrize("which", INTEGRABLE)
+def test_a_gauge_reads_what_it_says(which, state):
+    p, v, vdot = state
+    system = gauged(which)
+
+    def value(p):
+        return np.array([-2 * (READINGS[which](p.reshape(2, 3)) - ZERO)])
+
+    assert_close(system.measured("values", 0, p, v), value(p), tol.SAME, scale=1)
+    assert_close(system.measured("rates", 0, p, v), along(value, (p, v)), tol.DIFFERENCE, scale=1)
+    rate = along(lambda p, v: system.measured("rates", 0, p, v), (p, v), (v, vdot))
+    assert_close(system.measured("accelerations", 0, p, v, vdot), rate, tol.DIFFERENCE, scale=1)
+
+
+@pytest.mark.parametrize(("which", "direction"), [("glide", 2), ("skid", 3)])
+@pytest.mark.parametrize("ends", [(1, 2), (2, 2), (0, 1)])
+def test_a_gliding_point_is_measured_along_an_axis_of_the_first_body(which, direction, ends, state):
+    p, v, vdot = state
+    system = gauged(which, *ends)
+    first, second = ends
+
+    def frame(p):
+        poses = np.vstack([np.zeros(3), p.reshape(2, 3)])
+        return points([poses[first], poses[second]])
+
+    speed = along(lambda p: frame(p)[1], (p, v))
+    assert_close(system.measured("rates", 0, p, v), np.array([-2 * frame(p)[direction] @ speed]), tol.DIFFERENCE, scale=1)
+    rate = along(lambda p, v: system.measured("rates", 0, p, v), (p, v), (v, vdot))
+    assert_close(system.measured("accelerations", 0, p, v, vdot), rate, tol.DIFFERENCE, scale=1)
+
+
+@pytest.mark.parametrize("which", sorted(GAUGES))
+def test_a_measure_tells_its_row_and_bias(which, state):
+    p, v, vdot = state
+    system = gauged(which)
+    of_rate, acceleration = system._core.measure_at(1, 0.0, p, v), system.measured("accelerations", 0, p, v, vdot)
+    assert_close(of_rate["row"] @ v, of_rate["value"], tol.SAME, scale=1)
+    assert_close(of_rate["row"] @ vdot + of_rate["bias"], acceleration, tol.SAME, scale=1)
+    of_value = system._core.measure_at(0, 0.0, p, v)
+    assert_close(of_value["rate"], of_rate["value"], tol.SAME)
+    assert np.array_equal(of_value["row"], of_rate["row"])
+    assert [system._core.measure_depends(i) for i in range(3)] == ["positions", "velocities", "accelerations"]
+
+
+# ---- the tables ----
+
+
+def test_the_tables_introduce_their_rows():
+    for table in (KINDS, _gateway.element_kinds()):
+        for name, row in table.items():
+            assert row.card.name == name
+            assert row.card.summary.endswith(".")
+            assert row.card.equations
+    assert {name: KINDS[name].carrier for name in TREE} == {"revolute": "turns", "prismatic": "slides", "weld": "fixed"}
+
+
+@pytest.mark.parametrize("name", TREE)
+def test_rows_and_coordinate_of_a_tree_joint_make_three(name):
+    """What a joint of the tree leaves free is what it does not hold."""
+    assert len(KINDS[name].rows) + (KINDS[name].carrier != "fixed") == 3
+
+
+def test_holonomic_rows_come_first():
+    for row in KINDS.values():
+        flags = [one.nonholonomic for one in row.rows]
+        assert flags == sorted(flags)

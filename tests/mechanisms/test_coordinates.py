@@ -1,0 +1,60 @@
+"""A mechanism is the same in joint and in absolute coordinates: the tree and its cuts against three coordinates a body."""
+
+import pytest
+
+import tolerances as tol
+import zerodrift as zd
+from mechanism_tables import determined, in_absolute_coordinates, random_mechanism
+from support import assert_close
+
+
+def pairs():
+    """Mechanisms in both coordinates, whose joints are independent and leave some freedom."""
+    for seed in range(60):
+        joint = random_mechanism(seed, bodies=2 + seed % 5, loops=seed % 3)
+        absolute = in_absolute_coordinates(joint)
+        if determined(absolute):
+            yield pytest.param(joint, absolute, id=str(seed))
+
+
+PAIRS = list(pairs())
+
+
+def test_there_are_enough_of_them():
+    assert len(PAIRS) > 25
+    assert sum(pair.values[0].m > 0 for pair in PAIRS) > 8
+
+
+@pytest.mark.parametrize(("joint", "absolute"), PAIRS)
+def test_accelerations_and_reactions_agree(joint, absolute):
+    """Those of tree joints are by a pass over the tree in the one, and multipliers in the other."""
+    there, here = zd.acceleration(joint, joint.p0, joint.v0), zd.acceleration(absolute, absolute.p0, absolute.v0)
+    for measure in joint._core.measures:
+        one = joint.measured(measure.name, 0, joint.p0, joint.v0, *there)
+        other = absolute.measured(measure.name, 0, absolute.p0, absolute.v0, *here)
+        assert_close(one, other, tol.REACTION, scale=10, what=measure.name)
+
+
+@pytest.mark.parametrize(("joint", "absolute"), PAIRS[::4])
+def test_motions_agree(joint, absolute):
+    one, other = (zd.simulate(system, 0.2, step=1e-3, save_every=200) for system in (joint, absolute))
+    there, here = joint._core.poses(one.p[-1])[0], absolute._core.poses(other.p[-1])[0]
+    assert_close(there, here, tol.CONVERGED, scale=1)
+    assert_close(one.kinetic_energy[-1] + one.potential_energy[-1], other.kinetic_energy[-1] + other.potential_energy[-1],
+                 tol.CONVERGED, scale=1)
+
+
+def test_the_order_of_bodies_does_not_matter():
+    """A body may come before the one that it hangs on."""
+    system = random_mechanism(3, bodies=4)
+    tables = system._core.tables
+    turned = {b: len(tables.bodies) + 1 - b if b else 0 for b in range(len(tables.bodies) + 1)}
+    joints = [joint._replace(first=turned[joint.first], second=turned[joint.second]) for joint in tables.joints]
+    gauges = [gauge._replace(first=turned[gauge.first], second=turned[gauge.second]) for gauge in tables.gauges]
+    other = type(system)(tables._replace(bodies=tables.bodies[::-1], joints=joints, gauges=gauges))
+    poses, rates = system._core.poses(system.p0, system.v0)
+    p, v = other._core.state(poses[::-1].copy(), rates[::-1].copy())
+    there, here = zd.acceleration(system, system.p0, system.v0), zd.acceleration(other, p, v)
+    for measure in tables.measures:
+        assert_close(system.measured(measure.name, 0, system.p0, system.v0, *there), other.measured(measure.name, 0, p, v, *here),
+                     tol.REACTION, scale=1, what=measure.name)

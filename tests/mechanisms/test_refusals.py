@@ -1,0 +1,78 @@
+"""Tables that contradict themselves, and laws that fail: each way to fail is reached."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from mechanism_tables import Body, Effort, Gauge, Joint, Observed, Relation, Tabled, Tables, kind
+
+BODY, POINT = Body(1.0, 1.0), Body(1.0, is_particle=True)
+PIN = Joint(kind("revolute"), 0, 1)
+TURN = Gauge("angle", 0, 1)
+
+REFUSED = [
+    (Tables([]), "needs at least one body"),
+    (Tables([Body(-1.0)]), "body 1: its mass must not be negative, and is -1"),
+    (Tables([Body(1.0, float("nan"))]), "body 1: its inertia must not be negative, and is nan"),
+    (Tables([Body(1.0, 1.0, True)]), "body 1: a particle has no inertia"),
+    (Tables([BODY._replace(carrier=0)]), "body 1: there is no joint 0 to carry it"),
+    (Tables([BODY, BODY._replace(carrier=0)], [PIN]), "body 2: joint 0, which is to carry it, does not touch it"),
+    (Tables([BODY._replace(carrier=0)], [PIN._replace(kind=kind("slot"))]), "body 1: joint 0 is a slot and carries nothing"),
+    (Tables([POINT._replace(carrier=0)], [PIN._replace(kind=kind("weld"))]), "joint 0 is a weld, and a particle has no angle"),
+    (Tables([BODY._replace(carrier=0)] * 2, [PIN._replace(first=2)]), "joint 0 carries both body 1 and body 2"),
+    (Tables([BODY._replace(carrier=0), BODY._replace(carrier=1)], [PIN._replace(first=2)] * 2), "the tree has a circle"),
+    (Tables([BODY], [PIN._replace(kind=99)]), "joint 0: there is no kind 99"),
+    (Tables([BODY], [PIN._replace(second=2)]), "joint 0: it joins bodies 0 and 2, and the last one is 1"),
+    (Tables([BODY], [PIN._replace(first=1)]), "joint 0: it joins body 1 to itself"),
+    (Tables([POINT], [PIN._replace(point2=(1.0, 0.0))]), "joint 0: a particle has no points but its own"),
+    (Tables([BODY], gauges=[TURN._replace(first=-1)]), "gauge 0: it is read off bodies -1 and 1, and the last one is 1"),
+    (Tables([POINT], gauges=[Gauge("x", 1, 0, (0.0, 1.0))]), "gauge 0: a particle has no points but its own"),
+    (Tables([BODY], gauges=[TURN], relations=[Relation([1])]), "relation 0: its gauges, law or joint are not there"),
+    (Tables([BODY], gauges=[TURN], relations=[Relation([])]), "relation 0: its gauges, law or joint are not there"),
+    (Tables([BODY], gauges=[TURN], relations=[Relation([0], law=0)]), "relation 0: its gauges, law or joint are not there"),
+    (Tables([BODY], gauges=[TURN], relations=[Relation([0], joint=0)]), "relation 0: its gauges, law or joint are not there"),
+    (Tables([BODY], gauges=[TURN], efforts=[Effort("law", 0)]), "effort 0: its kind, gauges, law or joint are not there"),
+    (Tables([BODY], gauges=[TURN], efforts=[Effort("spring", 1)]), "effort 0: its kind, gauges, law or joint are not there"),
+    *((Tables([BODY], gauges=[TURN], measures=[Observed("turn", "", quantity, 3)]), "measure turn: what it is of is not there")
+      for quantity in ("values", "joint force", "effort power", "drive")),
+    (Tables([BODY], gauges=[TURN], measures=[Observed("turn", "", "values", 0, 2)]), "measure turn: what it is of is not there"),
+]
+
+
+@pytest.mark.parametrize(("tables", "sentence"), REFUSED)
+def test_tables_that_contradict_themselves_are_refused(tables, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        Tabled(tables)
+
+
+def hinged(law, **options):
+    tables = Tables([BODY._replace(carrier=0)], [PIN], [TURN], measures=[Observed("torque", "N m", "effort", 0)],
+                    efforts=[Effort("law", 0, law=0, inputs=[0])], **options)
+    return Tabled(tables, np.zeros(1), np.ones(1), law)
+
+
+def test_a_law_that_fails_ends_the_run_with_its_error():
+    def law(number, t, x, xdot):
+        return [1.0 / (0.5 - t) if t < 0.4 else 1 / 0]
+
+    with pytest.raises(ZeroDivisionError):
+        zd.simulate(hinged(law), 1.0, step=0.01)
+    system = hinged(law)
+    with pytest.raises(ZeroDivisionError):
+        system.measured("torque", 0.5, system.p0, system.v0)
+    with pytest.raises(ZeroDivisionError):
+        system._core.measure_at(0, 0.5, system.p0, system.v0)
+
+
+def test_a_law_of_the_wrong_size_is_refused():
+    with pytest.raises(ValueError, match=r"law 0 must give 1 numbers, not an array of shape \(2,\)"):
+        zd.simulate(hinged(lambda number, t, x, xdot: [1.0, 2.0]), 1.0, step=0.01)
+
+
+def test_a_reaction_needs_accelerations():
+    tables = Tables([BODY._replace(carrier=0)], [PIN], measures=[Observed("force", "N", "joint force", 0)])
+    system = Tabled(tables, np.zeros(1), np.ones(1))
+    with pytest.raises(ValueError, match="measure force needs accelerations and multipliers"):
+        system.measured("force", 0, system.p0, system.v0)
+    with pytest.raises(ValueError, match="measure force needs accelerations and multipliers"):
+        system._core.measure_at(0, 0.0, system.p0, system.v0)
