@@ -17,7 +17,7 @@ static int size_of(const zd_observed *measure)
     return measure->quantity == ZD_JOINT_FORCE ? 2 : 1;
 }
 
-static enum zd_measured_at depends_on(const zd_observed *measure)
+static enum zd_depends depends_on(const zd_observed *measure)
 {
     return measure->quantity == ZD_VALUES ? ZD_OF_POSITIONS : measure->quantity == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
 }
