@@ -11,6 +11,17 @@
 
 #include "include/zerodrift/system.h"
 
+/* ---- statuses, as ZD_STATUS_LIST has them ---- */
+
+typedef struct zd_status_row {
+    int status;
+    const char *symbol;     /* "ZD_DONE" */
+    const char *error;      /* the name of the error that Python raises; "": of the base of all */
+    const char *sentence;
+} zd_status_row;
+
+const zd_status_row *zd_status_at(int row);     /* NULL: there are no more */
+
 /* ---- the terms of a system, as ZD_TERM_LIST has them ---- */
 
 typedef struct zd_term_row {

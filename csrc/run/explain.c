@@ -8,13 +8,14 @@
 #include "../constraints/rank.h"
 #include "../point/matrices.h"
 #include "blame.h"
+#include "status.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 
 static void describe_asymmetry(const zd_point *point, char *to, size_t size)
 {
     const int i = point->failed_index, j = point->failed_column;
-    snprintf(to, size, "the mass matrix is not symmetric: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", i, j, zd_entry_of_M(point, i, j), j, i,
+    snprintf(to, size, "%s: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", zd_sentence(ZD_NOT_SYMMETRIC), i, j, zd_entry_of_M(point, i, j), j, i,
              zd_entry_of_M(point, j, i));
 }
 
@@ -33,7 +34,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     int failed_index = run->motion.point->failed_index;
     switch (status) {
     case ZD_NOT_DEFINITE:
-        snprintf(to, size, "the mass matrix is not positive definite (first seen at velocity %d)%s", failed_index,
+        snprintf(to, size, "%s (first seen at velocity %d)%s", zd_sentence(status), failed_index,
                  run->motion.formulation->inverts_mass ? ", and 'schur' inverts it; 'augmented' and 'nullspace' only need that constraints "
                                                   "hold what has no mass"
                                                 : "");
@@ -49,8 +50,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
                  : "no branch was found that the motion is on, and independent velocities need one; 'schur' does not");
         break;
     case ZD_BIFURCATION_PASSED:
-        snprintf(to, size, "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow "
-                 "the motion; a smaller step shows which, " ON_SINGULAR);
+        snprintf(to, size, "%s; a smaller step shows which, " ON_SINGULAR, zd_sentence(status));
         break;
     case ZD_CONTRADICTION:
         snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "
@@ -147,23 +147,22 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;
     switch (status) {
     case ZD_NOT_FINITE:
-        snprintf(to, size, "the state left the range of doubles");
+        snprintf(to, size, "%s", zd_sentence(status));
         add_cause(run, run->motion.statistics.too_long > 0, "; try a smaller step or another stabilization", to, size);
         break;
     case ZD_NO_CONVERGENCE: describe_correction(run, rows, to, size); break;
     case ZD_BRANCH:
-        snprintf(to, size, "the step ended where its velocities do not lead, on another assembly branch or nearly");
+        snprintf(to, size, "%s", zd_sentence(status));
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_NO_EMBEDDING:
         snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)", point->residual_left);
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : "the system's own evaluation failed"); break;
-    case ZD_NO_MEMORY: snprintf(to, size, "there is no memory for this"); break;
+    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : zd_sentence(status)); break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", zd_term_name(point->failed_index)); break;
-    default: snprintf(to, size, "status %d", status); break;
+    default: snprintf(to, size, "%s", zd_sentence(status)); break;
     }
 }
 

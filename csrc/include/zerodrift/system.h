@@ -30,36 +30,42 @@ enum { ZD_INTERFACE_VERSION = 3 };
 
 /* ---- statuses: 0 done; positive: stopped early, what was recorded is valid; negative: failed ---- */
 
-enum zd_status {
-    ZD_DONE = 0,
-    ZD_PAUSED = 1,            /* the time slice is over: call again */
-    ZD_FULL = 2,              /* the record is full: give another */
-    ZD_EVENT = 4,             /* a terminal event ended the run; 3 is left to whoever stops it from outside */
-    ZD_NOT_FINITE = -1,       /* the state left the range of doubles */
-    ZD_NOT_DEFINITE = -2,     /* M is not positive definite */
-    ZD_DEPENDENT_ROWS = -3,        /* rows of C that count are dependent, to the formulation's own precision */
-    ZD_SINGULAR = -4,         /* a leading matrix is singular */
-    ZD_NO_CONVERGENCE = -5,   /* the position correction did not reach its tolerance */
-    ZD_NO_STEP = -6,          /* the equations of an implicit step were not solved */
-    ZD_BAD_START = -7,        /* the initial state violates the constraints */
-    ZD_BAD_ARGUMENT = -8,
-    ZD_NO_MEMORY = -9,
-    ZD_CALLBACK = -10,        /* a system's own evaluation failed */
-    ZD_UNREACHABLE = -11,     /* the tolerance is below what doubles can reach */
-    ZD_NO_EMBEDDING = -12,    /* p = g(q) was not solved */
-    ZD_NOT_SYMMETRIC = -13,   /* M is not */
-    ZD_TINY_STEP = -14,       /* the error asked for needs steps that time does not resolve */
-    ZD_UNSUITED = -15,        /* the formulation cannot take this system */
-    ZD_BAD_TERM = -16,        /* a term of the system is not finite where the state is */
-    ZD_UNSUITED_INTEGRATOR = -17,   /* the integrator cannot take this system */
-    ZD_BRANCH = -18,          /* the step ended where its velocities do not lead: on another assembly branch, or nearly */
-    ZD_BIFURCATION = -19,     /* constraints that are independent elsewhere are not here, and do not determine the motion */
-    ZD_CONTRADICTION = -20,   /* constraints that follow from others ask for something else */
-    ZD_BIFURCATION_PASSED = -21,    /* a bifurcation lies within the step, or so near that it cannot follow the motion there */
-    ZD_TOO_MANY_STEPS = -22,  /* settings->max_steps were taken */
-    ZD_NOT_JACOBIAN = -23,    /* C or Phi_t are not the derivatives of Phi */
-    ZD_NOT_KEPT = -24         /* A v changes the length of a unit quaternion */
-};
+/* One in each line: its number, the error that Python raises ("": the base of all), and what it means. A message that has numbers to
+ * say more with is in explain.c. */
+#define ZD_STATUS_LIST(STATUS) \
+    STATUS(ZD_DONE, 0, "", "done") \
+    STATUS(ZD_PAUSED, 1, "", "the time slice is over: call again") \
+    STATUS(ZD_FULL, 2, "", "the record is full: give another") \
+    STATUS(ZD_EVENT, 4, "", "a terminal event ended the run")       /* 3 is left to whoever stops it from outside */ \
+    STATUS(ZD_NOT_FINITE, -1, "Diverged", "the state left the range of doubles") \
+    STATUS(ZD_NOT_DEFINITE, -2, "SingularSystem", "the mass matrix is not positive definite") \
+    STATUS(ZD_DEPENDENT_ROWS, -3, "SingularSystem", "rows of C that count are dependent, to the formulation's own precision") \
+    STATUS(ZD_SINGULAR, -4, "SingularSystem", "a leading matrix is singular") \
+    STATUS(ZD_NO_CONVERGENCE, -5, "CorrectionFailed", "the position correction did not reach its tolerance") \
+    STATUS(ZD_NO_STEP, -6, "StepFailed", "the equations of an implicit step were not solved") \
+    STATUS(ZD_BAD_START, -7, "InconsistentStart", "the initial state violates the constraints") \
+    STATUS(ZD_BAD_ARGUMENT, -8, "", "an argument is wrong") \
+    STATUS(ZD_NO_MEMORY, -9, "MemoryError", "there is no memory for this") \
+    STATUS(ZD_CALLBACK, -10, "", "the system's own evaluation failed") \
+    STATUS(ZD_UNREACHABLE, -11, "UnreachableTolerance", "the tolerance is below what doubles can reach") \
+    STATUS(ZD_NO_EMBEDDING, -12, "StepFailed", "the independent coordinates do not determine the others here: p = g(q) was not solved") \
+    STATUS(ZD_NOT_SYMMETRIC, -13, "SingularSystem", "the mass matrix is not symmetric") \
+    STATUS(ZD_TINY_STEP, -14, "StepFailed", "the error asked for needs steps that time does not resolve") \
+    STATUS(ZD_UNSUITED, -15, "UnsuitedFormulation", "the formulation cannot take this system") \
+    STATUS(ZD_BAD_TERM, -16, "", "a term of the system is not finite where the state is") \
+    STATUS(ZD_UNSUITED_INTEGRATOR, -17, "UnsuitedIntegrator", "the integrator cannot take this system") \
+    STATUS(ZD_BRANCH, -18, "BranchJump", "the step ended where its velocities do not lead, on another assembly branch or nearly") \
+    STATUS(ZD_BIFURCATION, -19, "Bifurcation", \
+           "constraints that are independent elsewhere are not here, and do not determine the motion") \
+    STATUS(ZD_CONTRADICTION, -20, "SingularSystem", "constraints that follow from others ask for something else") \
+    STATUS(ZD_BIFURCATION_PASSED, -21, "Bifurcation", \
+           "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow the motion") \
+    STATUS(ZD_TOO_MANY_STEPS, -22, "StepFailed", "settings->max_steps were taken") \
+    STATUS(ZD_NOT_JACOBIAN, -23, "InconsistentSystem", "C or Phi_t are not the derivatives of Phi") \
+    STATUS(ZD_NOT_KEPT, -24, "InconsistentSystem", "A v changes the length of a unit quaternion")
+
+#define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
+enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };
 
 /* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,29 +17,6 @@ TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 MESSAGE_SIZE = 512
 
-ERRORS = {
-    lib.ZD_NOT_FINITE: errors.Diverged,
-    lib.ZD_NOT_DEFINITE: errors.SingularSystem,
-    lib.ZD_NOT_SYMMETRIC: errors.SingularSystem,
-    lib.ZD_DEPENDENT_ROWS: errors.SingularSystem,
-    lib.ZD_NOT_JACOBIAN: errors.InconsistentSystem,
-    lib.ZD_NOT_KEPT: errors.InconsistentSystem,
-    lib.ZD_BIFURCATION: errors.Bifurcation,
-    lib.ZD_BIFURCATION_PASSED: errors.Bifurcation,
-    lib.ZD_CONTRADICTION: errors.SingularSystem,
-    lib.ZD_SINGULAR: errors.SingularSystem,
-    lib.ZD_NO_CONVERGENCE: errors.CorrectionFailed,
-    lib.ZD_BRANCH: errors.BranchJump,
-    lib.ZD_NO_STEP: errors.StepFailed,
-    lib.ZD_NO_EMBEDDING: errors.StepFailed,
-    lib.ZD_TINY_STEP: errors.StepFailed,
-    lib.ZD_TOO_MANY_STEPS: errors.StepFailed,
-    lib.ZD_BAD_START: errors.InconsistentStart,
-    lib.ZD_UNREACHABLE: errors.UnreachableTolerance,
-    lib.ZD_UNSUITED: errors.UnsuitedFormulation,
-    lib.ZD_UNSUITED_INTEGRATOR: errors.UnsuitedIntegrator,
-    lib.ZD_NO_MEMORY: MemoryError,
-}
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
 
@@ -128,6 +106,17 @@ def cards(table: str) -> tuple[Card, ...]:
 def default(table: str) -> str:
     """The name of the row of a table of the core that is taken where nothing else is asked for."""
     return cards(table)[lib.zd_default_row(TABLES[table])].name
+
+
+def _errors() -> dict[int, type[Exception]]:
+    """The exceptions that stand for failed statuses, whose names the core's list of statuses has."""
+    rows, named = [], {"": errors.ZerodriftError, **vars(builtins), **vars(errors)}
+    while c := lib.zd_status_at(len(rows)):
+        rows.append((c.status, named[text(c.error)]))
+    return {status: error for status, error in rows if status < 0}
+
+
+ERRORS = _errors()
 
 
 class Term(NamedTuple):

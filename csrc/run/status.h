@@ -1,0 +1,9 @@
+/* What a status means. */
+#ifndef ZD_STATUS_H
+#define ZD_STATUS_H
+
+#include "../zerodrift.h"
+
+const char *zd_sentence(int status);
+
+#endif
