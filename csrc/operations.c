@@ -37,7 +37,7 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
 }
 
 /* One of the two stages, positions or velocities, with what is held at that stage as further constraints. */
-static int project_stage(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
+static int project_stage(const zd_system *system, const zd_settings *settings, int corrects, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)
 {
     int status;
@@ -46,11 +46,23 @@ static int project_stage(const zd_system *system, const zd_settings *settings, d
     zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
     if (!run) return status;
     run->motion.drifts_from = ZD_PHI | ZD_C;
+    run->motion.corrects = corrects;
     if (!status) status = zd_motion_correct(&run->motion, 0, 1);
     memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
     if (iterations) *iterations = (int)run->motion.statistics.position_iterations;
     return finish(run, status, message, message_size);
+}
+
+/* What the corrections that are given hold. */
+static zd_hold hold_of(const zd_settings *settings)
+{
+    zd_hold hold = {0};
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
+        const zd_correction *correction = zd_correction_of(row);
+        if (settings->correction[row].given && correction->hold) hold = correction->hold(settings->correction[row].value);
+    }
+    return hold;
 }
 
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
@@ -64,16 +76,14 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     if (status) return status;
     /* A row that holds something belongs to no group of rows: where there are such, the structure is given up. */
     zd_system plain = system->structure && (hold_p || hold_v) ? zd_expanded(system) : *system;
-    if (settings->projection.positions) {
-        stage.projection.velocities = 0;
+    zd_hold hold = hold_of(settings);
+    if (hold.positions) {
         zd_system holding = hold_p ? zd_hold_positions(&held, &plain, hold_p, p) : plain;     /* (25a) has all rows of C */
-        status = project_stage(&holding, &stage, t, p, v, iterations, message, message_size);
+        status = project_stage(&holding, &stage, ZD_PHI, t, p, v, iterations, message, message_size);
     }
-    if (!status && settings->projection.velocities) {
-        stage.projection.velocities = 1;
-        stage.projection.positions = 0;
+    if (!status && hold.velocities) {
         zd_system holding = zd_hold_velocities(&held, &plain, hold_v, v);
-        status = project_stage(&holding, &stage, t, p, v, NULL, message, message_size);
+        status = project_stage(&holding, &stage, ZD_C, t, p, v, NULL, message, message_size);
     }
     return status;
 }

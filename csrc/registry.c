@@ -1,5 +1,7 @@
 #include "registry.h"
 
+#include <string.h>
+
 #define SYSTEMS(X) \
     X(zd_four_bar) X(zd_oscillator) X(zd_pendulum) X(zd_slider_crank) X(zd_knife_edge) \
     X(zd_chaplygin_sleigh) X(zd_rolling_disc) X(zd_vertical_disc) X(zd_driven_four_bar)
@@ -25,12 +27,19 @@ static const zd_integrator *const integrators[] = {INTEGRATORS(ADDRESS)};
 static const zd_correction *const corrections[] = {CORRECTIONS(ADDRESS)};
 
 #define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]))
+_Static_assert(COUNT(corrections) <= ZD_CORRECTIONS_MAX, "settings have room for all corrections");
 #define PICK(table, row) ((row) >= 0 && (row) < COUNT(table) ? (table)[row] : NULL)
 
 const zd_kind *zd_kind_of(int row) { return PICK(kinds, row); }
 const zd_formulation *zd_formulation_of(int row) { return PICK(formulations, row); }
 const zd_integrator *zd_integrator_of(int row) { return PICK(integrators, row); }
 const zd_correction *zd_correction_of(int row) { return PICK(corrections, row); }
+
+int zd_correction_requires(int correction)
+{
+    const zd_correction *row = zd_correction_of(correction);
+    return row ? row->requires : 0;
+}
 
 int zd_suits(const zd_system *system, int integrator)
 {
@@ -53,6 +62,13 @@ int zd_rows(enum zd_table table)
     case ZD_CORRECTIONS: return COUNT(corrections);
     }
     return 0;
+}
+
+int zd_row_named(enum zd_table table, const char *name)
+{
+    for (int row = 0; row < zd_rows(table); row++)
+        if (!strcmp(zd_row(table, row)->name, name)) return row;
+    return -1;
 }
 
 static int row_of(enum zd_table table, const zd_card *card)

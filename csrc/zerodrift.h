@@ -55,7 +55,9 @@ enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
 int zd_rows(enum zd_table table);
 const zd_card *zd_row(enum zd_table table, int row);
+int zd_row_named(enum zd_table table, const char *name);    /* -1: there is none */
 int zd_default_row(enum zd_table table);    /* the one to take where nothing else is asked for */
+int zd_correction_requires(int correction);     /* terms that a system has to provide for that row */
 int zd_suits(const zd_system *system, int integrator);      /* whether that row can take the system */
 int zd_formulation_suits(const zd_system *system, int formulation);
 
@@ -75,25 +77,13 @@ typedef struct zd_events {
 
 /* ---- settings of a run ---- */
 
-enum zd_metric { ZD_MASS_METRIC, ZD_IDENTITY_METRIC };
+enum { ZD_CORRECTIONS_MAX = 8, ZD_ROW_VALUES = 16 };
 
-typedef struct zd_projection {      /* (25)-(27) */
-    int every;                      /* steps between corrections; 0: off */
-    double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
-    int max_iterations;
-    enum zd_metric metric;
-    int positions, velocities;      /* which of the two are corrected */
-} zd_projection;
-
-typedef struct zd_baumgarte {       /* (23) */
-    int on;
-    double alpha, beta;             /* 1/s, 1/s^2: of Psi and Phi */
-    double integral;                /* 1/s^3: of the time integral of Phi; 0: not integrated */
-} zd_baumgarte;
-
-typedef struct zd_energy {          /* (28), (29) */
-    int every;                      /* 0: off */
-} zd_energy;
+/* The parameters of a row of a table, as its card lists them. */
+typedef struct zd_given {
+    int given;                      /* 0: a correction is off; a formulation or an integrator has its initial ones */
+    double value[ZD_ROW_VALUES];    /* one after the other */
+} zd_given;
 
 /* What to do at a bifurcation, where constraints depend on each other that are independent elsewhere, so that the motion can go on in
  * more than one way: end the run, or go on along the branch that the motion is on; from rest, along that of least acceleration. */
@@ -110,12 +100,18 @@ typedef struct zd_settings {
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
     int64_t t_evals;
     const zd_events *events;        /* NULL: none */
-    zd_projection projection;
-    zd_baumgarte baumgarte;
-    zd_energy energy;
+    zd_given of_formulation, of_integrator;
+    zd_given correction[ZD_CORRECTIONS_MAX];        /* of each row of the table */
     enum zd_on_singular on_singular;
     int given_jacobian;             /* whether somebody wrote C and Phi_t down beside Phi: they are then compared now and then */
 } zd_settings;
+
+/* Its parameters as they are where nothing else is asked for. */
+zd_given zd_initial(const zd_card *card);
+/* Where one of them is among the values, by its name; NULL: there is none of that name. */
+double *zd_value_named(zd_given *given, const zd_card *card, const char *name);
+/* Whether they keep to the rules that their card states, and those of the row; else the first that does not is named in `message`. */
+int zd_check_given(enum zd_table table, int row, const zd_given *given, char *message, int message_size);
 
 /* ---- a run ---- */
 
@@ -195,7 +191,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation);      /* it refers t
 
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size);
-/* Corrects p and v in place as settings->projection says, holding coordinates and velocities where hold_p, hold_v are
+/* Corrects p and v in place as the corrections that are given do, holding coordinates and velocities where hold_p, hold_v are
  * nonzero (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size);

@@ -42,14 +42,13 @@ static void count(const zd_kind *kind, const zd_system *system, zd_settings sett
 static void count_with_settings(const zd_kind *kind, const zd_system *system, const double *p, const double *v)
 {
     zd_settings settings = {.t1 = 0.5, .step = 0.5 / STEPS, .save_every = 1};
-    zd_projection projection = {1, 1e-12, 10, ZD_MASS_METRIC, 1, 1};
     for (settings.formulation = 0; settings.formulation < zd_rows(ZD_FORMULATIONS); settings.formulation++)
         for (settings.integrator = 0; settings.integrator < zd_rows(ZD_INTEGRATORS); settings.integrator++)
             for (int all = 0; all < 2 && zd_suits(system, settings.integrator); all++) {
-                settings.projection.every = 0;
-                if (all) settings.projection = projection;
-                settings.baumgarte = (zd_baumgarte){.on = all, .alpha = 10, .beta = 25};
-                settings.energy.every = all && (system->provides & ZD_POTENTIAL);
+                for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
+                    settings.correction[row] = zd_initial(zd_row(ZD_CORRECTIONS, row));
+                    settings.correction[row].given = all && !(zd_correction_requires(row) & ~system->provides);
+                }
                 count(kind, system, settings, p, v);
             }
 }

@@ -174,11 +174,11 @@ def assert_same_bits(one, other, rows=slice(None)):
 
 
 def handed(**changed):
-    """The core's own settings, right but for what is changed."""
-    projection = {"every": 1, "tolerance": 1e-12, "max_iterations": 10, "positions": 1, "velocities": 1}
-    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "projection": projection}
-    for name in set(changed) & {"projection", "baumgarte", "energy"}:
-        changed[name] = options.get(name, {}) | changed[name]
+    """The core's own settings, right but for what is changed; `correction` has the parameters of some by their names."""
+    given = {"projection": {}} | changed.pop("correction", {})
+    corrections = {name: [values.get(parameter.name, parameter.initial[0]) for parameter in zd.corrections()[name].parameters]
+                   for name, values in given.items()}
+    options = {"t1": 1.0, "step": 0.1, "rtol": 1e-6, "atol": 1e-9, "save_every": 1, "correction": corrections}
     return _gateway.settings(options | changed)
 
 

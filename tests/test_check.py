@@ -169,10 +169,20 @@ def test_bad_types(call, message):
         call()
 
 
-def test_energy_correction_needs_a_potential(bar, monkeypatch):
-    monkeypatch.setattr(bar._core, "has_energy", False)
-    with pytest.raises(ValueError, match="energy correction needs a potential energy, and four_bar declares none"):
-        zd.simulate(bar, 1, step=0.1, energy=True)
+def test_energy_correction_needs_a_potential():
+    free = zd.System(1, mass=[[1.0]], p0=[0.0], name="free")
+    with pytest.raises(ValueError, match=r"^energy correction needs V \(potential energy in J\), and free declares none$"):
+        zd.simulate(free, 1, step=0.1, energy=True)
+
+
+def test_corrections_are_given_once():
+    for given in ("projection", ["energy", "energy"], [zd.Projection()]):
+        with pytest.raises(ValueError, match="correction is given more than once"):
+            run(correction=given)
+    with pytest.raises(ValueError, match=r"correction must be one of 'baumgarte', .*, not 'none'"):
+        run(correction="none")
+    with pytest.raises(TypeError, match=r"^correction must be names or settings of zd.corrections\(\), not 1$"):
+        run(correction=1)
 
 
 def test_a_system_that_is_only_described_is_not_simulated(bar):

@@ -17,19 +17,27 @@
 static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */
 
+typedef struct given_energy {
+    double every;
+} given_energy;
+
+static const zd_parameter parameters[] = {
+    {"every", "", "Steps between corrections; the last step is always corrected.", 1, ZD_COUNT, (const double[]){1}},
+};
+
 typedef struct energy {
     double *enforced;       /* (nv,): vn; zero where no constraint moves */
     double *scaled;         /* (nv,) */
 } energy;
 
-static int every(const zd_settings *settings)
+static int every(const void *given)
 {
-    return settings->energy.every;
+    return (int)((const given_energy *)given)->every;
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
-    (void)settings;
+    (void)given;
     energy self = {zd_take_doubles(arena, (size_t)system->nv), zd_take_doubles(arena, (size_t)system->nv)};
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -81,7 +89,20 @@ static int after_step(void *memory, zd_motion *motion)
 }
 
 const zd_correction zd_energy_row = {
-    .card = {"energy", "Velocities are scaled so that the energy balance holds.", "(28), (29)", 0},
+    .card = {
+        .name = "energy",
+        .summary = "Velocities are scaled so that the energy balance holds.",
+        .equations = "(28), (29)",
+        .description = "After the constraints have been corrected, all that the velocities have besides the motion which moving constraints "
+                       "enforce is multiplied by the one number that makes kinetic and potential energy add up to what was there at the "
+                       "start and has been put in since. Near a turning point the kinetic energy is too small for that; such a step is "
+                       "left alone and counted. A balance that holds says nothing about the phase of the motion, which may still be off.",
+        .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
+                     "Multibody System Dynamics 7 (2002) 265-284, section 3.3",
+        .parameters = sizeof parameters / sizeof parameters[0],
+        .parameter = parameters,
+    },
+    .requires = ZD_POTENTIAL,
     .every = every,
     .take = take,
     .after_step = after_step,

@@ -23,8 +23,29 @@
 /* The first iteration has to reduce the violation to this share. By Kantorovich's theorem there is then one solution near its start. */
 static const double TRUSTED = 0.25;
 
+typedef struct given_projection {
+    double tol, max_iterations, every, metric, positions, velocities;
+} given_projection;
+
+enum metric { MASS, IDENTITY };
+
+static const zd_parameter parameters[] = {
+    {"tol", "", "Positions are iterated until every ``|Phi|`` is at most this, in units of its size `Solution.position_size`: the largest "
+     "``|C_ki|`` times one radian of an angle or the mechanism's own length, at the start. The tolerance so means the same in any unit: "
+     "angles are off by about that many rad, and lengths by that part of the mechanism's length.", 1, ZD_POSITIVE,
+     (const double[]){1e-12}},
+    {"max_iterations", "", "The largest number of iterations. A correction that needs more is tried again with shortened iterations, then "
+     "with the step in up to eight parts (or shorter, where steps are chosen); `Solution.stats` counts all of them. Where none of this "
+     "helps, the run fails.", 1, ZD_COUNT, (const double[]){10}},
+    {"every", "", "Steps between corrections; the last step is always corrected.", 1, ZD_COUNT, (const double[]){1}},
+    {"metric", "", "mass identity: What the correction is orthogonal in: the mass matrix, or (for comparison) the identity of the paper's "
+     "reference [20].", 1, ZD_CHOICE, (const double[]){MASS}},
+    {"positions", "", "Whether positions are corrected.", 1, ZD_SWITCH, (const double[]){1}},
+    {"velocities", "", "Whether velocities are corrected.", 1, ZD_SWITCH, (const double[]){1}},
+};
+
 typedef struct projection {
-    zd_projection settings;
+    given_projection given;
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
     double *landed;     /* (nq,): p before its correction */
     double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far */
@@ -41,17 +62,25 @@ typedef struct position_problem {   /* what Newton's loop is handed */
     int has_moved;          /* whether an iteration has moved p */
 } position_problem;
 
-static int every(const zd_settings *settings)
+static int every(const void *memory)
 {
-    return settings->projection.every;
+    const given_projection *given = memory;
+    return (int)given->every;
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const zd_settings *settings)
+static zd_hold hold(const void *memory)
 {
+    const given_projection *given = memory;
+    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, given->tol, (int)given->max_iterations};
+}
+
+static void *take(zd_arena *arena, const zd_system *system, const void *memory)
+{
+    const given_projection *given = memory;
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
-    int identity = settings->projection.metric == ZD_IDENTITY_METRIC;
+    int identity = given->metric == IDENTITY;
     projection self = {
-        .settings = settings->projection,
+        .given = *given,
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .landed = zd_take_doubles(arena, nq),
@@ -60,7 +89,7 @@ static void *take(zd_arena *arena, const zd_system *system, const zd_settings *s
         .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_take_doubles(arena, nv),
         .identity = identity ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
-        .plain = identity ? zd_schur.take(arena, system) : NULL,
+        .plain = identity ? zd_schur.take(arena, system, NULL) : NULL,
     };
     if (self.identity) zd_set_identity(system, self.identity);
     return zd_take_filled(arena, &self, sizeof self);
@@ -159,8 +188,7 @@ static int iterate(const zd_newton *newton, position_problem *problem)
 
 static int correct_positions(projection *self, zd_motion *motion)
 {
-    const zd_projection *settings = &self->settings;
-    zd_newton newton = {position_residual, improve_position, settings->tolerance, settings->max_iterations,
+    zd_newton newton = {position_residual, improve_position, self->given.tol, (int)self->given.max_iterations,
                         motion->in_run ? TRUSTED : 0, NULL};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
@@ -195,18 +223,29 @@ static int correct_velocities(projection *self, zd_motion *motion)
 static int after_step(void *memory, zd_motion *motion)
 {
     projection *self = memory;
-    const zd_projection *settings = &self->settings;
+    int positions = self->given.positions && (motion->corrects & ZD_PHI), velocities = self->given.velocities && (motion->corrects & ZD_C);
     int status = ZD_DONE;
-    if (settings->positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
+    if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
-    if (motion->drifts_from & ZD_C) return settings->velocities ? correct_velocities(self, motion) : ZD_DONE;
+    if (motion->drifts_from & ZD_C) return velocities ? correct_velocities(self, motion) : ZD_DONE;
     return motion->formulation->settle ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {
-    .card = {"projection", "Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.",
-             "(25), (26), (27)", 0},
+    .card = {
+        .name = "projection",
+        .summary = "Positions and velocities are put back onto the constraints after the step, orthogonally in the mass metric.",
+        .equations = "(25), (26), (27)",
+        .description = "Positions are iterated onto the constraints (3) to the tolerance, then velocities onto (5) in one solve, with the "
+                       "leading matrix that the formulation has factored anyway. In the mass metric the correction is orthogonal to the "
+                       "manifold of the constraints and leaves the motion along it alone, so that the order of the integrator stays what it is.",
+        .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
+                     "Multibody System Dynamics 7 (2002) 265-284, section 3.2",
+        .parameters = sizeof parameters / sizeof parameters[0],
+        .parameter = parameters,
+    },
     .every = every,
+    .hold = hold,
     .take = take,
     .after_step = after_step,
 };

@@ -26,8 +26,9 @@ typedef struct augmented {
     int *order;         /* (n + m,) */
 } augmented;
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
+    (void)given;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
     augmented self = {
         .n = (int)n,

@@ -11,7 +11,7 @@ typedef struct zd_formulation {
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
     /* Both are told of as many constraints as are independent. */
     int (*state_size)(const zd_system *system);
-    void *(*take)(zd_arena *arena, const zd_system *system);
+    void *(*take)(zd_arena *arena, const zd_system *system, const void *given);     /* given: the parameters that its card lists */
     /* The leading matrix at the point, from M and the rows of C that count. */
     int (*factor)(void *self, zd_point *point);
     /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */

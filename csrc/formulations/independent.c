@@ -18,8 +18,9 @@ typedef struct independent {
 /* What ties surplus coordinates has to be known: a unit quaternion has one too many. */
 static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions; }
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
+    (void)given;
     independent self = {
         .minimal = zd_minimal_take(arena, system),
         .embedding = zd_embedding_take(arena, system),

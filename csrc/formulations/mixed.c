@@ -6,8 +6,9 @@
 #include "formulation.h"
 #include "minimal.h"
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
+    (void)given;
     zd_minimal self = zd_minimal_take(arena, system);
     return zd_take_filled(arena, &self, sizeof self);
 }

@@ -25,8 +25,9 @@ typedef struct nullspace {
     double *b;          /* (n,) */
 } nullspace;
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
+    (void)given;
     size_t n = (size_t)system->nv;
     nullspace self = {
         .complement = zd_complement_take(arena, system),

@@ -38,8 +38,9 @@ typedef struct schur {
     double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
 } schur;
 
-static void *take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
+    (void)given;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     schur self = {
         .n = (int)n,

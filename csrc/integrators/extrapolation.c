@@ -23,8 +23,9 @@ typedef struct extrapolation {
     double *sum;            /* (size,): of the weighted z_n - y0 */
 } extrapolation;
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
+    (void)given;
     (void)table, (void)system;
     size_t n = (size_t)size;
     extrapolation self = {

@@ -8,7 +8,8 @@ typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
-    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size);
+    /* given: the parameters that its card lists */
+    void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
     /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
     int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);

@@ -58,8 +58,9 @@ static int suits(const zd_system *system)
     return !system->mn && !(system->provides & ZD_A);
 }
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
+    (void)given;
     (void)table;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     rattle self = {

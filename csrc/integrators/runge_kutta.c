@@ -19,8 +19,9 @@ typedef struct runge_kutta {
     double *estimate;   /* (size,): of the error, for each unit of time */
 } runge_kutta;
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size)
+void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
+    (void)given;
     (void)system;
     const zd_tableau *tableau = table;
     runge_kutta self = {

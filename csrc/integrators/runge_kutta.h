@@ -14,7 +14,7 @@ typedef struct zd_tableau {
     const double *e3;       /* weights of a second estimate that DOP853 blends in; NULL: there is none */
 } zd_tableau;
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size);
+void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
 int zd_runge_kutta_step(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
 int zd_runge_kutta_error(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                          double *lambda_h);

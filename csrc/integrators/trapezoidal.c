@@ -38,8 +38,9 @@ typedef struct trapezoidal {
     double defect, before;  /* among its terms, now and an iteration ago */
 } trapezoidal;
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size)
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
+    (void)given;
     (void)table, (void)system;
     size_t n = (size_t)size;
     trapezoidal self = {

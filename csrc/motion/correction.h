@@ -6,17 +6,29 @@
 
 typedef struct zd_motion zd_motion;     /* motion.h */
 
+/* How well the constraints hold after a step, as a correction sees to it; all 0: nothing does. */
+typedef struct zd_hold {
+    int positions, velocities;      /* which of the two are held */
+    int every;                      /* how many steps */
+    double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
+    int max_iterations;
+} zd_hold;
+
+/* `given` are its parameters, the doubles that its card lists, one after the other. */
 typedef struct zd_correction {
     zd_card card;
-    /* Every how many steps it is made, 0: never. */
-    int (*every)(const zd_settings *settings);
+    int requires;           /* terms that the system has to provide */
     int needs;              /* terms it needs beside those of the acceleration */
-    void *(*take)(zd_arena *arena, const zd_system *system, const zd_settings *settings);
+    /* Whether parameters do not go together, each of which keeps to its rule: then it says so. NULL: they always do. */
+    int (*clash)(const void *given, char *message, size_t size);
+    int (*every)(const void *given);    /* how many steps it is made; NULL: in each */
+    zd_hold (*hold)(const void *given);     /* NULL: it does not hold the constraints */
+    void *(*take)(zd_arena *arena, const zd_system *system, const void *given);
     /* NULL: what is not done. */
     int (*after_step)(void *self, zd_motion *motion);
     /* xi -> xi_stab, with what the correction has integrated along with the state, if it does */
     void (*stabilize)(void *self, const zd_point *point, const double *extra, double *rhs);
-    int (*extra_size)(const zd_system *system, const zd_settings *settings);
+    int (*extra_size)(const zd_system *system, const void *given);
     void (*extra_rate)(const zd_point *point, double *rate);
 } zd_correction;
 

@@ -7,8 +7,6 @@
 #include "../formulations/formulation.h"
 #include "correction.h"
 
-enum { ZD_CORRECTIONS_MAX = 8 };
-
 /* A correction that is on. */
 typedef struct zd_active {
     const zd_correction *row;
@@ -46,6 +44,8 @@ struct zd_motion {
     const zd_formulation *formulation;
     void *solver;           /* the formulation's memory */
     int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
+    int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
+    zd_hold hold;           /* what they promise of both */
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;        /* how many are on */
@@ -60,9 +60,9 @@ struct zd_motion {
 
 /* take.c: lays out the motion in place. `independent` has the system's sizes with as many constraints as count. */
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, enum zd_on_singular on_singular);
-/* Adds a correction, if the settings have it on. */
-void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *settings, const zd_correction *correction);
+                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular);
+/* Adds a correction with its parameters. */
+void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Gives the motion the state (rate.size,), whose sizes are known once all corrections are. */
 void zd_motion_attach(zd_motion *motion, double *state);
 

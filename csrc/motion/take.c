@@ -3,15 +3,16 @@
 #include "../constraints/rows.h"
 
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, enum zd_on_singular on_singular)
+                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular)
 {
     *motion = (zd_motion){
         .system = *system,
         .formulation = formulation,
         .drifts_from = formulation->drifts_from,
+        .corrects = ZD_PHI | ZD_C,
         .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
-        .solver = formulation->take(arena, independent),
+        .solver = formulation->take(arena, independent, given),
     };
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
     zd_rank *rank = zd_rows_take(arena, system, on_singular == ZD_CONTINUE);
@@ -19,12 +20,12 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
     motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system)};
 }
 
-void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_settings *settings, const zd_correction *correction)
+void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)
 {
-    int every = correction->every(settings);
-    if (every <= 0) return;
-    int size = correction->extra_size ? correction->extra_size(&motion->system, settings) : 0;
-    void *self = correction->take(arena, &motion->system, settings);
+    int every = correction->every ? correction->every(given) : 1;
+    int size = correction->extra_size ? correction->extra_size(&motion->system, given) : 0;
+    void *self = correction->take ? correction->take(arena, &motion->system, given) : NULL;
+    if (correction->hold) motion->hold = correction->hold(given);
     motion->active[motion->corrections++] = (zd_active){correction, self, every, motion->corrections_size, size};
     motion->acceleration_needs |= correction->needs;
     motion->is_stabilized |= correction->stabilize != NULL;

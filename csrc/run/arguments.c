@@ -53,23 +53,37 @@ static const char *wrong_rows(const zd_settings *settings)
     return FIRST_BROKEN(rules);
 }
 
-static int is_bad(double gain) { return !(gain >= 0 && gain < INFINITY); }
-
-static const char *wrong_corrections(const zd_system *system, const zd_settings *settings)
+static int refuse(const char *wrong, char *message, int size)
 {
-    const zd_projection *projection = &settings->projection;
-    const zd_baumgarte *baumgarte = &settings->baumgarte;
-    int projects = projection->every != 0;
-    const rule rules[] = {
-        {projection->every < 0 || settings->energy.every < 0, "corrections are made every so many steps"},
-        {projects && !(projection->tolerance > 0), "the tolerance of the position correction is greater than 0"},
-        {projects && projection->max_iterations < 0, "the iterations of the position correction are at least 0"},
-        {projects && projection->metric != ZD_MASS_METRIC && projection->metric != ZD_IDENTITY_METRIC, "there is no such metric"},
-        {baumgarte->on && (is_bad(baumgarte->alpha) || is_bad(baumgarte->beta) || is_bad(baumgarte->integral)),
-         "the gains of Baumgarte's stabilization are finite and at least 0"},
-        {settings->energy.every && lacks(system, ZD_POTENTIAL), "an energy correction needs a system that provides its potential"},
-    };
-    return FIRST_BROKEN(rules);
+    snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
+    return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
+}
+
+/* A term that the correction requires and the system does not provide; NULL: there is none. */
+static const zd_term_row *lacking(const zd_system *system, const zd_correction *correction)
+{
+    for (int row = 0; zd_term_at(row); row++)
+        if (correction->requires & zd_term_at(row)->term & ~system->provides) return zd_term_at(row);
+    return NULL;
+}
+
+static int check_correction(const zd_system *system, int row, const zd_given *given, char *message, int size)
+{
+    const zd_correction *correction = zd_correction_of(row);
+    const zd_term_row *lacks = lacking(system, correction);
+    if (!lacks) return zd_check_given(ZD_CORRECTIONS, row, given, message, size);
+    snprintf(message, (size_t)size, "%s correction needs %s (%s)", correction->card.name, lacks->name, lacks->text);
+    return ZD_BAD_ARGUMENT;
+}
+
+/* The parameters of all rows that are chosen. */
+static int check_given(const zd_system *system, const zd_settings *settings, char *message, int size)
+{
+    int status = zd_check_given(ZD_FORMULATIONS, settings->formulation, &settings->of_formulation, message, size);
+    if (!status) status = zd_check_given(ZD_INTEGRATORS, settings->integrator, &settings->of_integrator, message, size);
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !status; row++)
+        if (settings->correction[row].given) status = check_correction(system, row, &settings->correction[row], message, size);
+    return status;
 }
 
 static const char *wrong_events(const zd_events *events)
@@ -82,6 +96,8 @@ static const char *wrong_events(const zd_events *events)
     };
     return FIRST_BROKEN(rules);
 }
+
+static int is_bad(double tolerance) { return !(tolerance >= 0 && tolerance < INFINITY); }
 
 static double latest(const zd_settings *settings) { return fmax(fabs(settings->t0), fabs(settings->t1)); }
 
@@ -122,12 +138,9 @@ int zd_check_system(const zd_system *system, char *message, int size)
 int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     int status = zd_check_system(system, message, size);
-    if (status) return status;
-    const char *wrong = wrong_rows(settings);
-    if (!wrong) wrong = wrong_corrections(system, settings);
-    if (!wrong) wrong = wrong_events(settings->events);
-    snprintf(message, (size_t)size, "%s", wrong ? wrong : "");
-    return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
+    if (!status) status = refuse(wrong_rows(settings), message, size);
+    if (!status) status = check_given(system, settings, message, size);
+    return status ? status : refuse(wrong_events(settings->events), message, size);
 }
 
 int zd_check_quaternions(const zd_system *system, const double *p, int any_length, char *message, int size)

@@ -13,6 +13,13 @@
 #include "explain.h"
 #include "start.h"
 
+/* The values of parameters, which are the initial ones where none are given. */
+static const void *complete(zd_given *given, const zd_card *card)
+{
+    if (!given->given) *given = zd_initial(card);
+    return given->value;
+}
+
 /* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
  * arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
@@ -20,12 +27,15 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_run nowhere, *here = zd_take(arena, sizeof *here), *run = here ? here : &nowhere;
     zd_motion *motion = &run->motion;
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
+    const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     run->settings = *settings;
-    zd_motion_take(motion, arena, system, independent, zd_formulation_of(settings->formulation), settings->on_singular);
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) zd_motion_enable(motion, arena, settings, zd_correction_of(row));
+    zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card),
+                   settings->on_singular);
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
+        if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
     motion->tally = &run->tally;
-    zd_variables dependent = zd_variables_take(arena, motion, integrator, settings, independent);
-    zd_stepper_take(&run->stepper, arena, motion, integrator, dependent);
+    zd_variables dependent = zd_variables_take(arena, motion, integrator, independent);
+    zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->course = (zd_course){
         .settings = &run->settings,

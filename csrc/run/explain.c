@@ -131,9 +131,9 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
 
 static void describe_correction(const zd_run *run, const char *rows, char *to, size_t size)
 {
-    const zd_projection *projection = &run->settings.projection;
+    const zd_hold *hold = &run->motion.hold;
     snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
-             "(tolerance %.3g)%s%s%s", run->motion.point->residual_left, projection->max_iterations, projection->tolerance,
+             "(tolerance %.3g)%s%s%s", run->motion.point->residual_left, hold->max_iterations, hold->tolerance,
              *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
     add_cause(run, 1, "", to, size);
 }

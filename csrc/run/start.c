@@ -43,7 +43,7 @@ static int check_constraints(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
     int mh = run->motion.system.mh, m = zd_constraints(&run->motion.system);
-    double allowed = fmax(run->settings.projection.tolerance, START_TOLERANCE);
+    double allowed = fmax(run->motion.hold.tolerance, START_TOLERANCE);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !m) return status;
     zd_point_velocity_violation(point, Psi);
@@ -59,10 +59,10 @@ static int check_constraints(zd_run *run, double *Psi)
 /* Refuses a tolerance that the rounding of p alone keeps Phi from reaching. */
 static int check_tolerance(zd_run *run)
 {
-    const zd_projection *projection = &run->settings.projection;
+    const zd_hold *hold = &run->motion.hold;
     const zd_point *point = run->motion.point;
     int n = run->motion.system.nq < run->motion.system.nv ? run->motion.system.nq : run->motion.system.nv;
-    if (!projection->every || !projection->positions || !run->motion.system.mh) return ZD_DONE;
+    if (!hold->positions || !run->motion.system.mh) return ZD_DONE;
     double reachable = 0;
     for (int k = 0; k < run->motion.system.mh; k++) {
         zd_row_of_C row = zd_point_row(point, k);
@@ -71,10 +71,10 @@ static int check_tolerance(zd_run *run)
             if (zd_column(&row, j) < n) rounding += 0x1p-53 * fabs(row.x[j] * point->p[zd_column(&row, j)]);
         reachable = fmax(reachable, rounding * point->inverse_size[k]);
     }
-    if (projection->tolerance > reachable) return ZD_DONE;
+    if (hold->tolerance > reachable) return ZD_DONE;
     snprintf(run->outcome.message, sizeof run->outcome.message,
              "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g of its size",
-             projection->tolerance, reachable);
+             hold->tolerance, reachable);
     return ZD_UNREACHABLE;
 }
 

@@ -34,16 +34,16 @@ enum {
 zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last)
 {
     const zd_system *system = &motion->system;
-    const zd_projection *projection = &settings->projection;
-    int holds = !(motion->drifts_from & ZD_PHI) || (projection->every && projection->positions);
+    const zd_hold *hold = &motion->hold;
+    int holds = !(motion->drifts_from & ZD_PHI) || hold->positions;
     int own = (system->provides & ZD_A) != 0;
-    double least = NEARBY + 4 * projection->tolerance;
+    double least = NEARBY + 4 * hold->tolerance;
     return (zd_guard){
         .motion = motion,
         .last = last,
         .checks_branch = system->mh && holds,
         .checks_stability = settings->step > 0,
-        .astray = 0.5 * pow(ASTRAY * fmax(1, projection->every), 2),
+        .astray = 0.5 * pow(ASTRAY * fmax(1, hold->every), 2),
         .nearby = least * least,
         .limit = pow(stability > 0 ? stability : RESOLVED, 4),
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,

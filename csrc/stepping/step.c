@@ -9,7 +9,7 @@
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator,
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
                      zd_variables dependent)
 {
     const zd_system *system = &motion->system;
@@ -21,7 +21,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .dependent = dependent,
         .capacity = (int)size,
         .integrator = integrator,
-        .memory = integrator->take(arena, integrator->table, system, (int)size),
+        .memory = integrator->take(arena, integrator->table, system, (int)size, given),
         .y = zd_take_doubles(arena, size),
         .last = {
             .y = zd_take_doubles(arena, size),

@@ -25,8 +25,8 @@ typedef struct zd_stepper {
     zd_last last;           /* the step being made */
 } zd_stepper;
 
-/* Lays out the stepper in place, and gives the motion its state. */
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator,
+/* Lays out the stepper in place, with the integrator's parameters, and gives the motion its state. */
+void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
                      zd_variables dependent);
 /* From t to t + h as the integrator does it, and no more. */
 int zd_stepper_make(zd_stepper *self, double h);

@@ -14,17 +14,17 @@
 
 extern const zd_formulation zd_augmented;
 
-static int is_held(const zd_projection *projection)
+static int is_held(const zd_hold *hold)
 {
-    return projection->every == 1 && projection->positions && projection->velocities;
+    return hold->every == 1 && hold->positions && hold->velocities;
 }
 
-zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const zd_integrator *integrator, const zd_settings *settings,
+zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const zd_integrator *integrator,
                                const zd_system *independent)
 {
     int loses = motion->formulation->settle && zd_constraints(independent);
-    if (!loses || integrator->step_of_motion || !is_held(&settings->projection)) return (zd_variables){NULL, NULL, 0};
-    return (zd_variables){&zd_augmented, zd_augmented.take(arena, independent), zd_augmented.state_size(independent)};
+    if (!loses || integrator->step_of_motion || !is_held(&motion->hold)) return (zd_variables){NULL, NULL, 0};
+    return (zd_variables){&zd_augmented, zd_augmented.take(arena, independent, NULL), zd_augmented.state_size(independent)};
 }
 
 /* In place of the others; of the state, what is integrated along. */

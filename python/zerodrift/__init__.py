@@ -33,7 +33,7 @@ from .errors import (
     ZerodriftError,
 )
 from .runs.operations import acceleration, assemble, project
-from .runs.settings import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
+from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
 from .runs.simulate import simulate
 from .runs.solution import Solution, load
 from .studies.check import check

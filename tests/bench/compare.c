@@ -19,13 +19,6 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int row_named(enum zd_table table, const char *name)
-{
-    int row = 0;
-    while (row < zd_rows(table) && strcmp(zd_row(table, row)->name, name)) row++;
-    return row;
-}
-
 /* alpha_1 at the end, or NaN; only the steps are timed, as creating a run is done once whatever its length */
 static double core_run(const zd_system *system, int formulation, int64_t save_every, const double *p, const double *v, double *seconds)
 {
@@ -35,13 +28,15 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
                         counts[0], counts[1]};
     zd_settings settings = {
         .formulation = formulation,
-        .integrator = row_named(ZD_INTEGRATORS, "rk4"),
+        .integrator = zd_row_named(ZD_INTEGRATORS, "rk4"),
         .t1 = STEPS * STEP,
         .step = STEP,
         .save_every = save_every,
-        .projection = {1, TOLERANCE, 10, ZD_MASS_METRIC, 1, 1},
-        .energy = {1},
     };
+    int projection = zd_row_named(ZD_CORRECTIONS, "projection"), energy = zd_row_named(ZD_CORRECTIONS, "energy");
+    settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
+    settings.correction[energy] = zd_initial(zd_row(ZD_CORRECTIONS, energy));
+    *zd_value_named(&settings.correction[projection], zd_row(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
     int status;
     char message[512];
     zd_run *run = zd_run_create(system, &settings, p, v, &status, message, sizeof message);
@@ -55,7 +50,7 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
 
 int main(void)
 {
-    const zd_kind *kind = zd_kind_of(row_named(ZD_SYSTEMS, "four_bar"));
+    const zd_kind *kind = zd_kind_of(zd_row_named(ZD_SYSTEMS, "four_bar"));
     double parameters[SIZE], constants[SIZE], p[3], v[3], best[CONTESTANTS], end[CONTESTANTS];
     int formulations = zd_rows(ZD_FORMULATIONS), contestants = 1 + 2 * formulations, n = 0;
     for (int i = 0; i < kind->parameters; i++)

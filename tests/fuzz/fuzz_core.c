@@ -227,34 +227,53 @@ static void make_events(input *in, events *self, const zd_settings *settings)
 
 /* ---- settings ---- */
 
+/* A value of a parameter: mostly one that its rule allows, else anything. */
+static double value_of(input *in, const zd_parameter *parameter)
+{
+    int kind = below(in, 8);
+    if (kind == 0) return number(in);
+    if (kind < 4 || parameter->rule == ZD_COUNT) return parameter->initial[0];
+    return parameter->rule == ZD_CHOICE || parameter->rule == ZD_SWITCH ? below(in, 2) : fabs(number(in));
+}
+
+static zd_given make_given(input *in, enum zd_table table, int row, int on)
+{
+    const zd_card *card = zd_row(table, row);
+    zd_given given = zd_initial(card);
+    double *value = given.value;
+    given.given = on;
+    for (int i = 0; i < card->parameters; value += card->parameter[i++].size)
+        if (below(in, 4) == 0) *value = value_of(in, &card->parameter[i]);
+    double *iterations = zd_value_named(&given, card, "max_iterations"), *every = zd_value_named(&given, card, "every");
+    if (iterations && *iterations > ITERATIONS) *iterations = ITERATIONS;
+    if (every && below(in, 4) == 0) *every = 1 + below(in, 3);
+    return given;
+}
+
+static int named(enum zd_table table, int row, const char *name) { return row == zd_row_named(table, name); }
+
 static zd_settings make_settings(input *in, double *times)
 {
     unsigned how = byte(in);
     zd_settings settings = {
         .formulation = below(in, zd_rows(ZD_FORMULATIONS)), .integrator = below(in, zd_rows(ZD_INTEGRATORS)), .t1 = 0.5, .step = 0.05,
-        .save_every = 1 + below(in, 3), .projection = {1 + below(in, 3), 1e-12, 10, ZD_MASS_METRIC, 1, 1},
-        .baumgarte = {.alpha = 10, .beta = 25},
+        .save_every = 1 + below(in, 3),
     };
+    settings.of_formulation = make_given(in, ZD_FORMULATIONS, settings.formulation, 1);
+    settings.of_integrator = make_given(in, ZD_INTEGRATORS, settings.integrator, 1);
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
+        settings.correction[row] = make_given(in, ZD_CORRECTIONS, row, below(in, 8) < (named(ZD_CORRECTIONS, row, "projection") ? 7 : 3));
     if (how & 1) settings.step = 0, settings.rtol = 1e-6, settings.atol = 1e-9;
     if (how & 2) settings.t_eval = times, settings.t_evals = TIMES;
-    if (how & 4) settings.baumgarte.on = 1;
-    if (how & 8) settings.baumgarte.integral = 5;
-    if (how & 16) settings.energy.every = 1 + below(in, 3);
-    if (how & 32) settings.projection.every = 0;
-    if (how & 64) settings.projection.metric = ZD_IDENTITY_METRIC;
     settings.on_singular = below(in, 2) ? ZD_CONTINUE : ZD_STOP;
     for (int i = 0; i < TIMES; i++) times[i] = 0.5 * (i + 1) / TIMES;
     double *doubles[] = {&settings.t0, &settings.t1, &settings.step, &settings.rtol, &settings.atol, &settings.first_step,
-                         &settings.max_step, &settings.projection.tolerance, &settings.baumgarte.alpha, &settings.baumgarte.beta,
-                         &settings.baumgarte.integral, times, times + 1, times + TIMES - 1};
-    int *ints[] = {&settings.formulation, &settings.integrator, &settings.projection.every, &settings.projection.max_iterations,
-                   &settings.projection.positions, &settings.projection.velocities, &settings.baumgarte.on, &settings.energy.every};
+                         &settings.max_step, times, times + 1, times + TIMES - 1};
+    int *ints[] = {&settings.formulation, &settings.integrator};
     for (int k = below(in, 4); k > 0; k--) *doubles[below(in, sizeof doubles / sizeof doubles[0])] = number(in);
-    if (below(in, 4) == 0) *ints[below(in, sizeof ints / sizeof ints[0])] = whole(in);
+    if (below(in, 16) == 0) *ints[below(in, sizeof ints / sizeof ints[0])] = whole(in);
     if (below(in, 16) == 0) settings.save_every = whole(in);
     if (below(in, 16) == 0) settings.t_evals = below(in, TIMES + 1) - 1;
-    if (below(in, 16) == 0) settings.projection.metric = (enum zd_metric)below(in, 3);
-    if (settings.projection.max_iterations > ITERATIONS) settings.projection.max_iterations = ITERATIONS;
     return settings;
 }
 
@@ -298,8 +317,11 @@ static int are_finite(const double *x, int64_t n)
 static void check_rows(const zd_system *system, const zd_settings *settings, const double *sizes, const zd_record *record, double *last)
 {
     const double rounding = 1 + 0x1p-51;        /* of the division by the size */
-    const zd_projection *projection = &settings->projection;
-    int corrected = projection->every == 1 && projection->positions && strcmp(zd_row(ZD_FORMULATIONS, settings->formulation)->name, "independent");
+    const int row_of_projection = zd_row_named(ZD_CORRECTIONS, "projection");
+    const zd_card *card = zd_row(ZD_CORRECTIONS, row_of_projection);
+    zd_given projection = settings->correction[row_of_projection];
+    int corrected = projection.given && *zd_value_named(&projection, card, "every") == 1 && *zd_value_named(&projection, card, "positions")
+                 && strcmp(zd_row(ZD_FORMULATIONS, settings->formulation)->name, "independent");
     EXPECT(record->rows <= record->capacity);
     EXPECT(are_finite(record->p, record->rows * system->nq));
     EXPECT(are_finite(record->v, record->rows * system->nv));
@@ -307,7 +329,7 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);
         *last = record->t[row];
         for (int k = 0; corrected && *last > settings->t0 && k < system->mh; k++)
-            EXPECT(fabs(record->position_violation[row * system->mh + k]) <= projection->tolerance * sizes[k] * rounding);
+            EXPECT(fabs(record->position_violation[row * system->mh + k]) <= *zd_value_named(&projection, card, "tol") * sizes[k] * rounding);
     }
 }
 

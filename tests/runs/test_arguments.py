@@ -37,16 +37,24 @@ DOP853 = list(zd.integrators()).index("dop853")
     ({"t_eval": np.array([0.5, 0.5])}, "the times to save at increase"),
     ({"t_eval": np.array([0.5, 1.5])}, "the times to save at increase"),
     ({"t_eval": np.array([np.nan])}, "the times to save at increase"),
-    ({"projection": {"every": -1}}, "every so many steps"),
-    ({"projection": {"tolerance": np.nan}}, "the tolerance of the position correction"),
-    ({"projection": {"max_iterations": -1}}, "the iterations of the position correction"),
-    ({"projection": {"metric": 7}}, "there is no such metric"),
-    ({"baumgarte": {"on": 1, "alpha": np.inf}}, "the gains of Baumgarte's stabilization"),
-    ({"energy": {"every": -1}}, "every so many steps"),
+    ({"correction": {"baumgarte": {"alpha": 1.0, "beta": 2.0, "integral": 2.0}}}, r"less than alpha \* beta = 2, not 2"),
 ], ids=str)
 def test_settings_that_the_core_refuses(changed, sentence):
     with pytest.raises(zd.ZerodriftError, match=sentence):
         created(handed(**changed))
+
+
+# By the rule of a parameter: what it cannot be.
+BROKEN = {"any": [np.nan, np.inf], "positive": [0.0, -1.0, np.nan, np.inf], "not negative": [-1.0, np.nan, np.inf],
+          "choice": [-1.0, 0.5, 99.0, np.nan], "count": [0.0, -1.0, 1.5, 2.0**31, np.nan], "switch": [-1.0, 0.5, 2.0, np.nan]}
+PARAMETERS = [(name, parameter) for name, card in zd.corrections().items() for parameter in card.parameters]
+
+
+@pytest.mark.parametrize(("name", "parameter"), PARAMETERS, ids=[f"{name} {parameter.name}" for name, parameter in PARAMETERS])
+def test_parameters_that_the_core_refuses(name, parameter):
+    for value in BROKEN[parameter.rule]:
+        with pytest.raises(zd.ZerodriftError, match=f"^{parameter.name} of '{name}' must be "):
+            created(handed(correction={name: {parameter.name: value}}))
 
 
 @pytest.mark.parametrize(("changed", "sentence"), [
@@ -79,8 +87,8 @@ def test_systems_that_the_core_refuses(changed, sentence):
 
 def test_an_energy_correction_without_potential_is_refused_by_the_core():
     core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
-    with pytest.raises(zd.ZerodriftError, match="needs a system that provides its potential"):
-        _gateway.step(core, handed(energy={"every": 1}), np.zeros(1), np.zeros(1))
+    with pytest.raises(zd.ZerodriftError, match=r"^energy correction needs V \(potential energy in J\)$"):
+        _gateway.step(core, handed(correction={"energy": {}}), np.zeros(1), np.zeros(1))
 
 
 def test_a_start_that_is_not_finite_is_refused_by_the_core():

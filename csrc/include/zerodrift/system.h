@@ -251,6 +251,23 @@ typedef struct zd_system {
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */
 
+enum zd_rule {
+    ZD_ANY, ZD_POSITIVE, ZD_NOT_NEGATIVE,       /* numbers, all of them finite */
+    ZD_CHOICE,              /* one of some words, handed over as its number */
+    ZD_COUNT,               /* a whole number from 1 on */
+    ZD_SWITCH               /* 1: yes, 0: no */
+};
+
+typedef struct zd_parameter {
+    const char *name;
+    const char *unit;
+    const char *text;           /* of a ZD_CHOICE its words, and what they mean behind a colon: "open crossed: which branch" */
+    int size;
+    enum zd_rule rule;
+    const double *initial;      /* (size,) or NULL: derived from the others, handed to the system as NaN */
+} zd_parameter;
+
+/* What a row of a table is called, where it comes from, and what may be set of it. */
 typedef struct zd_card {
     const char *name;
     const char *summary;     /* one sentence */
@@ -258,18 +275,11 @@ typedef struct zd_card {
     int order;               /* of an integrator; else 0 */
     int error_order;         /* of its error estimate; 0: there is none, and steps are of fixed size */
     double stability;        /* the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none */
+    const char *description; /* what it does and when to take it, in some sentences; may be NULL */
+    const char *reference;   /* the literature; may be NULL */
+    int parameters;          /* of a formulation, integrator or correction; a kind of system has its own below */
+    const zd_parameter *parameter;  /* (parameters,) at most ZD_ROW_VALUES numbers, none of them derived */
 } zd_card;
-
-enum zd_rule { ZD_ANY, ZD_POSITIVE, ZD_NOT_NEGATIVE, ZD_CHOICE };
-
-typedef struct zd_parameter {
-    const char *name;
-    const char *unit;
-    const char *text;           /* a ZD_CHOICE lists its words here: "open crossed" */
-    int size;
-    enum zd_rule rule;
-    const double *initial;      /* (size,) or NULL: derived from the others, handed to the system as NaN */
-} zd_parameter;
 
 typedef struct zd_variable {
     const char *name;

@@ -14,10 +14,12 @@ from .base import (
     Variable,
     cards,
     check_fingerprint,
+    clash,
     default,
     doubles,
     error_of,
     is_length,
+    lacking,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
@@ -30,9 +32,9 @@ from .systems import CoreSystem, Kind, kinds
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter", "PythonCore", "Record",
-    "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "count_steps", "default", "doubles",
-    "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds", "load_data",
-    "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
+    "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "clash", "count_steps", "default", "doubles",
+    "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds", "lacking",
+    "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

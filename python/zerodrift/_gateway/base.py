@@ -30,6 +30,9 @@ class Card(NamedTuple):
     order: int
     error_order: int
     stability: float
+    description: str
+    reference: str
+    parameters: tuple[Parameter, ...]
 
 
 class Variable(NamedTuple):
@@ -40,7 +43,7 @@ class Variable(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """A parameter of a built-in system; `initial` is None where it is derived from the others."""
+    """A parameter of a row of a table; `initial` is None where it is derived from the others; `words` are those of a choice."""
 
     name: str
     unit: str
@@ -48,6 +51,7 @@ class Parameter(NamedTuple):
     size: int
     rule: str
     initial: tuple[float, ...] | None
+    words: tuple[str, ...]
 
 
 DIMENSIONLESS = ("", "1", "rad", "deg")
@@ -71,7 +75,8 @@ def is_length(variable: Variable) -> bool:
     return variable.unit not in {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
 
 
-RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice"}
+RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "not negative", lib.ZD_CHOICE: "choice",
+         lib.ZD_COUNT: "count", lib.ZD_SWITCH: "switch"}
 
 
 def check_fingerprint() -> None:
@@ -151,7 +156,36 @@ TERMS = _terms()
 
 def card_of(c: Any) -> Card:
     """A `zd_card`."""
-    return Card(text(c.name), text(c.summary), text(c.equations), c.order, c.error_order, c.stability)
+    description, reference = (text(each) if each else "" for each in (c.description, c.reference))
+    return Card(text(c.name), text(c.summary), text(c.equations), c.order, c.error_order, c.stability, description, reference,
+                tuple(parameter_of(c.parameter[i]) for i in range(c.parameters)))
+
+
+def parameter_of(c: Any) -> Parameter:
+    """A `zd_parameter`."""
+    initial, words, meaning = tuple(c.initial[0:c.size]) if c.initial else None, (), text(c.text)
+    if c.rule == lib.ZD_CHOICE:
+        listed, _, meaning = meaning.partition(":")
+        words = tuple(listed.split())
+    return Parameter(text(c.name), text(c.unit), meaning.strip(), c.size, RULES[c.rule], initial, words)
+
+
+def row_named(table: str, name: str) -> int:
+    """The row of a table of the core, by its name."""
+    return lib.zd_row_named(TABLES[table], name.encode())
+
+
+def clash(table: str, name: str, values: Sequence[float]) -> str:
+    """What is wrong with parameters of a row of a table of the core, as a sentence; nothing where they go together."""
+    message = ffi.new("char[]", MESSAGE_SIZE)
+    row, given = row_named(table, name), ffi.new("zd_given *", {"given": 1, "value": values})
+    return text(message) if lib.zd_check_given(TABLES[table], row, given, message, MESSAGE_SIZE) else ""
+
+
+def lacking(correction: str, core: Any) -> list[str]:
+    """The terms that a correction requires and a system has not."""
+    requires = lib.zd_correction_requires(row_named("corrections", correction))
+    return [name for name, term in TERMS.items() if requires & term.bit & ~core.provides]
 
 
 def error_of(status: int, message: str) -> Exception:

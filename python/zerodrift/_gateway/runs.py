@@ -9,15 +9,19 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import MESSAGE_SIZE, doubles, error_of, text
+from .base import MESSAGE_SIZE, doubles, error_of, row_named, text
 from .callbacks import Watcher
 from .systems import CoreSystem
 
 
 def settings(options: dict[str, Any]) -> Any:
     """A `zd_settings` from nested dictionaries; an array `t_eval` has to outlive it."""
-    t_eval = options.pop("t_eval", None)
+    t_eval, corrections = options.pop("t_eval", None), options.pop("correction", {})
+    for name in {"of_formulation", "of_integrator"} & set(options):
+        options[name] = {"given": 1, "value": options[name]}
     made = ffi.new("zd_settings *", options)
+    for name, values in corrections.items():
+        made.correction[row_named("corrections", name)] = {"given": 1, "value": values}
     if t_eval is not None:
         made.t_eval, made.t_evals = doubles(t_eval, t_eval.size), t_eval.size
     return made

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import RULES, TERMS, Parameter, Variable, card_of, doubles, error_of, lengths, text
+from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
 
 
 class Kind:
@@ -16,15 +16,10 @@ class Kind:
     def __init__(self, c: Any) -> None:
         self.c, self.card = c, card_of(c.card)
         system = self.c.system
-        self.parameters = tuple(self._parameter(self.c.parameter[i]) for i in range(self.c.parameters))
+        self.parameters = tuple(parameter_of(self.c.parameter[i]) for i in range(self.c.parameters))
         self.coordinates = self._variables(self.c.coordinate, system.nq)
         self.velocities = self._variables(self.c.velocity, system.nv)
         self.constraints = self._variables(self.c.constraint, system.mh + system.mn)
-
-    @staticmethod
-    def _parameter(c: Any) -> Parameter:
-        initial = tuple(c.initial[i] for i in range(c.size)) if c.initial else None
-        return Parameter(text(c.name), text(c.unit), text(c.text), c.size, RULES[c.rule], initial)
 
     @staticmethod
     def _variables(c: Any, size: int) -> tuple[Variable, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
 from ..systems.base import core_of
-from . import settings
+from .rows import integrators, name_of
 from .solution import Solution
 
 # Both limits are parts of the largest kinetic energy. Among the runs that were measured, none whose error of the energy balance
@@ -54,10 +54,10 @@ def _skipped_corrections(solution: Solution) -> Iterator[tuple[type[Warning], st
 
 
 def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    stats, integrator = solution.stats, solution.settings["integrator"]
+    stats, integrator = solution.stats, name_of("integrators", solution.settings["integrator"])
     steps = stats["steps"]
     if too_long := stats["too_long"]:
-        stable = settings.integrators()[integrator].stability
+        stable = integrators()[integrator].stability
         limit = f"is stable for ({stable:g})" if stable else "resolves: what moves so fast is stable, but wrong"
         yield StabilityWarning, (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
                                  f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")

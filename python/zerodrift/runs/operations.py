@@ -116,7 +116,7 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
 def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
     core = core_of(system)
     p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
-    options = _gateway.settings({"formulation": settings.formulation_row(formulation), **projection._core()})
+    options = _gateway.settings({"formulation": settings.formulation_row(formulation), **settings.given(formulation, projection)})
     _gateway.project(core, options, _check.number("t", t), p, v, *holds)
     return p, v
 

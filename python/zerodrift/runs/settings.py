@@ -2,124 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
+from .rows import (
+    ARGUMENTS,
+    TABLES,
+    Baumgarte,
+    EnergyCorrection,
+    Projection,
+    RowSettings,
+    formulations,  # noqa: F401, as studies ask for it here
+    integrators,
+    name_of,
+    row_of,
+)
 
-
-def _set(settings: Any, **numbers: float) -> None:
-    """Replace attributes of frozen settings by Python's own numbers, so that equal settings are saved alike."""
-    for name, value in numbers.items():
-        object.__setattr__(settings, name, value)
-
-
-@dataclass(frozen=True, slots=True)
-class Projection:
-    """Correct positions and velocities after the step, (25)-(27).
-
-    Parameters
-    ----------
-    tol : float
-        Positions are iterated until every ``|Phi|`` is at most this, in units of its size `Solution.position_size`: the largest
-        ``|C_ki|`` times one radian of an angle or the mechanism's own length, at the start. The tolerance so means the same
-        in any unit: angles are off by about that many rad, and lengths by that part of the mechanism's length.
-    max_iterations : int
-        The largest number of iterations. A correction that needs more is tried again with shortened iterations, then with the
-        step in up to eight parts (or shorter, where steps are chosen); `Solution.stats` counts all of them. Where none of this
-        helps, the run fails.
-    every : int
-        Steps between corrections; the last step is always corrected.
-    metric : {"mass", "identity"}
-        What the correction is orthogonal in: the mass matrix, or (for comparison) the identity of the paper's reference [20].
-    positions, velocities : bool
-        Which of the two are corrected.
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, stabilization=zd.Projection(tol=1e-10))
-    >>> bool(abs(sol.position_violation).max() <= 1e-10)
-    True
-    """
-
-    METRICS: ClassVar = ("mass", "identity")
-
-    tol: float = 1e-12
-    max_iterations: int = 10
-    every: int = 1
-    metric: str = "mass"
-    positions: bool = True
-    velocities: bool = True
-
-    def __post_init__(self) -> None:
-        _set(self, tol=_check.number("tol", self.tol, above=0), every=_check.count("every", self.every),
-              max_iterations=_check.count("max_iterations", self.max_iterations))
-        _check.choice("metric", self.metric, self.METRICS)
-        for name in ("positions", "velocities"):
-            if not isinstance(getattr(self, name), bool):
-                raise TypeError(f"{name} must be True or False, not {getattr(self, name)!r}")
-
-    def _core(self) -> dict[str, Any]:
-        return {"projection": {
-            "every": self.every, "tolerance": self.tol, "max_iterations": self.max_iterations,
-            "metric": self.METRICS.index(self.metric), "positions": self.positions, "velocities": self.velocities}}
-
-
-@dataclass(frozen=True, slots=True)
-class Baumgarte:
-    """Feed violations back into the acceleration constraints, (23).
-
-    Parameters
-    ----------
-    alpha, beta : float
-        Gains of the velocity and the position violation, in 1/s and 1/s^2. ``beta = alpha**2 / 4`` damps critically.
-    integral : float
-        Gain of the time integral of the position violation in 1/s^3, after the paper's reference [16]; it must be less
-        than ``alpha * beta``, or the feedback itself is unstable.
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, stabilization=zd.Baumgarte(alpha=10, beta=25))
-    """
-
-    alpha: float = 10.0
-    beta: float = 25.0
-    integral: float = 0.0
-
-    def __post_init__(self) -> None:
-        _set(self, **{name: _check.number(name, getattr(self, name), least=0) for name in ("alpha", "beta", "integral")})
-        if self.integral and not self.integral < self.alpha * self.beta:
-            raise ValueError(f"integral must be less than alpha * beta = {self.alpha * self.beta:g}, not {self.integral:g}")
-
-    def _core(self) -> dict[str, Any]:
-        return {"baumgarte": {"on": 1, "alpha": self.alpha, "beta": self.beta, "integral": self.integral}}
-
-
-@dataclass(frozen=True, slots=True)
-class EnergyCorrection:
-    """Scale the velocities after the step so that the energy balance (28) holds, (29).
-
-    Parameters
-    ----------
-    every : int
-        Steps between corrections; the last step is always corrected.
-    """
-
-    every: int = 1
-
-    def __post_init__(self) -> None:
-        _set(self, every=_check.count("every", self.every))
-
-    def _core(self) -> dict[str, Any]:
-        return {"energy": {"every": self.every}}
-
-
-STABILIZATIONS = {"projection": Projection, "baumgarte": Baumgarte}
+CORRECTIONS = TABLES["corrections"]
+STABILIZATIONS = {name: CORRECTIONS[name].settings for name, argument in ARGUMENTS.items() if argument == "stabilization"}
 Stabilization = Projection | Baumgarte | None
 # What is taken where nothing else is asked for.
 FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
@@ -146,71 +50,35 @@ def energy(value: Any) -> EnergyCorrection | None:
     raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
 
 
-class CardTable(dict):
-    """The cards of a table of the core by name, printed as a table."""
-
-    def __repr__(self) -> str:
-        width = max(map(len, self), default=0)
-        return "\n".join(f"{card.name:{width}}  {card.equations:24}  {card.summary}" for card in self.values())
-
-
-def _table(name: str) -> CardTable:
-    return CardTable({card.name: card for card in _gateway.cards(name)})
+def correction(value: Any) -> tuple[RowSettings, ...]:
+    """The argument `correction` of `simulate`: None, a word, settings, or several of these."""
+    if value is None:
+        return ()
+    several = value if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
+    return tuple(map(_one_correction, several))
 
 
-_FORMULATIONS, _INTEGRATORS, _CORRECTIONS = _table("formulations"), _table("integrators"), _table("corrections")
+def _one_correction(value: Any) -> RowSettings:
+    if isinstance(value, RowSettings) and value.table == "corrections":
+        return value
+    if isinstance(value, str):
+        return CORRECTIONS[_check.choice("correction", value, CORRECTIONS)].settings()
+    raise TypeError(f"correction must be names or settings of zd.corrections(), not {value!r}")
 
 
-def formulations(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
-    """The formulations there are, by name, or those that can take a system.
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> zd.formulations()["schur"].equations
-    '(13), (27)'
-    >>> "independent" in zd.formulations(zd.systems.four_bar())
-    True
-    """
-    if system is None:
-        return CardTable(_FORMULATIONS)
-    core = core_of(system)
-    return CardTable({name: card for row, (name, card) in enumerate(_FORMULATIONS.items()) if core.suits_formulation(row)})
+def corrections_of(chosen: dict[str, Any]) -> list[RowSettings]:
+    """All corrections that a solution's settings have on."""
+    return [each for each in (chosen["stabilization"], chosen["energy"], *chosen.get("correction", ())) if each]
 
 
-def integrators(system: BaseSystem | None = None) -> dict[str, _gateway.Card]:
-    """The integrators there are, by name, or those that can take a system.
-
-    `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
-    grow, 0 where there is none.
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> zd.integrators()["rk4"].order
-    4
-    >>> "rattle" in zd.integrators(zd.systems.rolling_disc())
-    False
-    """
-    if system is None:
-        return CardTable(_INTEGRATORS)
-    core = core_of(system)
-    return CardTable({name: card for row, (name, card) in enumerate(_INTEGRATORS.items()) if core.suits(row)})
-
-
-def corrections() -> dict[str, _gateway.Card]:
-    """The corrections there are, by name, in the order in which they are applied."""
-    return CardTable(_CORRECTIONS)
-
-
-def formulation_row(name: Any) -> int:
+def formulation_row(value: Any) -> int:
     """The row of a formulation in the core's table."""
-    return list(_FORMULATIONS).index(_check.choice("formulation", name, _FORMULATIONS))
+    return row_of("formulations", value)
 
 
-def integrator_row(name: Any) -> int:
+def integrator_row(value: Any) -> int:
     """The row of an integrator in the core's table."""
-    return list(_INTEGRATORS).index(_check.choice("integrator", name, _INTEGRATORS))
+    return row_of("integrators", value)
 
 
 ON_SINGULAR = ("stop", "continue")
@@ -229,12 +97,12 @@ FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-o
 
 
 def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
-            stabilization: Any, energy: Any, save_every: Any, t_eval: Any, step: Any, max_steps: Any,
+            stabilization: Any, energy: Any, correction: Any, save_every: Any, t_eval: Any, step: Any, max_steps: Any,
             **tolerances: Any) -> dict[str, Any]:
     """The arguments of `simulate`, checked, as `Solution.settings` keeps them."""
     on_singular_row(on_singular)
     return {**_steps(span, step, integrator, max_steps, tolerances),
-            **_methods(system, formulation, integrator, stabilization, energy), **_saved(span, save_every, t_eval),
+            **_methods(system, formulation, integrator, stabilization, energy, correction), **_saved(span, save_every, t_eval),
             "on_singular": on_singular}
 
 
@@ -255,10 +123,11 @@ def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any
     return {"step": step}
 
 
-def _tolerances(integrator: str, given: dict[str, Any], smallest: float) -> dict[str, Any]:
+def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict[str, Any]:
     able = [name for name, card in integrators().items() if card.error_order]
-    if integrator not in able:
-        raise ValueError(f"step is needed: {integrator!r} takes steps of fixed size; "
+    name = name_of("integrators", integrator)
+    if name not in able:
+        raise ValueError(f"step is needed: {name!r} takes steps of fixed size; "
                          f"{', '.join(map(repr, able))} can choose theirs")
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0, "first_step": smallest, "max_step": smallest}
@@ -268,15 +137,26 @@ def _tolerances(integrator: str, given: dict[str, Any], smallest: float) -> dict
     return found
 
 
-def _methods(system: BaseSystem, formulation: Any, integrator: Any, given_stabilization: Any,
-             given_energy: Any) -> dict[str, Any]:
+def _methods(system: BaseSystem, formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
+             given_correction: Any) -> dict[str, Any]:
     """Equations, integrator and corrections."""
     formulation_row(formulation)
-    correction = energy(given_energy)
-    if correction and not system.has_energy:
-        raise ValueError(f"energy correction needs a potential energy, and {system.name} declares none")
-    return {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
-            "energy": correction}
+    found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
+             "energy": energy(given_energy)}
+    if more := correction(given_correction):
+        found["correction"] = more
+    _check_corrections(system, corrections_of(found))
+    return found
+
+
+def _check_corrections(system: BaseSystem, given: Sequence[RowSettings]) -> None:
+    names = [each.card.name for each in given]
+    for name in names:
+        if names.count(name) > 1:
+            others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
+            raise ValueError(f"the {name} correction is given more than once, by {others}correction")
+        for term in _gateway.lacking(name, core_of(system)):
+            raise ValueError(f"{name} correction needs {term} ({_gateway.TERMS[term].text}), and {system.name} declares none")
 
 
 def _saved(span: tuple[float, float], save_every: Any, t_eval: Any) -> dict[str, Any]:
@@ -311,6 +191,11 @@ def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
                "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
                "on_singular": on_singular_row(chosen.get("on_singular", "stop"))}
     options |= {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
-    for correction in (chosen["stabilization"], chosen["energy"]):
-        options |= correction._core() if correction else {}
-    return _gateway.settings(options)
+    return _gateway.settings(options | given(chosen["formulation"], chosen["integrator"], *corrections_of(chosen)))
+
+
+def given(*chosen: Any) -> dict[str, Any]:
+    """What the core's settings have of rows that are given by their settings."""
+    rows = [each for each in chosen if isinstance(each, RowSettings)]
+    methods = {f"of_{each.table.removesuffix('s')}": each._values() for each in rows if each.table != "corrections"}
+    return methods | {"correction": {each.card.name: each._values() for each in rows if each.table == "corrections"}}

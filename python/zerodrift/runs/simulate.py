@@ -40,6 +40,7 @@ def simulate(
     integrator: str = settings.INTEGRATOR,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
     energy: bool | settings.EnergyCorrection | None = None,
+    correction: Any = None,
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,
     on_singular: str = "stop",
@@ -77,14 +78,16 @@ def simulate(
         there the function is zero to rounding; a function that leaps over zero is reported behind its leap. An attribute
         `direction` of 1 or -1 takes only those from below or from above; `terminal`, True or a number, ends the run when the
         event has happened once or that often. What is zero at the start is no event.
-    formulation : str
-        One of `formulations()`: which equations of motion are solved.
-    integrator : str
-        One of `integrators()`.
+    formulation : str or settings
+        One of `formulations()`: which equations of motion are solved. Its name, or ``formulations()[name].settings(...)``.
+    integrator : str or settings
+        One of `integrators()`, in the same way.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
         How constraint violations are kept down.
     energy : None, True or EnergyCorrection
         Whether energy errors are taken out of the velocities, (29).
+    correction : str or settings, or several of them
+        Others of `corrections()`: names, or ``corrections()[name].settings(...)``.
     save_every : int
         Steps between saved rows; start and end are always saved.
     progress : bool or callable
@@ -155,7 +158,7 @@ def simulate(
     chosen = settings.checked(
         system, span, step=step, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step, max_steps=max_steps,
         t_eval=t_eval, formulation=formulation, integrator=integrator, stabilization=stabilization, energy=energy,
-        save_every=save_every, on_singular=on_singular)
+        correction=correction, save_every=save_every, on_singular=on_singular)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events)
     p0, v0 = system._state_or_start(p0, v0)

@@ -12,7 +12,8 @@ import numpy as np
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
 from ..systems.builtin import FACTORIES, BuiltIn
-from .settings import STABILIZATIONS, EnergyCorrection, core_settings
+from .rows import CLASSES, RowSettings
+from .settings import core_settings, corrections_of
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
@@ -116,7 +117,7 @@ class Solution:
             f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._last_time:g} s, "
             f"{self.message}",
             f"  how        {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
-            f"{s['stabilization'] or 'no stabilization'}" + (f", {s['energy']}" if s["energy"] else ""),
+            + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
             f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
         ]
@@ -291,19 +292,20 @@ def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
         return dict(file)
 
 
-_SETTINGS = {cls.__name__: cls for cls in (*STABILIZATIONS.values(), EnergyCorrection)}
-
-
 def _to_json(value: Any) -> Any:
     """A setting as JSON."""
-    if type(value).__name__ in _SETTINGS:
+    if isinstance(value, tuple):
+        return [_to_json(each) for each in value]
+    if isinstance(value, RowSettings):
         return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def _from_json(value: Any) -> Any:
     if isinstance(value, dict):
-        return _SETTINGS[value.pop("kind")](**value)
+        return CLASSES[value.pop("kind")](**value)
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return tuple(map(_from_json, value))
     return np.array(value) if isinstance(value, list) else value
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -63,8 +64,7 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
     if given is None:
         return np.array(parameter.initial or [np.nan] * parameter.size, dtype=float)
     if parameter.rule == "choice":
-        words = parameter.text.split()
-        return np.array([float(words.index(_check.choice(parameter.name, given, words)))])
+        return np.array([float(parameter.words.index(_check.choice(parameter.name, given, parameter.words)))])
     values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
         parameter.name, given, parameter.size)
     too_small = {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule)
@@ -76,25 +76,28 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
 def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
     """A parameter's value as a user would write it; None where it is derived."""
     if parameter.rule == "choice":
-        return parameter.text.split()[int(values[0])]
+        return parameter.words[int(values[0])]
     if np.isnan(values).any():
         return None
     return float(values[0]) if parameter.size == 1 else tuple(map(float, values))
 
 
 def _documentation(kind: _gateway.Kind) -> str:
-    lines = [f"{kind.card.summary}\n\nParameters\n----------"]
+    card = kind.card
+    description = [*textwrap.wrap(card.description, 100), ""] if card.description else []
+    lines = [card.summary, "", *description, "Parameters", "----------"]
     for parameter in kind.parameters:
         shape = "" if parameter.size == 1 else f" ({parameter.size},)"
         if parameter.rule == "choice":
-            lines.append(f"{parameter.name} : {{{', '.join(map(repr, parameter.text.split()))}}}")
+            lines.append(f"{parameter.name} : {{{', '.join(map(repr, parameter.words))}}}")
         else:
             unit = f" in {parameter.unit}" if parameter.unit else ""
-            lines.append(f"{parameter.name} : float{shape}{unit}, {parameter.rule}\n    {parameter.text}")
+            lines.append(f"{parameter.name} : float{shape}{unit}, {parameter.rule}")
+        lines += [f"    {parameter.text}"] if parameter.text else []
     named = {"Coordinates p": kind.coordinates, "Velocities v": kind.velocities, "Constraints": kind.constraints}
     for title, variables in named.items():
         lines.append(f"\n{title}: {', '.join(f'{name} [{unit}]' for name, unit in variables) or 'none'}.")
-    lines.append(f"\nSource: {kind.card.equations}.")
+    lines.append(f"\nSource: {card.equations}" + (f"; {card.reference}." if card.reference else "."))
     return "\n".join(lines)
 
 

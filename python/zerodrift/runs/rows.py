@@ -1,0 +1,245 @@
+"""The rows of the core's tables that a run is made of: their cards, and for each a class of its settings.
+
+All of it comes from the core: a row that is added there is here, with its parameters, their checks and their documentation.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import textwrap
+from typing import Any, ClassVar
+
+from .. import _check, _gateway
+from ..systems.base import BaseSystem, core_of
+
+WIDTH = 100     # columns of a page
+
+# By which argument of `simulate` a correction is asked for, and what its class is called, where that is not as for all others.
+ARGUMENTS = {"projection": "stabilization", "baumgarte": "stabilization", "energy": "energy"}
+CLASS_NAMES = {"energy": "EnergyCorrection"}
+KINDS = {"any": "float", "positive": "float", "not negative": "float", "count": "int", "switch": "bool"}
+
+
+class RowSettings:
+    """Parameters of a row of a table, checked; equal if they and the row are."""
+
+    __slots__ = ()
+    card: ClassVar[Row]
+    table: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for parameter in self.card.parameters:      # Python's own numbers, so that equal settings are saved alike
+            object.__setattr__(self, parameter.name, _checked(parameter, getattr(self, parameter.name)))
+        if clash := _gateway.clash(self.table, self.card.name, self._values()):
+            raise ValueError(clash)
+
+    def _values(self) -> list[float]:
+        """The numbers that the core is handed."""
+        return [number for parameter in self.card.parameters for number in _numbers(parameter, getattr(self, parameter.name))]
+
+
+def _checked(parameter: _gateway.Parameter, value: Any) -> Any:
+    """A value that keeps to its parameter's rule."""
+    name = parameter.name
+    match parameter.rule:
+        case "choice":
+            return _check.choice(name, value, parameter.words)
+        case "count":
+            return _check.count(name, value)
+        case "switch":
+            return _check.instance(name, value, bool, "True or False")
+    limit = {"positive": {"above": 0}, "not negative": {"least": 0}}.get(parameter.rule, {})
+    if parameter.size == 1:
+        return _check.number(name, value, **limit)
+    values = _check.vector(name, value, parameter.size)
+    return tuple(_check.number(f"{name}[{i}]", each, **limit) for i, each in enumerate(values))
+
+
+def _numbers(parameter: _gateway.Parameter, value: Any) -> tuple[float, ...]:
+    if parameter.rule == "choice":
+        return (float(parameter.words.index(value)),)
+    return tuple(map(float, value)) if parameter.size > 1 else (float(value),)
+
+
+def _initial(parameter: _gateway.Parameter) -> Any:
+    """A parameter's value where nothing else is asked for, as a user would write it."""
+    first = parameter.initial[0]
+    match parameter.rule:
+        case "choice":
+            return parameter.words[int(first)]
+        case "count":
+            return int(first)
+        case "switch":
+            return bool(first)
+    return first if parameter.size == 1 else parameter.initial
+
+
+class Row(_gateway.Card):
+    """A row of a table of the core; it prints as a page.
+
+    Attributes
+    ----------
+    name, summary, equations : str
+        `equations` are those of the paper, or where it comes from.
+    description, reference : str
+        What it does and when to take it; the literature.
+    order, error_order : int
+        Of an integrator and of its error estimate; 0: there is none.
+    stability : float
+        Of an integrator: the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none.
+    parameters : tuple of Parameter
+        What may be set.
+    settings : type
+        The class of its settings, to be handed to `simulate`.
+    """
+
+    __slots__ = ()
+
+    @property
+    def settings(self) -> type[RowSettings]:
+        return _CLASSES[self]
+
+    def __repr__(self) -> str:
+        lines = [f"{self.name}: {self.summary}", "", *_paragraph(self.description)]
+        for parameter in self.parameters:
+            lines += [f"  {_kind(parameter)}, initially {_initial(parameter)!r}", *_paragraph(parameter.text, "      ")]
+        numbers = {"order": self.order, "order of the error estimate": self.error_order, "stable up to omega h": self.stability}
+        lines += [f"  {name}: {number:g}" for name, number in numbers.items() if number]
+        return "\n".join([*lines, "", *_paragraph(_source(self))]).rstrip()
+
+
+def _source(card: _gateway.Card) -> str:
+    return f"Source: {card.equations}" + (f"; {card.reference}." if card.reference else ".")
+
+
+def _paragraph(text: str, indent: str = "  ") -> list[str]:
+    return [*textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent), ""] if text else []
+
+
+def _kind(parameter: _gateway.Parameter) -> str:
+    """A parameter with what may be given for it."""
+    if parameter.rule == "choice":
+        return f"{parameter.name} : {{{', '.join(map(repr, parameter.words))}}}"
+    shape = "" if parameter.size == 1 else f" ({parameter.size},)"
+    unit = f" in {parameter.unit}" if parameter.unit else ""
+    rule = f", {parameter.rule}" if parameter.rule in ("positive", "not negative") else ""
+    return f"{parameter.name} : {KINDS[parameter.rule]}{shape}{unit}{rule}"
+
+
+class CardTable(dict):
+    """The cards of a table of the core by name, printed as a table."""
+
+    def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{card.name:{width}}  {card.equations:24}  {card.summary}" for card in self.values())
+
+
+TABLES = {table: CardTable({card.name: Row(*card) for card in _gateway.cards(table)})
+          for table in ("formulations", "integrators", "corrections")}
+
+
+def _documentation(table: str, card: Row, name: str) -> str:
+    lines = [card.summary, "", *_paragraph(card.description, "")]
+    if card.parameters:
+        lines += ["Parameters", "----------"]
+        for parameter in card.parameters:
+            lines += [_kind(parameter), *_paragraph(parameter.text, "    ")[:-1]]
+    lines += ["", "Notes", "-----", *_paragraph(_source(card), "")]
+    argument = ARGUMENTS.get(card.name, "correction") if table == "corrections" else table.removesuffix("s")
+    known = name if name in ("Projection", "Baumgarte", "EnergyCorrection") else f'{table}()["{card.name}"].settings'
+    return "\n".join([*lines, "Examples", "--------", ">>> import zerodrift as zd",
+                      f">>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, {argument}=zd.{known}())"])
+
+
+def _class_of(table: str, card: Row) -> type[RowSettings]:
+    """The settings of a row: a frozen dataclass whose fields are its parameters."""
+    name = CLASS_NAMES.get(card.name, "".join(word.capitalize() for word in card.name.split("_")))
+    fields = [(parameter.name, "str" if parameter.rule == "choice" else KINDS[parameter.rule], _initial(parameter))
+              for parameter in card.parameters]
+    words = {f"{parameter.name.upper()}S": parameter.words for parameter in card.parameters if parameter.rule == "choice"}
+    made = dataclasses.make_dataclass(name, fields, bases=(RowSettings,), frozen=True, slots=True, namespace={
+        "__doc__": _documentation(table, card, name), "card": card, "table": table, "__module__": __name__, **words})
+    made.__reduce__ = _reduced      # as a class may be in no module
+    return made
+
+
+def _reduced(settings: RowSettings) -> tuple[Any, ...]:
+    values = (getattr(settings, field.name) for field in dataclasses.fields(settings))
+    return _again, (settings.table, settings.card.name, *values)
+
+
+def _again(table: str, name: str, *values: Any) -> RowSettings:
+    """Settings from a pickle or a copy."""
+    return TABLES[table][name].settings(*values)
+
+
+_CLASSES = {card: _class_of(table, card) for table, cards in TABLES.items() for card in cards.values()}
+CLASSES = {made.__name__: made for made in _CLASSES.values()}
+Projection = TABLES["corrections"]["projection"].settings
+Baumgarte = TABLES["corrections"]["baumgarte"].settings
+EnergyCorrection = TABLES["corrections"]["energy"].settings
+
+
+def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
+    """The formulations there are, by name, or those that can take a system.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.formulations()["schur"].equations
+    '(13), (27)'
+    >>> "independent" in zd.formulations(zd.systems.four_bar())
+    True
+    """
+    table = TABLES["formulations"]
+    if system is None:
+        return CardTable(table)
+    core = core_of(system)
+    return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits_formulation(row)})
+
+
+def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
+    """The integrators there are, by name, or those that can take a system.
+
+    `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
+    grow, 0 where there is none.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.integrators()["rk4"].order
+    4
+    >>> "rattle" in zd.integrators(zd.systems.rolling_disc())
+    False
+    """
+    table = TABLES["integrators"]
+    if system is None:
+        return CardTable(table)
+    core = core_of(system)
+    return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits(row)})
+
+
+def corrections() -> dict[str, Row]:
+    """The corrections there are, by name, in the order in which they are applied.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.corrections()["projection"].settings is zd.Projection
+    True
+    >>> zd.corrections()["baumgarte"].settings(alpha=20.0, beta=100.0)
+    Baumgarte(alpha=20.0, beta=100.0, integral=0.0)
+    """
+    return CardTable(TABLES["corrections"])
+
+
+def name_of(table: str, value: Any) -> str:
+    """The name of the row that an argument asks for, by its name or by settings of it."""
+    if isinstance(value, RowSettings) and value.table == table:
+        return value.card.name
+    return _check.choice(table.removesuffix("s"), value, TABLES[table])
+
+
+def row_of(table: str, value: Any) -> int:
+    """Its number in the core's table."""
+    return list(TABLES[table]).index(name_of(table, value))
