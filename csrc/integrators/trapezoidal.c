@@ -105,17 +105,20 @@ static int residual(void *context, double *size)
     trapezoidal *self = context;
     int status = rate_at_end(self, self->f1);
     if (status) return status;
-    double largest = 0, scale = 0;
+    double largest = 0, scale = 0, from_nothing = 0;
     self->defect = 0;
     for (int i = 0; i < self->size; i++) {
         double mean = 0.5 * self->h * (self->f0[i] + self->f1[i]);
         double g = self->g[i] = self->y1[i] - self->y0[i] - mean;
         self->scale[i] = fmax(self->scale[i], fabs(self->y0[i]) + fabs(mean));
-        if (g != 0) self->defect = fmax(self->defect, fabs(g) / self->scale[i]);
+        if (g != 0 && self->scale[i] > 0) self->defect = fmax(self->defect, fabs(g) / self->scale[i]);
+        else from_nothing = fmax(from_nothing, fabs(g));
         if (isnan(g)) self->defect = INFINITY;
         largest = fmax(largest, fabs(g));
         scale = fmax(scale, self->scale[i]);
     }
+    /* Where y and f have been zero so far, what a solve has left there is its rounding of all others. */
+    if (from_nothing > 0) self->defect = fmax(self->defect, from_nothing / scale);
     /* What f is summed from may be larger than f: its rounding is then what is left. Where next to nothing is left of f, and of y,
      * the size of all has to do. */
     int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
