@@ -10,7 +10,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .formulation = formulation,
         .drifts_from = formulation->drifts_from,
         .corrects = ZD_PHI | ZD_C,
-        .acceleration_needs = ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
+        /* A is for the rates of p, which always go with it: so it comes in the same evaluation. */
+        .acceleration_needs = ZD_A | ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = formulation->take(arena, independent, given),
     };
