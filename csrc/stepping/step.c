@@ -68,8 +68,9 @@ int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
     self->t = t1;
     motion->state = self->y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
+    /* Where Phi drifts, the state begins with p; where it does not, p was put right when it was found. */
+    if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
-    if (!status) zd_point_normalise(motion->point);
     if (!status) status = zd_motion_correct(motion, step, forced);
     if (!status) status = formulation->leave(motion->solver, motion->point, self->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
