@@ -177,6 +177,13 @@ static int place_numerically(zd_embedding *self, zd_point *point, double t, cons
     return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
 }
 
+static int place_by_increments(zd_embedding *self, zd_point *point, double t, const double *q)
+{
+    int status = place_numerically(self, point, t, q);
+    if (status || zd_increments_are_within_reach(&self->increments, point->system, point->p)) return status;
+    return ZD_NO_EMBEDDING;
+}
+
 /* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. Where that is too far to
  * be an estimate, where the point is. */
 static void predict(zd_embedding *self, zd_point *point, double t)
@@ -206,6 +213,7 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
     }
     predict(self, point, t);
     if (self->embed && point->rank->was_ill_conditioned) give_up_own(self);
+    if (has_increments(self)) return place_by_increments(self, point, t, q);
     if (!self->embed) return place_numerically(self, point, t, q);
     int status = self->embed(system->data, t, q, self->p);            /* (18) */
     if (status) give_up_own(self);

@@ -3,7 +3,8 @@
  *     q = A(p0)^+ (p - p0),        A^+ A = I,
  *
  * which is linear in p: so qdot = A(p0)^+ A(p) v, with no rates of a rotation vector, and an integrator keeps its order. At p0, qdot = v.
- * Of a rotation by the angle a from p0 it is 2 sin(a / 2) along the axis, and determines p up to half a turn in one step.
+ * Of a rotation by the angle a from p0 it is 2 sin(a / 2) along the axis: near half a turn it no longer tells how far that goes. Where a step
+ * turns a body by more than a third of a turn, it has to be made in parts.
  *
  * A^+ is that of least squares in natural units. One natural unit is added to each increment: relative errors of chosen steps are then
  * relative to that, as those of a p are, and not to the increment, which is zero where a step begins.
@@ -17,6 +18,7 @@
 #include "../point/matrices.h"
 
 static const double ROUNDING = 4 * 0x1p-52;
+static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation */
 
 zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
 {
@@ -73,6 +75,15 @@ int zd_increments_begin(zd_increments *self, zd_point *point)
     for (int i = 0; i < self->nq; i++) invert_column(self, point, i, self->rounding);
     for (int j = 0; j < self->nv; j++) self->rounding[j] = row_rounding(self, point, j);
     return ZD_DONE;
+}
+
+int zd_increments_are_within_reach(const zd_increments *self, const zd_system *system, const double *p)
+{
+    for (int k = 0; k < system->quaternions; k++) {
+        const int first = system->quaternion[k];
+        if (!(zd_dot(4, self->base + first, p + first) >= REACH)) return 0;
+    }
+    return 1;
 }
 
 double zd_increments_value(const zd_increments *self, const zd_point *point, const double *p, int j)

@@ -156,7 +156,8 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_NO_EMBEDDING:
-        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)", point->residual_left);
+        snprintf(to, size, "the independent coordinates do not determine the others here (|Phi| = %.3g is left)%s", point->residual_left,
+                 point->system->quaternions ? ", or the step turns a body by more than 120 degrees" : "");
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
     case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : zd_sentence(status)); break;
