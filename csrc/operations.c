@@ -97,6 +97,7 @@ int zd_step(const zd_system *system, const zd_settings *settings, double *p, dou
     if (!run) return status;
     if (!status) status = zd_suits(system, settings->integrator) ? zd_stepper_place(&run->stepper, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
     if (!status) status = zd_motion_start_energy(&run->motion);
+    if (!status && run->motion.road.direct) zd_direct_choose(&run->motion);
     if (!status) status = zd_stepper_make_substep(&run->stepper, settings->t1);
     memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);

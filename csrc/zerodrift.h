@@ -103,6 +103,7 @@ typedef struct zd_settings {
     zd_given of_formulation, of_integrator;
     zd_given correction[ZD_CORRECTIONS_MAX];        /* of each row of the table */
     enum zd_on_singular on_singular;
+    int direct;                     /* whether direct functions are taken where the system brings any and they serve */
     int given_jacobian;             /* whether somebody wrote C and Phi_t down beside Phi: they are then compared now and then */
 } zd_settings;
 
@@ -117,6 +118,7 @@ int zd_check_given(enum zd_table table, int row, const zd_given *given, char *me
 
 typedef struct zd_statistics {
     int64_t steps;
+    int64_t direct_steps;          /* of these, made by direct functions */
     int64_t rejected;              /* steps whose error estimate was too large, or that failed and were tried smaller */
     int64_t output_steps;          /* shorter ones, to times between steps: to be saved, or where an event is looked for */
     int64_t evaluations;           /* calls of the system */

@@ -220,11 +220,53 @@ static int correct_velocities(projection *self, zd_motion *motion)
     return ZD_DONE;
 }
 
+/* ---- by the direct functions: one call has the steps of positions and velocities, the latter being of use after the last ---- */
+
+static int direct_residual(void *context, double *size)
+{
+    position_problem *problem = context;
+    projection *self = problem->self;
+    zd_point *point = problem->motion->point;
+    const zd_elimination *order = problem->motion->road.order;
+    problem->motion->statistics.evaluations++;
+    int status = order->correct(point->system->data, point->t, point->p, point->v, point->terms.Phi, self->change, self->x);
+    if (status) return ZD_CALLBACK;
+    *size = zd_point_violation(point);
+    return ZD_DONE;
+}
+
+static int improve_directly(void *context)
+{
+    position_problem *problem = context;
+    projection *self = problem->self;
+    zd_point *point = problem->motion->point;
+    ZD_SIZED(zd_subtract, point->system->nq, point->p, self->change, self->p);      /* (25a), (26a), (27a) */
+    zd_quaternions_normalise(point->system, self->p);
+    zd_point_move(point, point->t, self->p, point->v);
+    return ZD_DONE;
+}
+
+static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
+{
+    zd_point *point = motion->point;
+    zd_newton newton = {direct_residual, improve_directly, self->given.tol, (int)self->given.max_iterations, TRUSTED, NULL};
+    position_problem problem = {self, motion, 0};
+    double size;
+    int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
+    if (status || !velocities) return status;
+    ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
+    zd_point_move_velocity(point, self->v);
+    motion->statistics.velocity_corrections++;
+    return ZD_DONE;
+}
+
 static int after_step(void *memory, zd_motion *motion)
 {
     projection *self = memory;
     int positions = self->given.positions && (motion->corrects & ZD_PHI), velocities = self->given.velocities && (motion->corrects & ZD_C);
     int status = ZD_DONE;
+    if (zd_is_direct(motion) && !self->plain)
+        return zd_constraints(&motion->system) ? correct_directly(self, motion, positions, velocities) : ZD_DONE;
     if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
     if (motion->drifts_from & ZD_C) return velocities ? correct_velocities(self, motion) : ZD_DONE;

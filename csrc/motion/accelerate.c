@@ -1,4 +1,6 @@
 /* The equations of motion at a point, and the rate of the integrated state that follows from them. */
+#include <string.h>
+
 #include "../constraints/limits.h"
 #include "../linalg/small.h"
 #include "motion.h"
@@ -12,9 +14,31 @@ static void stabilize(zd_motion *motion)
     }
 }
 
+/* By the direct functions, with all that may be wanted at a point. As a step ends, that is the first stage of the next one. */
+static int accelerate_directly(zd_motion *motion)
+{
+    zd_point *point = motion->point;
+    zd_road *road = &motion->road;
+    const double *added = NULL;
+    int status = zd_point_need(point, motion->corrections_need);
+    if (status) return status;
+    if (motion->is_stabilized) {
+        for (int k = 0; k < zd_constraints(point->system); k++) point->rhs[k] = 0;
+        stabilize(motion);
+        added = point->rhs;
+    }
+    motion->statistics.evaluations++;
+    status = road->order->accelerate(point->system->data, point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
+                                     motion->balance.input ? &road->power : NULL, road->pivots);
+    if (status) return ZD_CALLBACK;
+    point->known |= ZD_ACCELERATED;
+    return ZD_DONE;
+}
+
 int zd_motion_accelerate_anew(zd_motion *motion)
 {
     zd_point *point = motion->point;
+    if (zd_is_direct(motion)) return accelerate_directly(motion);
     int status = zd_point_need(point, motion->acceleration_needs);
     if (!status) status = zd_motion_factor(motion);
     if (status) return status;
@@ -49,4 +73,37 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     if (motion->corrections_size) extra_rates(motion, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = zd_motion_power(motion);
     return ZD_DONE;
+}
+
+/* Of the point, to which the state is brought. */
+static int direct_rate_of_point(zd_motion *motion, double t, const double *y, double *ydot)
+{
+    zd_point *point = motion->point;
+    const int nq = point->system->nq, nv = point->system->nv;
+    zd_point_move(point, t, y, y + nq);
+    if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
+    int status = zd_motion_accelerate(motion);
+    if (status) return status;
+    ZD_SIZED(zd_copy, nq, point->terms.A ? motion->road.pdot : point->v, ydot);
+    ZD_SIZED(zd_copy, nv, point->vdot, ydot + nq);
+    if (motion->corrections_size) extra_rates(motion, ydot);
+    if (motion->balance.input) ydot[motion->rate.size - 1] = motion->road.power;
+    return ZD_DONE;
+}
+
+/* Stages of a step do without the point: it stays where the step began, whose acceleration is that of the first stage. */
+int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot)
+{
+    zd_motion *motion = context;
+    const zd_point *point = motion->point;
+    const int nq = point->system->nq, nv = point->system->nv;
+    const size_t of_p = (size_t)nq * sizeof *y, of_v = (size_t)nv * sizeof *y;
+    motion->state = y;
+    int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
+    if (is_known || motion->is_stabilized) return direct_rate_of_point(motion, t, y, ydot);
+    motion->statistics.evaluations++;
+    if (!point->terms.A) ZD_SIZED(zd_copy, nv, y + nq, ydot);
+    double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
+    int status = motion->road.order->accelerate(point->system->data, t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
+    return status ? ZD_CALLBACK : ZD_DONE;
 }

@@ -36,6 +36,18 @@ typedef struct zd_balance {
     const double *input;    /* J, integrated along as the last number of the state; NULL where none comes in */
 } zd_balance;
 
+/* The direct road: a step whose accelerations and corrections come from the system's direct functions. The general road, by the formulation's
+ * leading matrix, is all that there is where `direct` is NULL, and what is taken in any doubt: see direct.c. */
+typedef struct zd_road {
+    const zd_direct *direct;
+    const zd_elimination *order;    /* that this step is made with; NULL: it takes the general road */
+    int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
+    double *scale;          /* (orders, m): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
+    double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began */
+    double *pdot;           /* (nq,): at the point, of a system with A */
+    double power;           /* W: at the point, of a system with energy input */
+} zd_road;
+
 struct zd_motion {
     zd_system system;
     zd_statistics statistics;
@@ -46,6 +58,7 @@ struct zd_motion {
     int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
     int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
     zd_hold hold;           /* what they promise of both */
+    int corrections_need;   /* terms behind the corrections that are on */
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;        /* how many are on */
@@ -55,6 +68,7 @@ struct zd_motion {
     int formulation_size;   /* of the state's first part: the formulation's. Corrections' and the energy input (28) follow */
     int corrections_size;   /* of what corrections integrate along */
     zd_balance balance;
+    zd_road road;
     int in_run;             /* whether steps begin where the constraints are known to hold */
 };
 
@@ -87,6 +101,18 @@ static inline int zd_motion_accelerate(zd_motion *motion)
     return motion->point->known & ZD_ACCELERATED ? ZD_DONE : zd_motion_accelerate_anew(motion);
 }
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
+int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
+
+/* direct.c */
+/* Lays out the direct road, where the system brings one and the formulation, whose state has to be (p, v), lets it serve. */
+void zd_direct_take(zd_motion *motion, zd_arena *arena);
+/* Which road a step takes that begins at the point. */
+void zd_direct_choose(zd_motion *motion);
+void zd_direct_leave(zd_motion *motion);
+/* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
+ * ZD_SINGULAR, and the step has to be made on the general road. */
+int zd_direct_compare(zd_motion *motion, double moved);
+static inline int zd_is_direct(const zd_motion *motion) { return motion->road.order != NULL; }
 
 /* correct.c: those that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);

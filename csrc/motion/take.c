@@ -29,6 +29,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
     if (correction->hold) motion->hold = correction->hold(given);
     motion->active[motion->corrections++] = (zd_active){correction, self, every, motion->corrections_size, size};
     motion->acceleration_needs |= correction->needs;
+    motion->corrections_need |= correction->needs;
     motion->is_stabilized |= correction->stabilize != NULL;
     motion->corrections_size += size;
     motion->rate.size += size;

@@ -33,6 +33,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
                    settings->on_singular);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
+    if (settings->direct && !integrator->step_of_motion) zd_direct_take(motion, arena);
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_take(arena, motion, integrator, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent);

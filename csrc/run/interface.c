@@ -98,6 +98,31 @@ static int check_operations(const zd_system *system, text message)
     return refuse(message, "operations: C is not stored, and this version of the core needs its rows");
 }
 
+/* Rows are eliminated once each, for as many different velocities, in solves that are counted up. */
+static int is_an_elimination(const zd_system *system, const zd_elimination *order)
+{
+    int m = system->mh + system->mn, last = -1;
+    if (!order->accelerate || order->solves < 0 || order->solves > m || (order->solves == 0) != (m == 0)) return 0;
+    if (m && !(order->correct && order->solve && order->row && order->column)) return 0;
+    for (int k = 0; k < m; k++) {
+        int row = order->row[k], column = order->column[k];
+        if (row < 0 || row >= m || column < 0 || column >= system->nv || order->solve[k] < last || order->solve[k] > last + 1) return 0;
+        for (int i = 0; i < k; i++)
+            if (order->row[i] == row || order->column[i] == column) return 0;
+        last = order->solve[k];
+    }
+    return last + 1 == order->solves;
+}
+
+static int check_orders(const zd_system *system, int set, text message)
+{
+    for (int i = 0; i < system->direct[set].orders; i++)
+        if (!is_an_elimination(system, &system->direct[set].order[i]))
+            return refuse(message, "direct: order %d of set %d is no elimination of %d rows, each once, for as many of %d velocities", i, set,
+                          system->mh + system->mn, system->nv);
+    return ZD_DONE;
+}
+
 static int check_direct(const zd_system *system, text message)
 {
     int lanes = 0;
@@ -106,12 +131,13 @@ static int check_direct(const zd_system *system, text message)
     for (int i = 0; i < system->directs; i++) {
         const zd_direct *direct = &system->direct[i];
         if (direct->orders < 1 || direct->orders > 4)
-            return refuse(message, "direct: set %d has %d orders of pivots, and has 1 to 4", i, direct->orders);
+            return refuse(message, "direct: set %d has %d orders of elimination, and has 1 to 4", i, direct->orders);
         if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
             return refuse(message, "direct: set %d has %d lanes, and has 1, 2, 4 or 8", i, direct->lanes);
         if (lanes & direct->lanes) return refuse(message, "direct: set %d is the second of %d lanes", i, direct->lanes);
-        if (is_no_size(direct->scratch)) return refuse(message, "direct: the scratch of set %d is no size: %d", i, direct->scratch);
         lanes |= direct->lanes;
+        int status = direct->order ? check_orders(system, i, message) : refuse(message, "direct: set %d has no orders of elimination", i);
+        if (status) return status;
     }
     return ZD_DONE;
 }

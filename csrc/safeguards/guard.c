@@ -120,11 +120,12 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
     return sum;
 }
 
-static void note_energy(zd_guard *guard)
+/* On the general road M is known, as the acceleration is. */
+static int note_energy(zd_guard *guard)
 {
-    const zd_point *point = guard->motion->point;
-    double kinetic = (point->known & ZD_M) ? zd_point_kinetic(point) : 0;
-    guard->kinetic = fmax(guard->kinetic, kinetic);
+    int status = zd_point_need(guard->motion->point, ZD_M);
+    if (!status) guard->kinetic = fmax(guard->kinetic, zd_point_kinetic(guard->motion->point));
+    return status;
 }
 
 static void estimate_omega(zd_guard *guard, double moved, double h)
@@ -188,10 +189,10 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     return evaluate_end(guard, next_step);
 }
 
-void zd_guard_watch(zd_guard *guard, double moved, double h)
+int zd_guard_watch(zd_guard *guard, double moved, double h)
 {
     if (guard->checks_stability) estimate_omega(guard, moved, h);
-    if (zd_has_energy(&guard->motion->system)) note_energy(guard);
+    return zd_has_energy(&guard->motion->system) ? note_energy(guard) : ZD_DONE;
 }
 
 void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step)

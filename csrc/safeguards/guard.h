@@ -33,7 +33,7 @@ int zd_guard_begin(zd_guard *guard, int64_t step);
 /* Compares where a step of size h has led with where its velocities lead; ZD_BRANCH if these differ. */
 int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *found);
 /* Whether the step, in which the motion has moved by so much, is longer than the method is stable for; and how fast it is. */
-void zd_guard_watch(zd_guard *guard, double moved, double h);
+int zd_guard_watch(zd_guard *guard, double moved, double h);
 /* Keeps the end of the step as the beginning of the next. */
 void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step);
 double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */

@@ -21,7 +21,8 @@ int zd_safeguards_begin(zd_safeguards *self, int64_t step)
 /* What is looked at now and then only: stability, energy, each part by itself, and the system's own consistency. */
 static int look_closely(zd_safeguards *self, double moved, double h, int64_t step)
 {
-    zd_guard_watch(&self->guard, moved, h);
+    int status = zd_guard_watch(&self->guard, moved, h);
+    if (status) return status;
     if (self->guard.checks_stability) zd_resolution_look(&self->resolution, h, step);
     return zd_consistency_look(&self->consistency, step);
 }
@@ -31,7 +32,8 @@ int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int is
     zd_detour found;
     if (!self->guard.has_begun) return ZD_DONE;
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
-    if (!status) status = zd_crossing_step(&self->crossing, h, found.moved);
+    if (!status) status = zd_is_direct(self->guard.motion) ? zd_direct_compare(self->guard.motion, found.moved)
+                                                           : zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
     if (self->guard.watches_step && !is_part) status = look_closely(self, found.moved, h, next_step - 1);
     zd_guard_keep(&self->guard, found.speed, next_step);

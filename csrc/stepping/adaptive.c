@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "passage.h"
+#include "road.h"
 #include "variables.h"
 
 enum {
@@ -127,6 +128,10 @@ int zd_adaptive_step(zd_course *course)
         double h = bounded(course, course->control.h), t1 = h == course->end - t ? course->end : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;
         int status = attempt(course, t1 - t, t1, &norm);
+        if (zd_road_is_left(course, status)) {
+            status = zd_road_leave(course);
+            if (!status) status = attempt(course, t1 - t, t1, &norm);
+        }
         if (zd_variables_lose_digits(course->stepper, status)) {
             status = zd_course_use_dependent(course);
             if (!status) status = attempt(course, t1 - t, t1, &norm);

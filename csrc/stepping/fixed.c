@@ -3,6 +3,7 @@
 #include "../linalg/small.h"
 #include "clock.h"
 #include "passage.h"
+#include "road.h"
 #include "variables.h"
 
 enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
@@ -16,6 +17,10 @@ static int integrate_and_land(zd_course *course, double h, double t1)
 static int make_step(zd_course *course, double h, double t1)
 {
     int status = integrate_and_land(course, h, t1);
+    if (zd_road_is_left(course, status)) {
+        status = zd_road_leave(course);
+        if (!status) status = integrate_and_land(course, h, t1);
+    }
     if (!zd_variables_lose_digits(course->stepper, status)) return status;
     status = zd_course_use_dependent(course);
     return status ? status : integrate_and_land(course, h, t1);

@@ -11,6 +11,11 @@ int zd_stepper_make_substep(zd_stepper *self, double t)
 {
     double h = t - self->t;
     int status = integrate_and_land(self, h, t);
+    if (status && zd_is_direct(self->motion)) {
+        zd_direct_leave(self->motion);
+        status = zd_stepper_return(self);
+        if (!status) status = integrate_and_land(self, h, t);
+    }
     if (zd_variables_lose_digits(self, status)) {
         status = zd_variables_use_dependent(self);
         if (!status) status = integrate_and_land(self, h, t);

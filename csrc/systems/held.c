@@ -69,6 +69,7 @@ zd_system zd_hold_positions(zd_held *held, const zd_system *inner, const int *ho
 {
     *held = (zd_held){inner, hold, p};
     zd_system system = *inner;
+    system.directs = 0;
     system.mh += count(hold, inner->nq);
     system.mn = 0;
     system.provides = ZD_M | (inner->provides & ZD_A) | (system.mh ? ZD_PHI | ZD_C : 0);
@@ -82,6 +83,7 @@ zd_system zd_hold_velocities(zd_held *held, const zd_system *inner, const int *h
 {
     *held = (zd_held){inner, hold, v};
     zd_system system = *inner;
+    system.directs = 0;
     int rows = count(hold, inner->nv);
     system.mn += rows;
     system.provides = ZD_M | (inner->provides & ZD_PHI_T) | (zd_constraints(&system) ? ZD_C : 0) | (rows ? ZD_PHI_T : 0);

@@ -35,6 +35,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     zd_system system = *perturbation->system;
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
+    system.directs = 0;       /* of the terms as they are */
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;
     return system;

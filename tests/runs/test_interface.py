@@ -60,8 +60,17 @@ def listed(member, *content):
     return lambda made: made.array(member, list(content))
 
 
-def direct(*sets):
-    return lambda made: made.array("zd_direct", [{"orders": 1, "lanes": 1} | changed for changed in sets])
+def direct(*sets, **changed):
+    """Each with four orders, which eliminate one row and then three for four of six velocities."""
+    def make(made):
+        tables = {"solve": [0, 1, 1, 1], "row": [3, 0, 1, 2], "column": [5, 0, 1, 2]} | changed
+        order = {name: ffi.NULL if values is None else made.array("int", values) for name, values in tables.items()
+                 if name in ("solve", "row", "column")}
+        functions = {name: made.function("zd_elimination", name) for name in ("accelerate", "correct") if name not in changed}
+        order |= {"solves": changed.get("solves", 2)} | functions
+        orders = made.array("zd_elimination", [order] * 4)
+        return made.array("zd_direct", [{"orders": 1, "lanes": 1, "order": orders} | each for each in sets])
+    return make
 
 
 def measures(*measures, **changed):
@@ -143,11 +152,15 @@ def in_structure(**changed):
     ({"directs": 1}, "direct: there are 1 sets"),
     ({"direct": direct({})}, "direct: there are 0 sets"),
     ({"directs": 5, "direct": direct(*[{}] * 5)}, "direct: there are 5 sets"),
-    ({"directs": 1, "direct": direct({"orders": 5})}, "set 0 has 5 orders of pivots, and has 1 to 4"),
+    ({"directs": 1, "direct": direct({"orders": 5})}, "set 0 has 5 orders of elimination, and has 1 to 4"),
     ({"directs": 1, "direct": direct({"orders": 0})}, "set 0 has 0 orders"),
     ({"directs": 2, "direct": direct({}, {"lanes": 3})}, "set 1 has 3 lanes, and has 1, 2, 4 or 8"),
     ({"directs": 2, "direct": direct({}, {})}, "set 1 is the second of 1 lanes"),
-    ({"directs": 1, "direct": direct({"scratch": -1})}, "the scratch of set 0 is no size: -1"),
+    ({"directs": 1, "direct": direct({"order": ffi.NULL})}, "set 0 has no orders of elimination"),
+    *[({"directs": 1, "direct": direct({}, **changed)}, "order 0 of set 0 is no elimination of 4 rows") for changed in (
+        {"accelerate": None}, {"correct": None}, {"row": None}, {"solves": 0}, {"solves": 5}, {"solves": 1},
+        {"row": [3, 0, 1, 4]}, {"row": [3, 0, 1, 1]}, {"column": [5, 0, 1, 6]}, {"column": [5, 0, 0, 1]},
+        {"solve": [0, 1, 0, 1]}, {"solve": [0, 2, 2, 2]})],
     ({"series": lambda made: made.of("zd_series", {})}, "series: there is a function"),
     ({"series": brought("zd_series", "evaluate", scratch=-1)}, "series: .*not -1"),
     ({"measures": measures({}, evaluate=ffi.NULL)}, "measures: there are 1"),

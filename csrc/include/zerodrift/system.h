@@ -149,25 +149,32 @@ typedef struct zd_operations {
     void (*weighted)(const void *data, const zd_terms *terms, const double *W, double *S);
 } zd_operations;
 
-/* The equations with their constraints eliminated in closed form, along one of `orders` orders of pivots. Functions may be NULL. */
-typedef struct zd_pivots {
-    double smallest;        /* |pivot|, relative to what it was taken from, the least of all */
-    uint64_t signs;         /* a bit for each pivot that is negative */
-} zd_pivots;
+/* The equations with their constraints eliminated in closed form: accelerations and corrections without a leading matrix.
+ *
+ * An order of elimination solves the rows of C, one or a few at a time, for as many velocities: C x = rhs is x = x0 + D a with a of the
+ * degrees of freedom, and D^T M D a = D^T (force - M x0). So there are two kinds of pivots, which are written where `pivots` is not NULL:
+ *
+ *     (solves,)       determinants of what each set of rows is solved with, as they are
+ *     (nv - m,)       of D^T M D, each as the share that it is of its diagonal entry: positive, 1 where nothing was taken from that
+ *
+ * Functions return 0, or anything else where they do not know; then, and where a pivot says so, the core does without them. They are pure. */
+typedef struct zd_elimination {
+    int solves;             /* how many sets of rows are solved, each at once */
+    const int *solve;       /* (m,) which of them has the k-th of these rows and columns */
+    const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
+    /* vdot at the state, with `added` (m,) on the right side of (6), NULL: zero. pdot is written by systems with A alone; lambda, power and
+     * pivots may be NULL: not wanted. The power is that of (28): ZD_POWER, and what moving constraints do, lambda^T Phi_t. */
+    int (*accelerate)(const void *data, double t, const double *p, const double *v, const double *added, double *pdot, double *vdot,
+                      double *lambda, double *power, double *pivots);
+    /* Phi (3), and Newton's steps in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v) and to
+     * be subtracted. NULL where there are no constraints. */
+    int (*correct)(const void *data, double t, const double *p, const double *v, double *Phi, double *dp, double *dv);
+} zd_elimination;
 
 typedef struct zd_direct {
-    int orders;             /* at most 4 */
     int lanes;              /* trajectories at once, 1, 2, 4 or 8: entries of every array come in groups of so many */
-    int scratch;            /* doubles that a call needs */
-    /* vdot and lambda at the state, with `added` (m,) on the right side of (6), NULL: zero; lambda, power NULL: not wanted */
-    int (*accelerate)(const void *data, int order, double t, const double *p, const double *v, const double *added, double *vdot,
-                      double *lambda, double *power, zd_pivots *pivots, double *scratch);
-    /* Phi (3), and the Newton step dp of (25a) ... (27a) in the metric of M */
-    int (*correct_positions)(const void *data, int order, double t, const double *p, double *Phi, double *dp, zd_pivots *pivots,
-                             double *scratch);
-    /* the step dv of (25b) ... (27b) in the metric of M */
-    int (*correct_velocities)(const void *data, int order, double t, const double *p, const double *v, double *dv, zd_pivots *pivots,
-                              double *scratch);
+    int orders;             /* at most 4: the first whose pivots are large enough is taken, which depends on the state alone */
+    const zd_elimination *order;    /* (orders,) */
 } zd_direct;
 
 /* Taylor coefficients of the motion from (t, p, v) on: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being p and v. */

@@ -49,6 +49,13 @@ class NativeCore(CoreSystem):
         other._data = (memory, *self._data[1:])
         return other
 
+    def with_direct(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
+        """The same system with direct functions, a `zd_direct` at `address`; all its functions receive `data`."""
+        other = self.with_data(data)
+        other.c.direct, other.c.directs = ffi.cast("const zd_direct *", address), 1
+        other._data = (*other._data, keep)
+        return other
+
 
 def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     """What a compiled evaluation does wrong at (0, p, v), as a sentence; nothing where it is right.

@@ -98,12 +98,14 @@ FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-o
 
 def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
             stabilization: Any, energy: Any, correction: Any, save_every: Any, t_eval: Any, step: Any, max_steps: Any,
-            **tolerances: Any) -> dict[str, Any]:
+            direct: Any, **tolerances: Any) -> dict[str, Any]:
     """The arguments of `simulate`, checked, as `Solution.settings` keeps them."""
     on_singular_row(on_singular)
+    if direct is not None and direct is not False:
+        raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
     return {**_steps(span, step, integrator, max_steps, tolerances),
             **_methods(system, formulation, integrator, stabilization, energy, correction), **_saved(span, save_every, t_eval),
-            "on_singular": on_singular}
+            "on_singular": on_singular, "direct": direct}
 
 
 def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
@@ -189,7 +191,8 @@ def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     options = {"formulation": formulation_row(chosen["formulation"]),
                "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
-               "on_singular": on_singular_row(chosen.get("on_singular", "stop"))}
+               "on_singular": on_singular_row(chosen.get("on_singular", "stop")),
+               "direct": chosen.get("direct") is None}
     options |= {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
     return _gateway.settings(options | given(chosen["formulation"], chosen["integrator"], *corrections_of(chosen)))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..systems.base import BaseSystem, core_of
+from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.builtin import FACTORIES, BuiltIn
 from .rows import CLASSES, RowSettings
 from .settings import core_settings, corrections_of
@@ -121,6 +121,9 @@ class Solution:
             f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
         ]
+        if stats.get("direct_steps"):
+            left = stats["steps"] - stats["direct_steps"]
+            lines.append("  road       direct functions" + (f", which {left} steps left" if left else ""))
         if self.system.m:
             lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
                          f"max |Psi| = {_largest(self.velocity_violation)}")
@@ -219,7 +222,8 @@ class Solution:
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
             options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
-            _gateway.step(core_of(self.system), options, p, v)
+            of = core_of if self.settings.get("direct") is False else direct_core_of
+            _gateway.step(of(self.system), options, p, v)
         return p, v
 
     @property

@@ -236,7 +236,7 @@ class _Motion:
         self.method, self.other = cards[0].name, cards[1].name
         with unwarned():
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
-                             stabilization=stabilization, **bounds)
+                             stabilization=stabilization, direct=False, **bounds)
         self.size = float(np.abs(probe.p).max())
         most = math.ceil((span[1] - span[0]) / bounds["max_step"]) if self.bounded else 1
         self.steps = UNIT * math.ceil(max(probe.stats["steps"], most) / UNIT)
@@ -252,7 +252,8 @@ class _Motion:
         try:
             with unwarned():
                 return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
-                                formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization, **saved)
+                                formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
+                                direct=False, **saved)
         except ZerodriftError as error:
             if error.solution is None:      # it did not even start
                 raise

@@ -108,8 +108,8 @@ def tune(
     reference = certified.reference(system, span, p0, v0, error=None)
     goal.check(reference.error)
     sweep = work_precision(system, span, p0, v0, formulations=formulations, integrators=integrators, reference=reference,
-                           progress=progress, rounds=1)
-    search = _Search(goal, Bench(system, span, p0, v0, reference), sweep)
+                           direct=None, progress=progress, rounds=1)
+    search = _Search(goal, Bench(system, span, p0, v0, reference, direct=None), sweep)
     try:
         search.extend()
         search.refine()

@@ -185,6 +185,7 @@ def work_precision(
     stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
     energy: Iterable[bool | settings.EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
+    direct: bool | None = False,
     progress: bool | Callable[[float], None] = False,
     rounds: int = 3,
 ) -> WorkPrecision:
@@ -212,6 +213,8 @@ def work_precision(
         Values of `stabilization` and `energy` as `simulate` takes them. Left out: projection, and no energy correction.
     reference : Reference, Solution or callable, optional
         What errors are measured against; left out: the best that `reference` certifies. Errors are measured at its times.
+    direct : None or False
+        As in `simulate`. Left out: False, so that formulations differ.
     progress : bool or callable
         As in `simulate`.
     rounds : int
@@ -252,14 +255,15 @@ def work_precision(
         raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
-    return Bench(system, span, p0, v0, reference).measure(combinations, rounds, progress)
+    return Bench(system, span, p0, v0, reference, direct).measure(combinations, rounds, progress)
 
 
 class Bench:
     """A motion, and the reference against which runs of it are measured."""
 
-    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any) -> None:
-        self.system, self.span, self.start = system, span, (p0, v0)
+    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
+                 direct: bool | None = False) -> None:
+        self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
         self.reference_error = reference.error if isinstance(reference, certified.Reference) else np.nan
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
@@ -292,7 +296,8 @@ class Bench:
 
     def _run(self, setting: Setting, **saved: Any) -> Solution:
         with unwarned():        # errors are measured, the rest is the row's message
-            solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, on_failure="return")
+            solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, direct=self.direct,
+                                on_failure="return")
         if solution.status == _gateway.INTERRUPTED:
             raise KeyboardInterrupt
         return solution

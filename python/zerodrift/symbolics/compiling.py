@@ -15,7 +15,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,7 @@ from . import cache
 
 FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
 CANDIDATES = ("cc", "gcc", "clang")
-SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of each library
+SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
 
 
@@ -71,8 +71,9 @@ def looked_for() -> str:
     return f"CC={_said()}{why if len(program.parts) > 1 else ''}"
 
 
-def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> ctypes.CDLL | None:
-    """The library of a C source, compiled where the cache does not have it; None: there is no compiler.
+def library(source: str, progress: Callable[[str], Any] = lambda what: None,
+            symbols: Sequence[str] = SYMBOLS) -> ctypes.CDLL | None:
+    """The library of a C source with these symbols, compiled where the cache does not have it; None: there is no compiler.
 
     Raises
     ------
@@ -86,7 +87,7 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None) -> 
     found = _kept(note)
     if found is None:
         progress("compiling")
-        found = _made(source, command, note)
+        found = _made(source, command, note, symbols)
     return found
 
 
@@ -111,7 +112,7 @@ def _kept(note: str) -> ctypes.CDLL | None:
         return None
 
 
-def _made(source: str, command: list[str], note: str) -> ctypes.CDLL:
+def _made(source: str, command: list[str], note: str, symbols: Sequence[str]) -> ctypes.CDLL:
     """Compile, load and keep."""
     line = [*command, *FLAGS, f"-I{get_include()}", "-o", "system.so", "system.c", "-lm"]
     data = _build(source, line)
@@ -119,7 +120,7 @@ def _made(source: str, command: list[str], note: str) -> ctypes.CDLL:
     cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from
     try:
         found = _load(f"{digest}.so", data)
-        for symbol in SYMBOLS:
+        for symbol in symbols:
             _gateway.address_of(found, symbol)
     except (OSError, ValueError) as error:
         cache.drop(f"{digest}.so")

@@ -10,7 +10,7 @@ try:
 except ImportError as error:
     raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
-from . import cache
+from . import cache, direct
 from .blocks import Blocks
 from .definition import Definition
 from .derivation import Derivation
@@ -157,4 +157,5 @@ def _derive(definition: Definition, say: Progress) -> Code:
         sizes=(given.nq, given.nv, len(given.holonomic), len(given.nonholonomic)), provides=tuple(terms),
         timeless=all(operation.arguments[0] != "t" for operation in lowering.operations if operation.code == "leaf"),
         constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
-        drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source())
+        drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source(),
+        program=direct.as_json(lowering, outputs))

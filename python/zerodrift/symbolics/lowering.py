@@ -43,7 +43,7 @@ class Lowering:
             found = self._lowered[node] = self._of(node)
         return found
 
-    def _emit(self, code: str, *arguments: Any) -> int:
+    def emit(self, code: str, *arguments: Any) -> int:
         if code in "+*" and arguments[0] > arguments[1]:
             arguments = arguments[::-1]
         key = (code, *arguments)
@@ -68,13 +68,13 @@ class Lowering:
         return operation.arguments[1:] if operation.code in ("call", "comparison", "logic") else operation.arguments
 
     def _number(self, value: Number) -> int:
-        return self._emit("number", float(value))
+        return self.emit("number", float(value))
 
     def _of(self, node: Node) -> int:
         content = node.content
         match node.kind:
             case "leaf":
-                return self._emit("leaf", *content)
+                return self.emit("leaf", *content)
             case "number":
                 return self._number(content[0])
             case "sum":
@@ -82,17 +82,17 @@ class Lowering:
             case "product":
                 return self._signed(self._product((1, dict(content))))
             case "call":
-                return self._emit("call", content[0], *map(self.lower, content[1]))
+                return self.emit("call", content[0], *map(self.lower, content[1]))
             case "choice":
                 cases = [self.lower(part) for case in content[0] for part in case]
-                return self._emit("choice", *cases, self.lower(content[1]))
+                return self.emit("choice", *cases, self.lower(content[1]))
             case "comparison":
-                return self._emit("comparison", content[0], *map(self.lower, content[1:]))
+                return self.emit("comparison", content[0], *map(self.lower, content[1:]))
             case _:
-                return self._emit("logic", content[0], *map(self.lower, content[1]))
+                return self.emit("logic", content[0], *map(self.lower, content[1]))
 
     def _signed(self, value: Signed) -> int:
-        return value[1] if value[0] > 0 else self._emit("negative", value[1])
+        return value[1] if value[0] > 0 else self.emit("negative", value[1])
 
     # ---- sums ----
 
@@ -150,11 +150,11 @@ class Lowering:
         sign, total = parts[0]
         for other, value in parts[1:]:
             if sign == other:
-                total = self._emit("+", total, value)
+                total = self.emit("+", total, value)
             elif sign > 0:
-                total = self._emit("-", total, value)
+                total = self.emit("-", total, value)
             else:
-                sign, total = 1, self._emit("-", value, total)
+                sign, total = 1, self.emit("-", value, total)
         return sign, total
 
     # ---- products ----
@@ -175,15 +175,15 @@ class Lowering:
         if fixed:       # as one factor of parameters
             first = [value for value in above if self.operations[value].stage == FIXED]
             rest = [value for value in above if self.operations[value].stage > FIXED]
-            above = [self._emit("/", self._multiplied(first, one), self._multiplied(fixed, one)), *rest]
+            above = [self.emit("/", self._multiplied(first, one), self._multiplied(fixed, one)), *rest]
         top = self._multiplied(above, one)
-        return sign, self._emit("/", top, self._multiplied(moving, one)) if moving else top
+        return sign, self.emit("/", top, self._multiplied(moving, one)) if moving else top
 
     def _multiplied(self, values: list[int], one: int) -> int:
         values = sorted(values, key=lambda value: (self.operations[value].stage, value))
         total = values[0] if values else one
         for value in values[1:]:
-            total = self._emit("*", total, value)
+            total = self.emit("*", total, value)
         return total
 
     def _power(self, factor: Any, exponent: Number) -> int:
@@ -195,16 +195,16 @@ class Lowering:
         if rest == 0 and integer <= 64:
             return self._integer_power(base, integer)
         if rest == 0.5 and integer <= 64:
-            root = self._emit("root", base)
-            return root if integer == 0 else self._emit("*", self._integer_power(base, integer), root)
-        return self._emit("power", base, self._number(exponent))
+            root = self.emit("root", base)
+            return root if integer == 0 else self.emit("*", self._integer_power(base, integer), root)
+        return self.emit("power", base, self._number(exponent))
 
     def _integer_power(self, base: int, exponent: int) -> int:
         if exponent == 1:
             return base
         half = self._integer_power(base, exponent // 2)
-        square = self._emit("*", half, half)
-        return self._emit("*", square, base) if exponent % 2 else square
+        square = self.emit("*", half, half)
+        return self.emit("*", square, base) if exponent % 2 else square
 
 
 def _has(factors: dict[Any, Number], factor: Any, exponent: Number) -> bool:

@@ -17,6 +17,7 @@ from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from . import compiling
+from .direct_functions import DIRECT, DirectFunctions
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Code:
     python_source: str
     drawing: tuple[int, int]            # points, dimension
     drawing_source: str
+    program: dict[str, Any] | None      # the operations of the terms, where direct functions can be written from them
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> Code:
@@ -59,7 +61,7 @@ class SymbolicSystem(BaseSystem):
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
-                 quaternions: Sequence[int | str] = ()) -> None:
+                 quaternions: Sequence[int | str] = (), direct: DirectFunctions | None = None) -> None:
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
         self._places = quaternion_places(quaternions, code.coordinates, "A" in code.provides)
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
@@ -73,6 +75,10 @@ class SymbolicSystem(BaseSystem):
             warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
                           f"some hundred times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._in_python()
+        is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
+        self._direct = direct or DirectFunctions(
+            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
+        self._with_direct: _gateway.NativeCore | None = None
 
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
@@ -87,6 +93,20 @@ class SymbolicSystem(BaseSystem):
         data.flags.writeable = False
         return data
 
+    def _direct_core(self) -> _gateway.CoreSystem:
+        library = self._direct.library() if self.compiled else None
+        if library is None:
+            return self._core
+        if self._with_direct is None:
+            self._with_direct = self._core.with_direct(_gateway.address_of(library, DIRECT), self._with_direct_data(), library)
+        return self._with_direct
+
+    def _with_direct_data(self) -> np.ndarray:
+        """The same with the constants of the direct functions behind them."""
+        data = np.concatenate([self._data(), np.zeros(self._direct.constants)])
+        self._direct.library().zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
+        return data
+
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
         return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
@@ -99,6 +119,7 @@ class SymbolicSystem(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
         other = self._copied()
+        other._with_direct = None
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)
@@ -141,12 +162,12 @@ class SymbolicSystem(BaseSystem):
                 f"{self.mn} nonholonomic constraints{how}>")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places)
+        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct)
 
 
-def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str,
-              places: tuple[int, ...]) -> SymbolicSystem:
-    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places)
+def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
+              direct: DirectFunctions) -> SymbolicSystem:
+    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, direct=direct)
 
 
 # ---- without a compiler ----

@@ -140,6 +140,9 @@ class BaseSystem:
             return least
         return f"{self.nv - rank}" + (f", as {self.m - rank} rows follow from others at the start" if rank < self.m else "")
 
+    def _direct_core(self) -> _gateway.CoreSystem:
+        return self._core
+
     def _parameter_units(self) -> dict[str, str]:
         """The units of the parameters, where they are known."""
         return {}
@@ -177,6 +180,12 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
         if place + 4 > min([*places[k + 1:k + 2], len(names)]):
             raise ValueError(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")
     return tuple(places)
+
+
+def direct_core_of(system: Any) -> _gateway.CoreSystem:
+    """The same with the system's direct functions, where it has any: they are made when they are first wanted."""
+    core_of(system)
+    return system._direct_core()
 
 
 def with_units(names: Sequence[str], rates: Sequence[str], units: Any,

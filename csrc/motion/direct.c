@@ -1,0 +1,122 @@
+/* Which road a step takes: that of the system's direct functions, in which the constraints are eliminated in closed form, or the general one.
+ *
+ * Direct functions know no rank, no bifurcation and no pivoting: they divide by what they were written to divide by. All of these show in the
+ * pivots. A step takes the direct road where those of one order of elimination are large enough at its beginning, and it is believed
+ * where they have kept their signs and, but for a factor, their sizes until its end. Otherwise it is made on the general road, where
+ * matrices are ranked and factored, and where orientations are compared.
+ *
+ * The pivots of the rows are measured by the sizes that these rows of C had at the start, in natural units.
+ */
+#include <math.h>
+
+#include "../constraints/rank.h"
+#include "../linalg/small.h"
+#include "motion.h"
+
+static const double LARGE = 0x1p-3;         /* the first order with such pivots is taken, */
+static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in D and ten in M */
+static const double SMALL = 0x1p-6;         /* for a step to end with: the general road counts less of a row as ill-conditioned, too */
+static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
+static const double SHRUNK = 0x1p-4;        /* within a step: what lies between its ends is then no longer known from them */
+static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
+
+/* For one trajectory, and not several at once. */
+static const zd_direct *of_one(const zd_system *system)
+{
+    for (int i = 0; i < system->directs; i++)
+        if (system->direct[i].lanes == 1) return &system->direct[i];
+    return NULL;
+}
+
+void zd_direct_take(zd_motion *motion, zd_arena *arena)
+{
+    const zd_system *system = &motion->system;
+    const zd_direct *direct = of_one(system);
+    if (!direct || motion->formulation->settle || zd_constraints(system) > system->nv) return;
+    motion->road = (zd_road){
+        .direct = direct,
+        .scale = zd_take_doubles(arena, (size_t)(direct->orders * zd_constraints(system))),
+        .pivots = zd_take_doubles(arena, (size_t)system->nv),
+        .before = zd_take_doubles(arena, (size_t)system->nv),
+        .pdot = zd_take_doubles(arena, (size_t)system->nq),
+    };
+}
+
+static double *scale_of(const zd_motion *motion, const zd_elimination *order)
+{
+    return motion->road.scale + (order - motion->road.direct->order) * zd_constraints(&motion->system);
+}
+
+/* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. */
+static void measure(const zd_motion *motion, const zd_elimination *order)
+{
+    const zd_point *point = motion->point;
+    double *scale = scale_of(motion, order);
+    for (int k = 0; k < order->solves; k++) scale[k] = 1;
+    for (int k = 0; k < zd_constraints(&motion->system); k++)
+        scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
+}
+
+static int are_large_enough(const zd_motion *motion, double enough)
+{
+    const zd_elimination *order = motion->road.order;
+    const double *pivots = motion->road.pivots, *scale = scale_of(motion, order);
+    const int freedoms = motion->system.nv - zd_constraints(&motion->system);
+    for (int k = 0; k < order->solves; k++)
+        if (!(fabs(pivots[k]) * scale[k] >= enough)) return 0;
+    for (int k = 0; k < freedoms; k++)
+        if (!(pivots[order->solves + k] >= LIGHT)) return 0;
+    return 1;
+}
+
+static int count_pivots(const zd_motion *motion)
+{
+    return motion->road.order->solves + motion->system.nv - zd_constraints(&motion->system);
+}
+
+static void use(zd_motion *motion, const zd_elimination *order)
+{
+    if (motion->road.order == order) return;
+    motion->point->known &= ~ZD_ACCELERATED;
+    motion->road.order = order;
+    motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
+}
+
+void zd_direct_leave(zd_motion *motion)
+{
+    use(motion, NULL);
+}
+
+/* The first order whose pivots are so large at the point, if there is one. */
+static int find_order(zd_motion *motion, double enough)
+{
+    zd_road *road = &motion->road;
+    const int m = zd_constraints(&motion->system);
+    for (int i = 0; i < road->direct->orders; i++) {
+        const zd_elimination *order = road->direct->order + i;
+        if (m && !(*scale_of(motion, order) > 0)) measure(motion, order);
+        use(motion, order);
+        if (zd_motion_accelerate(motion) || !are_large_enough(motion, enough)) continue;
+        zd_copy(count_pivots(motion), road->pivots, road->before);
+        return 1;
+    }
+    return 0;
+}
+
+void zd_direct_choose(zd_motion *motion)
+{
+    int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
+    if (!all_count || !(find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH))) use(motion, NULL);
+}
+
+int zd_direct_compare(zd_motion *motion, double moved)
+{
+    zd_road *road = &motion->road;
+    int status = zd_motion_accelerate(motion);
+    if (status) return status;
+    if (!(moved <= LONG * LONG) || !are_large_enough(motion, SMALL)) return ZD_SINGULAR;
+    for (int k = 0; k < count_pivots(motion); k++)      /* one that has changed its sign has shrunk, too */
+        if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
+    road->was_taken = 1;
+    return ZD_DONE;
+}

@@ -1,0 +1,55 @@
+"""Direct functions written from the operations of a system's terms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import sympy
+
+from . import direct_emission, orders
+from .direct_emission import Bounded, TooLarge
+from .elimination import Elimination
+from .lowering import Lowering
+
+TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
+HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <string.h>", "#include <zerodrift/system.h>",
+           "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
+
+
+def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | None:
+    """A program that can be kept; None where it is too large for direct functions, or has functions that are not SymPy's."""
+    if len(lowering.operations) > direct_emission.MOST_OPERATIONS:
+        return None
+    operations = []
+    for code, arguments, _ in lowering.operations:
+        if code == "call":
+            name = arguments[0].__name__
+            if getattr(sympy, name, None) is not arguments[0]:
+                return None
+            arguments = (name, *arguments[1:])
+        operations.append([code, *arguments])
+    return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}
+
+
+def _restored(program: dict[str, Any]) -> Bounded:
+    lowering = Bounded(None)
+    for code, *arguments in program["operations"]:
+        lowering.emit(code, *([getattr(sympy, arguments[0]), *arguments[1:]] if code == "call" else arguments))
+    return lowering
+
+
+def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
+          lengths: np.ndarray, *, offset: int, symbol: str, heading: list[str] | None = None,
+          data: str = "data") -> tuple[str, int] | None:
+    """The C source and its number of constants; None where there are no orders that serve, or too many operations."""
+    lowering, terms = _restored(program), program["terms"]
+    chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
+    try:
+        eliminations = [Elimination(lowering, terms, sizes, order) for order in chosen]
+        functions = [{"accelerate": each.accelerations(), "correct": each.corrections() if each.order else {}}
+                     for each in eliminations]
+        return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
+                                      heading=HEADING if heading is None else heading, data=data) if chosen else None
+    except TooLarge:
+        return None

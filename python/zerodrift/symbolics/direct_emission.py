@@ -1,0 +1,162 @@
+"""Direct functions as C in the core's interface: for each order of elimination one of accelerations and one of corrections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .elimination import Elimination, Order
+from .emission import CWriter, indented
+from .graph import FIXED
+from .lowering import SIMPLE, Lowering
+
+MOST_OPERATIONS = 4000      # of the functions of one order
+MOST_STATEMENTS = 1000      # of one function
+ACCELERATE = ("static int {name}(const void *data, double t, const double *restrict p, const double *restrict v,",
+              "    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,",
+              "    double *restrict power, double *restrict pivots)")
+CORRECT = ("static int {name}(const void *data, double t, const double *restrict p, const double *restrict v,",
+           "    double *restrict Phi, double *restrict dp, double *restrict dv)")
+
+
+class TooLarge(Exception):
+    """There are more operations than are worth writing."""
+
+
+class Bounded(Lowering):
+    """Operations of which there are only so many."""
+
+    most = 8 * MOST_OPERATIONS      # of all orders together, and of what no function needs
+
+    def emit(self, code, *arguments):
+        if len(self.operations) > self.most:
+            raise TooLarge
+        return super().emit(code, *arguments)
+
+
+@dataclass
+class _Program:
+    """What a writer has to know of one function: its operations, and those that are stored with the parameters."""
+
+    lowering: Lowering
+    outputs: dict[str, list[int]]
+    stored: dict[int, int]
+    users: list[bool] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.users = [False] * len(self.lowering.operations)
+        for number in self.needed(self.outputs):
+            self.users[number] = True
+
+    def needed(self, names: object) -> list[int]:
+        """The operations behind these outputs, in order, but for what is stored and what that follows from."""
+        found, waiting = set(), [number for name in names for number in self.outputs[name]]
+        while waiting:
+            number = waiting.pop()
+            if number in found:
+                continue
+            found.add(number)
+            if number not in self.stored:
+                waiting += self.lowering.operands(self.lowering.operations[number])
+        return sorted(found)
+
+
+def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]], eliminations: list[Elimination], *, offset: int,
+           symbol: str, heading: list[str], data: str = "data") -> tuple[str, int]:
+    """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
+
+    `functions` has, for each order, the outputs of "accelerate" and of "correct"; `data` is C for the doubles of a system.
+    """
+    stored = _constants(lowering, functions)
+    lines = [*heading, "", *_constants_function(lowering, stored, offset, symbol)]
+    for i, of in enumerate(functions):
+        for name, head in (("accelerate", ACCELERATE), ("correct", CORRECT)):
+            if of[name]:
+                signature = [line.format(name=f"{name}_{i}") for line in head]
+                lines += ["", *_function(_Program(lowering, of[name], stored), signature, offset, data)]
+    return "\n".join([*lines, "", *_table([each.order for each in eliminations], symbol), ""]), len(stored)
+
+
+def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]]) -> dict[int, int]:
+    """Operations on parameters alone that functions need, and where each is stored."""
+    found: list[int] = []
+    for outputs in (each for of in functions for each in of.values() if each):
+        program = _Program(lowering, outputs, {})
+        needed = program.needed(outputs)
+        if len(needed) > MOST_OPERATIONS:
+            raise TooLarge
+        outside = {number for numbers in outputs.values() for number in numbers}
+        for number in needed:
+            operation = lowering.operations[number]
+            if operation.stage > FIXED:
+                outside.update(lowering.operands(operation))
+        found += [number for number in needed if number in outside and _is_constant(lowering, number)]
+    return {number: place for place, number in enumerate(dict.fromkeys(found))}
+
+
+def _is_constant(lowering: Lowering, number: int) -> bool:
+    return lowering.operations[number].stage == FIXED and lowering.operations[number].code not in SIMPLE
+
+
+def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int, symbol: str) -> list[str]:
+    program = _Program(lowering, {"constants": list(stored)}, {})
+    numbers = [number for number in program.needed(program.outputs) if lowering.operations[number].code not in SIMPLE]
+    program.stored = stored     # from here on: each is assigned to, once
+    writer = CWriter(program)
+
+    def name(number: int) -> str:
+        return f"k[{offset + stored[number]}]" if number in stored else f"x{number}"
+
+    body = writer.statements(numbers, name, "const double ")
+    return ["/* What follows from the parameters alone, behind them. */", f"void {symbol}_constants(double *k)", "{",
+            *indented(body or ["(void)k;"]), "}"]
+
+
+def _function(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+    writer = CWriter(program)
+    writer.names |= {number: f"k[{offset + place}]" for number, place in program.stored.items()}
+    first = [name for name in program.outputs if name not in ("lambda", "power", "pivots")]
+    done = program.needed(first)
+    body = _statements(writer, done) + [line for name in first for line in writer._entries(name, program.outputs[name])]
+    for names in (("lambda", "power"), ("pivots",)):
+        names = [name for name in names if program.outputs.get(name)]
+        if names:
+            more = _statements(writer, [number for number in program.needed(names) if number not in set(done)])
+            entries = [line if len(names) == 1 else f"if ({name}) {line}"
+                       for name in names for line in writer._entries(name, program.outputs[name])]
+            body += [f"if ({' || '.join(names)}) {{", *indented([*more, *entries]), "}"]
+    if len(body) > MOST_STATEMENTS:
+        raise TooLarge
+    return [*head, "{", *indented([*_locals(program, data), *body, "return ZD_DONE;"]), "}"]
+
+
+def _statements(writer: CWriter, numbers: list[int]) -> list[str]:
+    operations, stored = writer.operations, writer.blocks.stored
+    return writer.statements([number for number in numbers if operations[number].code not in SIMPLE and number not in stored],
+                             "x{}".format, "const double ")
+
+
+def _locals(program: _Program, data: str) -> list[str]:
+    used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
+            if operation.code == "leaf" and program.users[number]]
+    lines = [f"const double *restrict const k = {data};", "(void)k, (void)t, (void)p, (void)v;"]
+    unused = ("added", "pdot", "lambda", "power", "pivots") if "pivots" in program.outputs else ("Phi",)
+    lines.append(", ".join(f"(void){name}" for name in unused) + ";")
+    for kind, value in (("p", "p[{0}]"), ("v", "v[{0}]"), ("added", "added ? added[{0}] : 0")):
+        indices = sorted(index for leaf, index in used if leaf == kind)
+        if indices:
+            lines.append("const double " + ", ".join(f"{kind}{i} = {value.format(i)}" for i in indices) + ";")
+    return lines
+
+
+def _table(orders: list[Order], symbol: str) -> list[str]:
+    """The descriptor."""
+    lines = []
+    for i, order in enumerate(orders):
+        columns = {"solve": [a for a, solve in enumerate(order) for _ in solve.rows],
+                   "row": [row for solve in order for row in solve.rows], "column": [j for solve in order for j in solve.columns]}
+        lines += [f"static const int {name}_{i}[] = {{{', '.join(map(str, values or [0]))}}};"
+                  for name, values in columns.items()]
+    lines += ["", "static const zd_elimination orders[] = {"]
+    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, accelerate_{i}, {f'correct_{i}' if order else 'NULL'}}},"
+              for i, order in enumerate(orders)]
+    return [*lines, "};", "", f"const zd_direct {symbol} = {{1, {len(orders)}, orders}};"]

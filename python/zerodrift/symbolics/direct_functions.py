@@ -1,0 +1,59 @@
+"""The direct functions of a symbolic system: written and compiled when they are first wanted."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from . import compiling
+
+DIRECT = "zd_symbolic_direct"       # what they are called in their library
+
+
+class DirectFunctions:
+    """The direct functions of a system, and of those that differ from it in parameters and start alone.
+
+    They are written and compiled when they are first wanted. Orders of elimination are chosen with the values that the system was
+    made with. So what is written depends on nothing else; it is written before it is sent to another process, where there need be
+    no SymPy.
+    """
+
+    def __init__(self, program: dict[str, Any] | None, sizes: tuple[int, int, int, int], values: np.ndarray,
+                 p0: np.ndarray | None, is_length: np.ndarray, offset: int) -> None:
+        self._definition = program, sizes, values, p0, is_length
+        self._offset = offset
+        self._library: ctypes.CDLL | None = None
+        self._written: tuple[str, int] | None = None
+        self._is_written = program is None     # there is nothing to be written
+
+    def _write(self) -> tuple[str, int] | None:
+        """The C source and how many constants it has; None: there is none."""
+        if not self._is_written:
+            from . import direct
+            self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT)
+            self._is_written = True
+        return self._written
+
+    @property
+    def constants(self) -> int:
+        """How many doubles they need behind those of the terms."""
+        written = self._write()
+        return written[1] if written else 0
+
+    @property
+    def source(self) -> str:
+        """The C code; empty: there are no direct functions."""
+        written = self._write()
+        return written[0] if written else ""
+
+    def library(self) -> ctypes.CDLL | None:
+        """Their library; None: there are none."""
+        if self._library is None and self.source:
+            self._library = compiling.library(self.source, symbols=(DIRECT, f"{DIRECT}_constants"))
+        return self._library
+
+    def __getstate__(self) -> dict[str, Any]:
+        self._write()
+        return vars(self) | {"_library": None}

@@ -1,0 +1,284 @@
+"""Accelerations and corrections in closed form: constraints eliminated along an order of pivots, operation by operation.
+
+An order is a sequence of solves, each of one to three rows of C for as many velocities by Cramer's rule. With those before it
+eliminated from each row (block LU), C x = rhs becomes x = x0 + D a, and with force - M x0 projected on D,
+
+    vdot = x0 + D a,    D^T M D a = D^T (f - d) - (M D)^T x0,    C x0 = xi
+    dp   = A (x0 + D a),    D^T M D a = -(M D)^T x0,    C x0 = [Phi; 0]         and dv likewise from Psi
+    C_s^T lambda = (f - d - M vdot)_s                   s: the velocities that are solved for
+
+D^T M D is factored as L D L^T. Zeros and ones take no operations, and no operation is written twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from .lowering import Lowering
+
+Vector = list[int]      # of operations, as is a
+Matrix = list[Vector]
+
+
+class Solve(NamedTuple):
+    """Rows of C that are solved together, and the velocities that they are solved for, as many."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+
+Order = tuple[Solve, ...]
+
+
+class Arithmetic:
+    """Operations with those left out that do nothing."""
+
+    def __init__(self, lowering: Lowering) -> None:
+        self.lowering = lowering
+        self.zero, self.one, self._minus_one = (lowering.emit("number", value) for value in (0.0, 1.0, -1.0))
+
+    def _negated(self, a: int) -> int | None:
+        """What an operation is the negative of."""
+        operation = self.lowering.operations[a]
+        return operation.arguments[0] if operation.code == "negative" else None
+
+    def minus(self, a: int) -> int:
+        if a == self.zero:
+            return a
+        inner = self._negated(a)
+        if inner is not None:
+            return inner
+        return self.lowering.emit("number", -1.0) if a == self.one else self.one if a == self._minus_one else (
+            self.lowering.emit("negative", a))
+
+    def plus(self, a: int, b: int) -> int:
+        if self.zero in (a, b):
+            return a if b == self.zero else b
+        if (inner := self._negated(b)) is not None:
+            return self.difference(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.difference(b, inner)
+        return self.lowering.emit("+", a, b)
+
+    def difference(self, a: int, b: int) -> int:
+        if b == self.zero:
+            return a
+        if a == self.zero:
+            return self.minus(b)
+        if a == b:
+            return self.zero
+        if (inner := self._negated(b)) is not None:
+            return self.plus(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.minus(self.plus(inner, b))
+        return self.lowering.emit("-", a, b)
+
+    def times(self, a: int, b: int) -> int:
+        if self.zero in (a, b):
+            return self.zero
+        for x, y in ((a, b), (b, a)):
+            if x == self.one:
+                return y
+            if x == self._minus_one:
+                return self.minus(y)
+            if (inner := self._negated(x)) is not None:
+                return self.minus(self.times(inner, y))
+        return self.lowering.emit("*", a, b)
+
+    def over(self, a: int, b: int) -> int:
+        if a == self.zero or b == self.one:
+            return a
+        for x, value in ((a, lambda inner: self.over(inner, b)), (b, lambda inner: self.over(a, inner))):
+            if (inner := self._negated(x)) is not None:
+                return self.minus(value(inner))
+        return self.lowering.emit("/", a, b)
+
+    def sum(self, terms: Sequence[int]) -> int:
+        total = self.zero
+        for term in terms:
+            total = self.plus(total, term)
+        return total
+
+    def dot(self, a: Sequence[int], b: Sequence[int]) -> int:
+        return self.sum([self.times(x, y) for x, y in zip(a, b, strict=True)])
+
+
+class Elimination:
+    """The constraints eliminated along one order; `terms` are the operations of A, M, d, f, Phi, C, Phi_t, xi, power."""
+
+    def __init__(self, lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], order: Order) -> None:
+        self.do = do = Arithmetic(lowering)
+        self.nq, self.nv, self.mh, mn = sizes
+        self.m, self.order, self.terms = self.mh + mn, order, terms
+        self.M = self._matrix("M", self.nv, self.nv)
+        self.C = self._matrix("C", self.m, self.nv)
+        self._factor()
+        solved = {j for solve in order for j in solve.columns}
+        self.free = [j for j in range(self.nv) if j not in solved]
+        self.D = self._complement()
+        self.MD = [[do.dot(row, column) for column in _transposed(self.D, len(self.free))] for row in self.M]
+        self._factor_mass()
+
+    def _vector(self, name: str, size: int) -> Vector:
+        return self.terms.get(name) or [self.do.zero] * size
+
+    def _matrix(self, name: str, rows: int, columns: int) -> Matrix:
+        entries = self._vector(name, rows * columns)
+        return [entries[i * columns:(i + 1) * columns] for i in range(rows)]
+
+    # ---- C ----
+
+    def _factor(self) -> None:
+        """U, rows with those before them eliminated; L, by how much of each of these; and the inverse of each solve's matrix."""
+        do, U = self.do, [list(row) for row in self.C]
+        self.L = [[do.zero] * self.m for _ in range(self.m)]
+        self.inverses: list[Matrix] = []
+        self.determinants: Vector = []
+        done: set[int] = set()
+        for solve in self.order:
+            done.update(solve.rows)
+            inverse, determinant = self._inverse([[U[k][j] for j in solve.columns] for k in solve.rows])
+            self.inverses.append(inverse)
+            self.determinants.append(determinant)
+            columns = _transposed(inverse, len(solve.rows))
+            for k in (k for k in range(self.m) if k not in done):
+                here = [U[k][j] for j in solve.columns]
+                for row, column in zip(solve.rows, columns, strict=True):
+                    self.L[k][row] = do.dot(here, column)
+                for j in range(self.nv):
+                    taken = do.dot([self.L[k][row] for row in solve.rows], [U[row][j] for row in solve.rows])
+                    U[k][j] = do.zero if j in solve.columns else do.difference(U[k][j], taken)
+        self.U = U
+
+    def _inverse(self, B: Matrix) -> tuple[Matrix, int]:
+        """The inverse of a matrix of up to three rows, and its determinant."""
+        do = self.do
+        if len(B) == 1:
+            return [[do.over(do.one, B[0][0])]], B[0][0]
+        adjugate = [[self._cofactor(B, i, j) for i in range(len(B))] for j in range(len(B))]
+        determinant = do.dot(B[0], [row[0] for row in adjugate])
+        share = do.over(do.one, determinant)
+        return [[do.times(entry, share) for entry in row] for row in adjugate], determinant
+
+    def _cofactor(self, B: Matrix, i: int, j: int) -> int:
+        do = self.do
+        rest = [[entry for b, entry in enumerate(row) if b != j] for a, row in enumerate(B) if a != i]
+        minor = rest[0][0]
+        if len(rest) == 2:
+            minor = do.difference(do.times(rest[0][0], rest[1][1]), do.times(rest[0][1], rest[1][0]))
+        return minor if (i + j) % 2 == 0 else do.minus(minor)
+
+    def _backwards(self, x: Vector, right: Vector) -> Vector:
+        """X, of which the free entries are given, with U x = right."""
+        do = self.do
+        for solve, inverse in reversed([*zip(self.order, self.inverses, strict=True)]):
+            left = [do.difference(right[k], do.dot([u for j, u in enumerate(self.U[k]) if j not in solve.columns],
+                                                   [value for j, value in enumerate(x) if j not in solve.columns]))
+                    for k in solve.rows]
+            for j, row in zip(solve.columns, inverse, strict=True):
+                x[j] = do.dot(row, left)
+        return x
+
+    def _complement(self) -> Matrix:
+        """D (nv, r) with C D = 0 and the identity where velocities are free."""
+        do = self.do
+        unit = [[do.one if i == j else do.zero for i in range(self.nv)] for j in self.free]
+        columns = [self._backwards(each, [do.zero] * self.m) for each in unit]
+        return [[column[i] for column in columns] for i in range(self.nv)]
+
+    def particular(self, right: Vector) -> Vector:
+        """x0 with C x0 = right."""
+        do, y = self.do, list(right)
+        for solve in self.order:
+            for k in range(self.m):
+                if k not in solve.rows:
+                    y[k] = do.difference(y[k], do.dot([self.L[k][row] for row in solve.rows], [y[row] for row in solve.rows]))
+        return self._backwards([do.zero] * self.nv, y)
+
+    def multipliers(self, force: Vector) -> Vector:
+        """Lambda with C^T lambda = force, in the velocities that are solved for."""
+        do, z = self.do, [self.do.zero] * self.m
+        seen: list[int] = []
+        for solve, inverse in zip(self.order, self.inverses, strict=True):
+            left = [do.difference(force[j], do.dot([self.U[k][j] for k in seen], [z[k] for k in seen]))
+                    for j in solve.columns]
+            for k, column in zip(solve.rows, _transposed(inverse, len(left)), strict=True):
+                z[k] = do.dot(column, left)
+            seen += solve.rows
+        later: list[int] = []
+        for solve in reversed(self.order):
+            for row in solve.rows:
+                z[row] = do.difference(z[row], do.dot([self.L[k][row] for k in later], [z[k] for k in later]))
+            later += solve.rows
+        return z
+
+    # ---- D^T M D ----
+
+    def _factor_mass(self) -> None:
+        """D^T M D = L diag(d) L^T, 1 / d, and the share of each diagonal entry that is left as its d."""
+        do, r = self.do, len(self.free)
+        columns, MD = _transposed(self.D, r), _transposed(self.MD, r)
+        scaled: Matrix = [[do.zero] * r for _ in range(r)]      # L diag(d)
+        self.mass_L: Matrix = [[do.zero] * r for _ in range(r)]
+        self.mass_inverse: Vector = []
+        self.shares: Vector = []
+        for b in range(r):
+            for a in range(b, r):
+                taken = do.dot(self.mass_L[b][:b], scaled[a][:b])
+                scaled[a][b] = do.difference(do.dot(columns[a], MD[b]), taken)
+                if a == b:
+                    self.mass_inverse.append(do.over(do.one, scaled[b][b]))
+                    self.shares.append(do.one if taken == do.zero else do.over(scaled[b][b], do.plus(scaled[b][b], taken)))
+                self.mass_L[a][b] = do.times(scaled[a][b], self.mass_inverse[b])
+
+    def _along(self, right: Vector) -> Vector:
+        """A with D^T M D a = right."""
+        do, r, a = self.do, len(self.free), list(right)
+        for i in range(r):
+            a[i] = do.difference(a[i], do.sum([do.times(self.mass_L[i][c], a[c]) for c in range(i)]))
+        a = [do.times(value, inverse) for value, inverse in zip(a, self.mass_inverse, strict=True)]
+        for i in reversed(range(r)):
+            a[i] = do.difference(a[i], do.sum([do.times(self.mass_L[c][i], a[c]) for c in range(i + 1, r)]))
+        return a
+
+    def solution(self, force: Vector | None, right: Vector) -> Vector:
+        """X with M x + C^T lambda = force and C x = right."""
+        do, x0, r = self.do, self.particular(right), len(self.free)
+        along = [do.minus(do.dot(column, x0)) for column in _transposed(self.MD, r)]
+        if force is not None:
+            along = [do.plus(do.dot(column, force), value) for column, value in zip(_transposed(self.D, r), along, strict=True)]
+        a = self._along(along)
+        return [do.plus(x, do.dot(row, a)) for x, row in zip(x0, self.D, strict=True)]
+
+    # ---- what is wanted ----
+
+    def accelerations(self) -> dict[str, Vector]:
+        """The pdot of systems with A, vdot, lambda, power and pivots."""
+        do, lowering = self.do, self.do.lowering
+        v = [lowering.emit("leaf", "v", i) for i in range(self.nv)]
+        force = [do.difference(f, d) for f, d in zip(self._vector("f", self.nv), self._vector("d", self.nv), strict=True)]
+        right = [do.plus(xi, lowering.emit("leaf", "added", k)) for k, xi in enumerate(self._vector("xi", self.m))]
+        vdot = self.solution(force, right)
+        rest = [do.difference(f, do.dot(row, vdot)) for f, row in zip(force, self.M, strict=True)]
+        multipliers = self.multipliers(rest)
+        power = do.plus(self._vector("power", 1)[0], do.dot(multipliers, self._vector("Phi_t", self.m)))
+        return {"pdot": self._rates(v) if "A" in self.terms else [], "vdot": vdot, "lambda": multipliers, "power": [power],
+                "pivots": self.determinants + self.shares}
+
+    def corrections(self) -> dict[str, Vector]:
+        """Phi, dp and dv."""
+        do, lowering = self.do, self.do.lowering
+        v = [lowering.emit("leaf", "v", i) for i in range(self.nv)]
+        Phi = self._vector("Phi", self.mh)
+        Psi = [do.plus(do.dot(row, v), by_time) for row, by_time in zip(self.C, self._vector("Phi_t", self.m), strict=True)]
+        dp = self.solution(None, Phi + [do.zero] * (self.m - self.mh)) if self.mh else [do.zero] * self.nv
+        return {"Phi": Phi, "dp": self._rates(dp), "dv": self.solution(None, Psi)}
+
+    def _rates(self, x: Vector) -> Vector:
+        """A x."""
+        return [self.do.dot(row, x) for row in self._matrix("A", self.nq, self.nv)] if "A" in self.terms else x
+
+
+def _transposed(matrix: Matrix, columns: int) -> Matrix:
+    return [[row[j] for row in matrix] for j in range(columns)]

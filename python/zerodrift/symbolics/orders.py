@@ -1,0 +1,158 @@
+"""Which orders of elimination are written: those whose pivots stay large over the start and configurations around it.
+
+Configurations are drawn at random and brought onto the constraints by Newton's method. An order is found greedily: of the
+solves whose determinants are large in all configurations that are left, the one of the fewest rows that fills in the fewest
+entries is next. Where none is large in all of them, configurations are given up for the next order to serve; the start is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+
+from . import numeric
+from .elimination import Order, Solve
+from .lowering import Lowering
+
+MOST = 4                # orders, as the interface has it
+SAMPLES = 48
+ITERATIONS = 12         # of Newton's method
+CLOSED = 1e-9           # in parts of its row: a violation that is none
+LARGE = {1: 0.2, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
+TRIPLES = 9             # rows and columns up to which three at a time are tried
+SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
+
+
+def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
+           p0: np.ndarray | None, lengths: np.ndarray) -> list[Order]:
+    """The orders to be written, best first; none where no order serves the start.
+
+    Parameters
+    ----------
+    lengths : ndarray (nq + nv,) of bool
+        Which coordinates and velocities are lengths.
+    p0 : ndarray (nq,), optional
+        The start.
+    """
+    m = sizes[2] + sizes[3]
+    if not m:
+        return [()]
+    if m > sizes[1]:
+        return []
+    try:
+        C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
+    except numeric.Unknown:
+        return []
+    used = [[k for k in range(m) if (C[:, k, j] != 0).any()] for j in range(sizes[1])]
+    orders: list[Order] = []
+    while len(orders) < MOST and len(C):
+        order, served = _Search(C, used).run()
+        if not served.any():
+            break
+        orders.append(order)
+        C = C[~served]
+    return orders
+
+
+def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
+                    p0: np.ndarray | None, lengths: np.ndarray) -> np.ndarray:
+    """C (k, m, nv) in parts of the largest entry of each row, in natural units, at the start and around it."""
+    nq, nv, mh, _ = sizes
+    chance = np.random.default_rng(20)
+    start = np.zeros(nq) if p0 is None else p0
+    length = np.abs(start[lengths[:nq]]).max(initial=0.0) or 1.0
+    unit_p, unit_v = (np.where(part, length, 1.0) for part in (lengths[:nq], lengths[nq:]))
+    t = np.concatenate([[0.0], chance.uniform(0, 10, SAMPLES)])
+    spread = np.repeat(SPREADS, SAMPLES // len(SPREADS))[:, None]
+    p = start + np.concatenate([np.zeros((1, nq)), spread * chance.uniform(-1, 1, (SAMPLES, nq))]) * unit_p
+    names = [name for name in ("A", "Phi", "C") if name in terms]
+    evaluate = numeric.evaluator(lowering, {name: terms[name] for name in names}, parameters)
+    for _ in range(ITERATIONS if mh else 0):
+        p = p - _newton(evaluate(t, p), sizes)
+    found = evaluate(t, p)
+    C = found["C"].reshape(len(t), -1, nv) * unit_v
+    rows = np.abs(C).max(axis=2)
+    rows[rows == 0] = 1.0
+    closed = np.isfinite(C).all(axis=(1, 2))
+    if mh:
+        closed &= (np.abs(found["Phi"]) <= CLOSED * rows[:, :mh]).all(axis=1)
+    return (C / rows[:, :, None])[closed]
+
+
+def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> np.ndarray:
+    """The shortest dp (k, nq) with C w = Phi, dp = A w; zero where there is none."""
+    nq, nv, mh, _ = sizes
+    k = len(found["Phi"])
+    C = np.nan_to_num(found["C"].reshape(k, -1, nv)[:, :mh])
+    w = (np.linalg.pinv(C, rcond=1e-6) @ np.nan_to_num(found["Phi"])[:, :, None])[:, :, 0]
+    return (found["A"].reshape(k, nq, nv) @ w[:, :, None])[:, :, 0] if "A" in found else w
+
+
+class _Search:
+    """The search for one order that serves as many configurations C (k, m, nv) as it can, the first of them before all others."""
+
+    def __init__(self, C: np.ndarray, used: list[list[int]]) -> None:
+        self.C, self.entries = C.copy(), C != 0
+        self.entries[:] = self.entries.any(axis=0)
+        self.served = np.ones(len(C), dtype=bool)
+        self.rows, self.columns = set(range(C.shape[1])), set(range(C.shape[2]))
+
+    def run(self) -> tuple[Order, np.ndarray]:
+        """The order, and which configurations it serves."""
+        order = []
+        while self.rows:
+            solve = self._best()
+            if solve is None:
+                return (), np.zeros_like(self.served)
+            order.append(solve)
+            self._eliminate(solve)
+        return tuple(order), self.served
+
+    def _best(self) -> Solve | None:
+        """Of the fewest rows, a solve that is large everywhere; else the one that is so in the most configurations."""
+        partial: list[tuple[int, Solve, np.ndarray]] = []
+        for size in range(1, min(3, len(self.rows)) + 1):
+            full = []
+            for solve, determinants in self._candidates(size):
+                large = (determinants >= LARGE[size]) & self.served
+                if large.sum() == self.served.sum():
+                    full.append((self._fill(solve), -determinants[self.served].min(), solve))
+                elif large[0] or not self.served[0]:
+                    partial.append((int(large.sum()), solve, large))
+            if full:
+                return min(full)[2]
+        if not partial:
+            return None
+        count, solve, large = max(partial, key=lambda each: (each[0], -len(each[1].rows)))
+        self.served = large
+        return solve if count else None
+
+    def _candidates(self, size: int) -> Iterator[tuple[Solve, np.ndarray]]:
+        """Solves of so many rows, and the sizes of their determinants (k,)."""
+        if size == 3 and (len(self.rows) > TRIPLES or len(self.columns) > TRIPLES):
+            return
+        for rows in combinations(sorted(self.rows), size):
+            columns = [j for j in sorted(self.columns) if self.entries[0, list(rows), j].any()]
+            for chosen in combinations(columns, size):
+                yield Solve(rows, chosen), np.abs(np.linalg.det(self.C[:, rows][:, :, chosen]))
+
+    def _fill(self, solve: Solve) -> int:
+        """How many entries an elimination touches at most."""
+        others = [k for k in self.rows if k not in solve.rows and self.entries[0, k, list(solve.columns)].any()]
+        width = self.entries[0, list(solve.rows)].any(axis=0).sum() - len(solve.columns)
+        return int(len(others) * width)
+
+    def _eliminate(self, solve: Solve) -> None:
+        rows, columns = list(solve.rows), list(solve.columns)
+        self.rows -= set(rows)
+        self.columns -= set(columns)
+        B = self.C[:, rows][:, :, columns]
+        B = np.where(self.served[:, None, None], B, np.eye(len(rows)))
+        for k in self.rows:
+            if self.entries[0, k, columns].any():
+                share = np.linalg.solve(np.swapaxes(B, 1, 2), self.C[:, k, columns][:, :, None])[:, :, 0]
+                self.C[:, k] -= np.einsum("ka,kaj->kj", share, self.C[:, rows])
+                self.entries[:, k] |= self.entries[:, rows].any(axis=1)
+                self.C[:, k, columns] = 0

@@ -1,0 +1,214 @@
+"""Steps along the direct road are those of the general one to rounding, and in any doubt they take that."""
+
+import functools
+
+import numpy as np
+import pytest
+from zerodrift._core import ffi
+
+import symbolic_counterparts
+import tolerances as tol
+import zerodrift as zd
+from native_systems import needs_compiler
+from support import assert_close
+from zerodrift import _gateway
+
+sp = pytest.importorskip("sympy")
+pytestmark = needs_compiler
+SHORT = 0.5     # s
+
+
+@functools.cache
+def system(name):
+    return getattr(symbolic_counterparts, name)()
+
+
+SYSTEMS = ["four_bar", "driven_four_bar", "chaplygin_sleigh", "rolling_disc"]
+DEPENDENT = ["augmented", "nullspace", "schur"]
+COLUMNS = ("p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
+           "energy_input", "energy_violation")
+STABILIZATIONS = {
+    "none": None, "projection": zd.Projection(), "seldom": zd.Projection(every=3), "positions": zd.Projection(velocities=False),
+    "velocities": zd.Projection(positions=False),
+    "identity": zd.Projection(metric="identity"),
+    "baumgarte": zd.Baumgarte(), "integral": zd.Baumgarte(integral=20.0),
+}
+
+
+def both(moving, span=SHORT, **options):
+    """The motion along the general road and along the direct one."""
+    return [zd.simulate(moving, span, direct=direct, on_failure="return", **options) for direct in (False, None)]
+
+
+def assert_same_motion(general, direct, error=tol.STEPPED):
+    assert general.stats["direct_steps"] == 0
+    assert direct.stats["direct_steps"] == direct.stats["steps"] == general.stats["steps"]
+    for name in COLUMNS:
+        a, b = getattr(general, name), getattr(direct, name)
+        if a is not None and a.size:
+            allowed = (100 if name == "multipliers" else 1) * error * max(1.0, np.abs(a).max())
+            assert np.abs(b - a).max() <= allowed, name
+
+
+@pytest.mark.parametrize("stabilization", STABILIZATIONS)
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_both_roads_lead_to_the_same_place(name, stabilization):
+    options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization]}
+    if stabilization == "projection" and name != "driven_four_bar":     # all of whose motion is enforced
+        options["energy"] = True
+    assert_same_motion(*both(system(name), **options))
+
+
+@pytest.mark.parametrize("equations", DEPENDENT)
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_all_dependent_formulations_take_it(name, equations):
+    assert_same_motion(*both(system(name), step=0.01, formulation=equations))
+
+
+@pytest.mark.parametrize("method", [name for name in zd.integrators() if name != "rattle"])
+def test_integrators_take_it(method):
+    assert_same_motion(*both(system("driven_four_bar"), step=0.01, integrator=method))
+
+
+def test_steps_that_are_chosen_take_it():
+    general, direct = both(system("four_bar"), rtol=1e-9, atol=1e-9, integrator="dop853", t_eval=np.linspace(0, SHORT, 7))
+    assert direct.stats["direct_steps"] == direct.stats["steps"]
+    assert_close(direct.p, general.p, 1e-8)     # what the tolerance leaves, as rounding may choose other steps
+    assert direct.stats["factorizations"] < 5
+
+
+@pytest.mark.parametrize("options", [
+    {"formulation": "mixed"}, {"formulation": "independent"}, {"integrator": "rattle"},
+    {"direct": False},
+], ids=str)
+def test_what_it_does_not_serve_takes_the_general_road(options):
+    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, **options)
+    assert sol.stats["direct_steps"] == 0
+    assert "direct" not in repr(sol)
+
+
+def test_redundant_rows_take_the_general_road():
+    """Orders are written for rows that are independent around the start, and these are not where the run starts."""
+    x, y, z, vx, vy, vz = sp.symbols("x y z vx vy vz")
+    made = zd.symbolic([x, y, z], speeds=[vx, vy, vz], kinetic=(vx**2 + vy**2 + vz**2) / 2, potential=10 * y,
+                       constraints=[x + y, x + sp.Symbol("a") * y + z * sp.Symbol("b")], parameters={"a": 1.0, "b": 1.0},
+                       p0=[0.0, 0.0, 0.0], v0=[0.0, 0.0, 0.0])
+    assert zd.simulate(made, 0.1, step=0.01).stats["direct_steps"] == 10
+    sol = zd.simulate(made.with_parameters(b=0.0), 0.1, step=0.01)
+    assert sol.stats["rank"] == 1
+    assert sol.stats["direct_steps"] == 0
+
+
+def test_values_between_steps_are_those_of_shorter_steps():
+    sol = zd.simulate(system("four_bar"), SHORT, step=0.01)
+    p, v = sol(0.123)
+    again = zd.simulate(system("four_bar"), SHORT, step=0.01, t_eval=[0.123])
+    assert (p == again.p[0]).all()
+    assert (v == again.v[0]).all()
+
+
+def test_repeated_to_the_last_bit():
+    first, second = (zd.simulate(system("driven_four_bar"), SHORT, step=0.01) for _ in range(2))
+    assert (first.p == second.p).all()
+    assert (zd.simulate(first.system, first.t_span, **first.settings).p == first.p).all()
+
+
+@pytest.mark.parametrize("value", [True, 1, "no"])
+def test_only_none_and_false_are_known(value):
+    with pytest.raises(ValueError, match=r"^direct must be None, where direct functions serve, or False, not "):
+        zd.simulate(system("four_bar"), 0.1, step=0.01, direct=value)
+
+
+# ---- where it is left ----
+
+
+def bar(lengths=(0.3, 1.0, 0.6, 1.0), gravity=9.81, rate=1.0):
+    """The symbolic four-bar with other links, at its start where the crank is upright."""
+    l1, l2, l3, l0 = lengths
+    core = zd.systems.four_bar(lengths=(l0, l1, l2, l3), gravity=gravity, crank_rate=rate)
+    return system("four_bar").with_parameters(l1=l1, l2=l2, l3=l3, l0=l0, g=gravity).starting(core.p0, core.v0)
+
+
+NEAR = {"parallelogram": (0.3, 1.0, 0.3, 1.0), "nearly": (0.3, 1.0, 0.3 + 1e-9, 1.0), "near": (0.3, 1.0, 0.3 + 1e-5, 1.0),
+        "next to one": (0.3, 1.0, 0.3 + 1e-3, 1.0)}
+
+
+@pytest.mark.parametrize("options", [{"step": 1 / 100}, {"step": 1 / 137}, {"rtol": 1e-9, "integrator": "dop853"}], ids=str)
+@pytest.mark.parametrize("on_singular", ["stop", "continue"])
+@pytest.mark.parametrize("name", NEAR)
+def test_bifurcations_are_judged_alike(name, on_singular, options):
+    """A turn of a crank, flat at a quarter and at three quarters of it or nearly so."""
+    general, direct = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, on_singular=on_singular, **options)
+    assert direct.success == general.success
+    if not general.success:     # so near to it, rounding decides which of two sentences says so
+        errors = {zd.ZerodriftError, type(_gateway.error_of(general.status, "")), type(_gateway.error_of(direct.status, ""))}
+        assert errors <= {zd.ZerodriftError, zd.Bifurcation, zd.BranchJump}
+        assert abs(direct.t[-1] - general.t[-1]) < 0.02
+    left = direct.stats["steps"] - direct.stats["direct_steps"]
+    if name != "next to one" and direct.success:
+        assert left
+        assert f"which {left} steps left" in repr(direct)
+    if "step" in options:
+        assert direct.stats["rank_drops"] == general.stats["rank_drops"]
+        assert_close(direct.p, general.p, 1e-7)     # next to a branch, rounding is multiplied by what is left of a row
+
+
+def test_a_step_too_long_to_be_known_from_its_ends_leaves_it():
+    general, direct = both(bar(rate=30.0), 1.0, step=0.05)      # more than a radian in each
+    assert direct.status == general.status
+    assert direct.stats["direct_steps"] < direct.stats["steps"]
+
+
+def test_a_light_part_that_its_coupling_makes_singular_leaves_it():
+    """D^T M D loses all but 1e-8 of a pivot."""
+    x, y, vx, vy, share = sp.symbols("x y vx vy share")
+    made = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2 + (1 - share) * vx * vy, potential=x**2 + y**2,
+                       parameters={share: 0.5}, p0=[1.0, 0.0], v0=[0.0, 0.0])
+    assert zd.simulate(made, 0.1, step=0.01).stats["direct_steps"] == 10
+    assert zd.simulate(made.with_parameters(share=1e-8), 0.1, step=1e-5).stats["direct_steps"] == 0
+
+
+class Failing:
+    """The four-bar, one of whose direct functions does not know from a time on; or only then."""
+
+    def __init__(self, member, fails):
+        self.core = system("four_bar")._direct_core()
+        order = self.core.c.direct[0].order[0]
+        self.order = ffi.new("zd_elimination[1]", [order])
+        inner = getattr(order, member)
+
+        def function(data, t, *rest):
+            return fails(t) or inner(data, t, *rest)
+
+        self.function = ffi.callback(dict(ffi.typeof("zd_elimination").fields)[member].type, function)
+        setattr(self.order[0], member, self.function)
+        self.direct = ffi.new("zd_direct[1]", [{"lanes": 1, "orders": 1, "order": self.order}])
+        self.system = system("four_bar").starting()
+        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data()
+        self.system._with_direct = self.core.with_direct(address, data, self)
+
+
+@pytest.mark.parametrize("options", [
+    {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
+@pytest.mark.parametrize("member", ["accelerate", "correct"])
+def test_functions_that_do_not_know_are_done_without(member, options):
+    failing = Failing(member, lambda t: 0.1 < t < 0.2)
+    sol = zd.simulate(failing.system, 0.4, **options)
+    assert 0 < sol.stats["direct_steps"] < sol.stats["steps"]
+    general = zd.simulate(failing.system, 0.4, direct=False, **options)
+    assert sol.stats["steps"] == general.stats["steps"]
+    assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)     # rounding may choose other steps
+    assert_close(sol.multipliers[-1], general.multipliers[-1], 1e-6)
+
+
+def test_a_single_step_does_without_them_too():
+    failing = Failing("correct", lambda t: t > 0.105)
+    sol = zd.simulate(system("four_bar"), 0.2, step=0.01)
+    other = zd.simulate(failing.system, 0.2, step=0.01)
+    assert other.stats["direct_steps"] == 10
+    assert_close(other(0.115)[0], sol(0.115)[0], tol.STEPPED)
+
+
+def test_perturbed_systems_have_none():
+    core = _gateway.perturbed(system("four_bar")._direct_core(), 1e-8, 1)
+    assert core.c.directs == 0

@@ -1,0 +1,211 @@
+"""Direct functions solve what the leading matrices solve: compared with NumPy on random systems, each order."""
+
+import pickle
+
+import numpy as np
+import pytest
+from zerodrift._core import ffi
+
+import tolerances as tol
+import zerodrift as zd
+from native_systems import needs_compiler
+from support import numbers
+
+sp = pytest.importorskip("sympy")
+pytestmark = needs_compiler
+SEEDS = range(12)
+ALWAYS_SOUND = 2.0**-6     # in parts of its rows, a determinant that steps are believed with: SMALL of csrc/motion/direct.c
+
+
+def random_system(seed):
+    """Of up to six velocities: M full or nearly diagonal, rows holonomic and not, every third driven, every fourth with A."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 7))
+    mh = int(rng.integers(0, n))
+    mn = int(rng.integers(0, n - mh))
+    q, u, t = sp.symbols(f"q:{n}"), sp.symbols(f"u:{n}"), sp.Symbol("t")
+    a = sp.Symbol("a")
+    numbers_ = rng.uniform(0.5, 2, (3, n))
+    kinetic = sum(m * w**2 / 2 for m, w in zip(numbers_[0], u, strict=True))
+    kinetic += sum(a * sp.cos(q[i] - q[i - 1]) * u[i] * u[i - 1] / 8 for i in range(1, n) if rng.random() < 0.7)
+    p0 = rng.uniform(-1, 1, n)
+    rows = []
+    for k in range(mh):
+        terms = [(i, *rng.uniform(0.3, 2, 2)) for i in rng.permutation(n)[: int(rng.integers(1, 4))]]
+        row = sum(size * sp.sin(q[i] + shift) for i, size, shift in terms) + q[k]
+        driven = sp.sin(t + 1) if seed % 3 == 0 else 0
+        rows.append(row + driven - row.subs(dict(zip(q, p0, strict=True))) - (np.sin(1) if seed % 3 == 0 else 0))
+    rolling = [sum(sp.cos(q[i] * rng.uniform(0.5, 2)) * u[i] * rng.uniform(0.5, 2) for i in rng.permutation(n)[:3])
+               for _ in range(mn)]
+    if seed % 3 == 0:
+        rolling = [row + sp.cos(t) for row in rolling]
+    options = {}
+    if seed % 4 == 1:
+        A = np.eye(n) + 0.2 * rng.uniform(-1, 1, (n, n))
+        options["kinematics"] = sp.Matrix(A) * sp.diag(*[1 + sp.sin(x) / 4 for x in q])
+        options["mass"], kinetic = sp.hessian(kinetic, u), None
+    else:
+        options["kinetic"] = kinetic
+    potential = sum(m * sp.sin(x) for m, x in zip(numbers_[1], q, strict=True))
+    damping = [-d * w for d, w in zip(numbers_[2], u, strict=True)]
+    return zd.symbolic(q, speeds=u, constraints=rows, nonholonomic=rolling, potential=potential, force=damping,
+                       parameters={a: 1.0}, time=t, p0=p0, v0=np.zeros(n), **options)
+
+
+def doubles(*shape):
+    array = np.full(shape, np.nan)
+    return array, ffi.from_buffer("double[]", array) if array.size else ffi.NULL
+
+
+def of(array):
+    return ffi.from_buffer("double[]", np.ascontiguousarray(array))
+
+
+class Direct:
+    """The direct functions of a system, called one by one."""
+
+    def __init__(self, system):
+        self.core = system._direct_core()
+        self.direct = self.core.c.direct[0]
+        self.orders = range(self.direct.orders)
+
+    def accelerate(self, i, t, p, v, added=None):
+        core = self.core
+        order = self.direct.order[i]
+        found = {"pdot": doubles(core.nq), "vdot": doubles(core.nv), "lambda": doubles(core.m), "power": doubles(1),
+                 "pivots": doubles(order.solves + core.nv - core.m)}
+        status = order.accelerate(core.c.data, t, of(p), of(v), ffi.NULL if added is None else of(added),
+                                  *(memory for _, memory in found.values()))
+        assert status == 0
+        return {name: array for name, (array, _) in found.items()}
+
+    def correct(self, i, t, p, v):
+        found = {"Phi": doubles(self.core.mh), "dp": doubles(self.core.nq), "dv": doubles(self.core.nv)}
+        assert self.direct.order[i].correct(self.core.c.data, t, of(p), of(v), *(memory for _, memory in found.values())) == 0
+        return {name: array for name, (array, _) in found.items()}
+
+    def smallest(self, i, pivots, C):
+        """The smallest pivot of the rows, in parts of the largest entries of these."""
+        order, relative = self.direct.order[i], np.abs(pivots[: self.direct.order[i].solves])
+        for k in range(self.core.m):
+            relative[order.solve[k]] /= np.abs(C[order.row[k]]).max()
+        return relative.min(initial=1.0)
+
+
+def solved(e, force, right):
+    """M x + C^T lambda = force, C x = right."""
+    m, n = e.C.shape
+    K = np.block([[e.M, e.C.T], [e.C, np.zeros((m, m))]])
+    x = np.linalg.solve(K, np.concatenate([force, right]))
+    return x[:n], x[n:], np.linalg.cond(K)
+
+
+def states(system, seed, count=5):
+    """The start, and others: constraints need not hold where equations are solved."""
+    rng = np.random.default_rng(1000 + seed)
+    for k in range(count):
+        yield rng.uniform(0, 2), system.p0 + (k > 0) * rng.normal(size=system.nq) / 2, rng.normal(size=system.nv)
+
+
+def assert_near(found, expected, size):
+    assert np.abs(found - expected).max(initial=0.0) <= size * max(1.0, np.abs(expected).max(initial=0.0))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_direct_functions_solve_the_equations(seed):
+    system = random_system(seed)
+    if not system._direct.source:
+        C = system.evaluate().C
+        assert np.linalg.svd(C / np.abs(C).max(axis=1, keepdims=True))[1].min() < 0.05      # too near a bifurcation
+        return
+    direct, compared = Direct(system), 0
+    for t, p, v in states(system, seed):
+        e = numbers(system, t, p, v)
+        added = np.random.default_rng(seed).normal(size=system.m)
+        vdot, multipliers, condition = solved(e, e.force, e.xi + added)
+        for i in direct.orders:
+            a = direct.accelerate(i, t, p, v, added)
+            smallest = direct.smallest(i, a["pivots"], e.C)
+            if smallest < ALWAYS_SOUND:
+                continue
+            compared += 1
+            error = tol.SOLVED * condition / smallest**2
+            assert_near(a["vdot"], vdot, error)
+            assert_near(a["lambda"], multipliers, error)
+            assert_near(a["power"], e.power + multipliers @ e.Phi_t, 10 * error)
+            assert (a["pivots"][direct.direct.order[i].solves:] > 0).all()
+            if system.nq and e.A is not None and system.evaluate(p, v, t).A is not None:
+                assert_near(a["pdot"], e.A @ v, tol.SAME)
+            assert_near(direct.accelerate(i, t, p, v)["vdot"], solved(e, e.force, e.xi)[0], error)
+            if not system.m:
+                continue
+            c = direct.correct(i, t, p, v)
+            assert_near(c["Phi"], e.Phi, tol.SAME)
+            zero = np.zeros(system.nv)
+            assert_near(c["dv"], solved(e, zero, e.C @ v + e.Phi_t)[0], error)
+            assert_near(c["dp"], e.A @ solved(e, zero, np.concatenate([e.Phi, np.zeros(system.mn)]))[0], error)
+    assert compared >= 3
+
+
+def test_orders_are_for_different_places():
+    """A mass on a circle: x is solved for where it is steep, y where that is."""
+    x, y, vx, vy = sp.symbols("x y vx vy")
+    system = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2, potential=10 * y,
+                         constraints=[(x**2 + y**2 - 1) / 2], parameters={}, p0=[1.0, 0.0], v0=[0.0, 0.0])
+    direct = Direct(system)
+    assert [direct.direct.order[i].column[0] for i in direct.orders] == [0, 1]
+    sol = zd.simulate(system, 2.0, step=0.01)
+    assert sol.stats["direct_steps"] == sol.stats["steps"]      # at each place one of the two serves
+
+
+def redundant(scale):
+    """Two rows, of which the second follows from the first but for `scale`."""
+    x, y, z, vx, vy, vz = sp.symbols("x y z vx vy vz")
+    return zd.symbolic([x, y, z], speeds=[vx, vy, vz], kinetic=(vx**2 + vy**2 + vz**2) / 2, potential=10 * y,
+                       constraints=[x + sp.sin(y), 2 * x + 2 * sp.sin(y) + scale * z], parameters={}, p0=[0.0, 0.0, 0.0],
+                       v0=[0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("scale", [0, 1e-9, 1e-4])
+def test_nothing_is_written_where_rows_depend_on_each_other_or_nearly(scale):
+    system = redundant(scale)
+    assert not system._direct.source
+    assert "direct" not in repr(zd.simulate(system, 0.1, step=0.01))
+
+
+def test_nothing_is_written_that_is_too_long(monkeypatch):
+    from zerodrift.symbolics import direct_emission
+    monkeypatch.setattr(direct_emission, "MOST_STATEMENTS", 10)
+    assert not random_system(0)._direct.source
+
+
+def test_nothing_is_written_with_functions_that_numpy_has_not():
+    x, vx = sp.symbols("x vx")
+    system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, constraints=[x * sp.erf(x + 2)], parameters={}, p0=[0.0],
+                         v0=[0.0])
+    assert not system._direct.source
+
+
+def test_they_are_compiled_once_for_all_parameters_and_starts():
+    system = random_system(2)
+    other = system.with_parameters(a=0.5)
+    library = system._direct.library()
+    assert other._direct.library() is library
+    assert system.starting(v0=system.v0)._direct.library() is library
+    v = np.ones(system.nv)
+    e = numbers(other, 0.0, system.p0, v)
+    vdot, _, condition = solved(e, e.force, e.xi)
+    assert_near(Direct(other).accelerate(0, 0.0, system.p0, v)["vdot"], vdot, tol.SOLVED * condition / ALWAYS_SOUND**2)
+
+
+def test_a_system_takes_them_along():
+    system = random_system(2)
+    again = pickle.loads(pickle.dumps(system.with_parameters(a=0.5)))
+    assert again._direct.source == system._direct.source
+    assert again._direct.constants == system._direct.constants
+
+
+def test_nothing_is_compiled_where_they_are_not_wanted(monkeypatch):
+    system = random_system(4)
+    monkeypatch.setattr(type(system._direct), "library", lambda self: pytest.fail("compiled"))
+    zd.simulate(system, 0.1, step=0.01, direct=False)
