@@ -98,7 +98,7 @@ const zd_correction zd_energy_row = {
                        "start and has been put in since. Near a turning point the kinetic energy is too small for that; such a step is "
                        "left alone and counted. A balance that holds says nothing about the phase of the motion, which may still be off.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
-                     "Multibody System Dynamics 7 (2002) 265-284, section 3.3",
+                     "Multibody System Dynamics 7 (2002) 265-284, section 3.2",
         .parameters = sizeof parameters / sizeof parameters[0],
         .parameter = parameters,
     },

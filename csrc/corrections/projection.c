@@ -282,7 +282,7 @@ const zd_correction zd_projection_row = {
                        "leading matrix that the formulation has factored anyway. In the mass metric the correction is orthogonal to the "
                        "manifold of the constraints and leaves the motion along it alone, so that the order of the integrator stays what it is.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
-                     "Multibody System Dynamics 7 (2002) 265-284, section 3.2",
+                     "Multibody System Dynamics 7 (2002) 265-284, section 3.1",
         .parameters = sizeof parameters / sizeof parameters[0],
         .parameter = parameters,
     },

@@ -95,7 +95,16 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 }
 
 const zd_formulation zd_augmented = {
-    .card = {"augmented", "Dependent variables; accelerations and multipliers at once from one symmetric matrix.", "(8), (25)", 0},
+    .card = {
+        .name = "augmented",
+        .summary = "Dependent variables; accelerations and multipliers at once from one symmetric matrix.",
+        .equations = "(8), (25)",
+        .description = "Accelerations and multipliers come at once from one matrix with M, C and its transpose, by Gaussian "
+                       "elimination with partial pivoting. It needs of M no more than that the constraints hold what has no "
+                       "mass, and so takes systems that have massless parts. Positions and velocities both drift from their "
+                       "constraints and are corrected with the same matrix.",
+        .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
+    },
     ZD_DEPENDENT_STATE,
     .take = take,
     .factor = factor,

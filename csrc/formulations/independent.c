@@ -69,7 +69,18 @@ static int rate(void *memory, zd_point *point, double *ydot)
 }
 
 const zd_formulation zd_independent = {
-    .card = {"independent", "Independent coordinates and velocities: no constraint can be violated.", "(19), (22)", 0},
+    .card = {
+        .name = "independent",
+        .summary = "Independent coordinates and velocities: no constraint can be violated.",
+        .equations = "(19), (22)",
+        .description = "As few coordinates q as there are degrees of freedom are integrated, and all others follow from p = "
+                       "g(q), which is solved at each evaluation, or is known in closed form. Nothing can be violated and "
+                       "nothing has to be corrected, but each evaluation takes an iteration. The independent coordinates are "
+                       "chosen anew where others serve better. It takes systems with as many coordinates as velocities, besides "
+                       "one for each unit quaternion.",
+        .reference = "R. A. Wehage, E. J. Haug, Generalized coordinate partitioning for dimension reduction in analysis of "
+                     "constrained dynamic systems, Journal of Mechanical Design 104 (1982) 247-255",
+    },
     .drifts_from = 0,
     .suits = suits,
     .state_size = state_size,

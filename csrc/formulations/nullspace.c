@@ -96,7 +96,15 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 }
 
 const zd_formulation zd_nullspace = {
-    .card = {"nullspace", "Dependent variables; motion along the free directions beside the constraints, in one matrix.", "(9), (26)", 0},
+    .card = {
+        .name = "nullspace",
+        .summary = "Dependent variables; motion along the free directions beside the constraints, in one matrix.",
+        .equations = "(9), (26)",
+        .description = "The equations of motion are projected on the free directions D of (14), and stand with the constraints "
+                       "(6) in one matrix of the size of v. Multipliers are found only where they are wanted. M may be singular "
+                       "where constraints hold what has no mass.",
+        .reference = "W. Blajer, A geometric unification of constrained system dynamics, Multibody System Dynamics 1 (1997) 3-21",
+    },
     ZD_DEPENDENT_STATE,
     .take = take,
     .factor = factor,

@@ -48,7 +48,16 @@ static const double e3[STAGES + 1] = {
 static const zd_tableau tableau = {STAGES, a, b, c, e5, e3};
 
 const zd_integrator zd_dop853 = {
-    .card = {"dop853", "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.", "Hairer et al., section II.5", 8, 7, 5.97},
+    .card = {
+        .name = "dop853",
+        .summary = "The explicit Runge-Kutta method of Dormand and Prince with twelve stages.",
+        .equations = "Hairer et al., section II.5",
+        .order = 8, .error_order = 7, .stability = 5.97,
+        .description = "Order eight with error estimates of orders five and three, blended, by which it can choose its steps. "
+                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6.",
+        .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
+                     "1993, section II.5",
+    },
     .decay = 6.39,
     ZD_RUNGE_KUTTA(tableau),
 };

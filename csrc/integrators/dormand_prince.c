@@ -19,8 +19,16 @@ static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0
 static const zd_tableau tableau = {6, a, b, c, e, NULL};
 
 const zd_integrator zd_dormand_prince = {
-    .card = {"dormand_prince", "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
-             "Dormand and Prince, 1980", 5, 4, 1.7},
+    .card = {
+        .name = "dormand_prince",
+        .summary = "The explicit Runge-Kutta method of Dormand and Prince with six stages, that of RK45.",
+        .equations = "Dormand and Prince, 1980",
+        .order = 5, .error_order = 4, .stability = 1.7,
+        .description = "Order five with an error estimate of order four, by which it can choose its steps: the method of SciPy's "
+                       "RK45 and of ode45. For errors of 1e-3 to 1e-6.",
+        .reference = "J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and "
+                     "Applied Mathematics 6 (1980) 19-26",
+    },
     .decay = 3.307,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -10,7 +10,16 @@ static const double c[] = {0};
 static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
 
 const zd_integrator zd_euler = {
-    .card = {"euler", "Euler's explicit method: for comparison.", "Euler, 1768", 1, 0, 2},
+    .card = {
+        .name = "euler",
+        .summary = "Euler's explicit method: for comparison.",
+        .equations = "Euler, 1768",
+        .order = 1, .stability = 2,
+        .description = "One evaluation for each step. Its error is of the size of the step, and it puts energy into whatever "
+                       "oscillates; it is here for comparison.",
+        .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
+                     "1993, section II.1",
+    },
     .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -11,7 +11,16 @@ static const double c[] = {0, 1};
 static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_heun = {
-    .card = {"heun", "Heun's method: the explicit trapezoidal rule.", "Heun, 1900", 2, 0, 2},
+    .card = {
+        .name = "heun",
+        .summary = "Heun's method: the explicit trapezoidal rule.",
+        .equations = "Heun, 1900",
+        .order = 2, .stability = 2,
+        .description = "A step by Euler's method shows the rate at its end, and the step is made again with the mean of both: "
+                       "two evaluations for each step, order two.",
+        .reference = "K. Heun, Neue Methoden zur approximativen Integration, Zeitschrift fuer Mathematik und Physik 45 (1900) "
+                     "23-38",
+    },
     .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

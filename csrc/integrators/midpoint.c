@@ -11,7 +11,16 @@ static const double c[] = {0, 0.5};
 static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
 const zd_integrator zd_midpoint = {
-    .card = {"midpoint", "The explicit midpoint rule.", "Runge, 1895", 2, 0, 2},
+    .card = {
+        .name = "midpoint",
+        .summary = "The explicit midpoint rule.",
+        .equations = "Runge, 1895",
+        .order = 2, .stability = 2,
+        .description = "Half a step by Euler's method shows the rate with which the whole step is made: two evaluations for each "
+                       "step, order two.",
+        .reference = "C. Runge, Ueber die numerische Aufloesung von Differentialgleichungen, Mathematische Annalen 46 (1895) "
+                     "167-178",
+    },
     .decay = 2,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -270,8 +270,18 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
 }
 
 const zd_integrator zd_rattle = {
-    .card = {"rattle", "Symplectic and symmetric, for long times of holonomic systems: energy errors stay bounded.",
-             "Andersen, 1983; Marsden and West, 2001", 2, 0, 2},
+    .card = {
+        .name = "rattle",
+        .summary = "Symplectic and symmetric, for long times of holonomic systems: energy errors stay bounded.",
+        .equations = "Andersen, 1983; Marsden and West, 2001",
+        .order = 2, .stability = 2,
+        .description = "The discrete equations of motion of the trapezoidal discrete Lagrangian: symplectic and symmetric, of "
+                       "order two, with positions and velocities on their constraints at the end of each step by the method "
+                       "itself. Errors of the energy oscillate but do not grow over long times. It takes holonomic systems whose "
+                       "velocities are the rates of their coordinates.",
+        .reference = "H. C. Andersen, Journal of Computational Physics 52 (1983) 24-34; J. E. Marsden, M. West, Discrete "
+                     "mechanics and variational integrators, Acta Numerica 10 (2001) 357-514",
+    },
     .suits = suits,
     .take = take,
     .step_of_motion = step_of_motion,

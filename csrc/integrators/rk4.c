@@ -13,7 +13,16 @@ static const double c[] = {0, 0.5, 0.5, 1};
 static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
 
 const zd_integrator zd_rk4 = {
-    .card = {"rk4", "The classical explicit Runge-Kutta method.", "section 4", 4, 0, 2.785},
+    .card = {
+        .name = "rk4",
+        .summary = "The classical explicit Runge-Kutta method.",
+        .equations = "section 4",
+        .order = 4, .stability = 2.785,
+        .description = "Four evaluations for each step, order four: the method of the paper's examples, and the one that is "
+                       "taken where nothing else is asked for. Its steps are of fixed size.",
+        .reference = "W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen, Zeitschrift fuer "
+                     "Mathematik und Physik 46 (1901) 435-453",
+    },
     .decay = 2.785,
     ZD_RUNGE_KUTTA(tableau),
 };

@@ -189,7 +189,17 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
 }
 
 const zd_integrator zd_trapezoidal = {
-    .card = {"trapezoidal", "The implicit trapezoidal rule: Newmark's method with beta = 1/4, gamma = 1/2.", "section 4.2", 2},
+    .card = {
+        .name = "trapezoidal",
+        .summary = "The implicit trapezoidal rule: Newmark's method with beta = 1/4, gamma = 1/2.",
+        .equations = "section 4.2",
+        .order = 2,
+        .description = "An implicit method of order two whose equations are solved by Newton's iteration with a matrix from "
+                       "differences, which is kept while it serves. It is stable for steps of any size, which makes it one for "
+                       "stiff systems, and keeps the energy of linear ones. What it cannot resolve is stable, but wrong.",
+        .reference = "N. M. Newmark, A method of computation for structural dynamics, Journal of the Engineering Mechanics "
+                     "Division 85 (1959) 67-94",
+    },
     .take = take,
     .step = step,
 };

@@ -86,8 +86,16 @@ static const zd_parameter parameter[] = {
 };
 
 const zd_kind zd_chaplygin_sleigh = {
-    .card = {"chaplygin_sleigh", "Sleigh on one edge: keeps its energy, yet settles into straight motion.",
-             "Bloch, section 1.7", 0},
+    .card = {
+        .name = "chaplygin_sleigh",
+        .summary = "Sleigh on one edge: keeps its energy, yet settles into straight motion.",
+        .equations = "Bloch, section 1.7",
+        .description = "A body slides on a plane without friction but for one knife edge behind its centre of mass. It keeps its "
+                       "energy and yet, nonholonomic as it is, settles into straight motion, centre of mass ahead. V = 0 is "
+                       "declared so that its energy can be watched.",
+        .reference = "Y. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems, AMS, 1972; A. M. Bloch, Nonholonomic "
+                     "Mechanics and Control, 2nd edition, Springer, 2015, section 1.7",
+    },
     .system = {
         .nq = N, .nv = N, .mn = 1,
         .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,

@@ -78,7 +78,16 @@ static const zd_parameter parameter[] = {
 static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}, {"drive", "rad"}};
 
 const zd_kind zd_driven_four_bar = {
-    .card = {"driven_four_bar", "The four-bar mechanism with its crank at a prescribed angle.", "section 4.1, (5)", 0},
+    .card = {
+        .name = "driven_four_bar",
+        .summary = "The four-bar mechanism with its crank at a prescribed angle.",
+        .equations = "section 4.1, (5)",
+        .description = "The four-bar mechanism with a third constraint that prescribes the angle of its crank in time, so that "
+                       "no degree of freedom is left. The multiplier of that constraint is minus the torque of the drive in N m, "
+                       "by which energy comes in.",
+        .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody "
+                     "systems, Multibody System Dynamics 7 (2002) 265-284, section 4.1",
+    },
     .system = {
         .nq = N, .nv = N, .mh = ROWS,
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI | ZD_POTENTIAL,

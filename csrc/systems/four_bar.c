@@ -207,8 +207,16 @@ static const zd_parameter parameter[] = {
 static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
 
 const zd_kind zd_four_bar = {
-    .card = {"four_bar", "Four-bar mechanism under gravity, cut open at its last joint: the paper's example 1.",
-             "section 4.1", 0},
+    .card = {
+        .name = "four_bar",
+        .summary = "Four-bar mechanism under gravity, cut open at its last joint: the paper's example 1.",
+        .equations = "section 4.1",
+        .description = "Three links that turn about joints, described by their absolute angles from the x axis; the tip of the "
+                       "last is held at a fixed point. One degree of freedom, two constraints. It is the paper's example for "
+                       "drift, stabilization and energy.",
+        .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody "
+                     "systems, Multibody System Dynamics 7 (2002) 265-284, section 4.1",
+    },
     .system = {
         .nq = N, .nv = N, .mh = 2,
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,

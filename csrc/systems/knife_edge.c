@@ -82,7 +82,14 @@ static const zd_parameter parameter[] = {
 };
 
 const zd_kind zd_knife_edge = {
-    .card = {"knife_edge", "Knife edge on an inclined plane: one nonholonomic constraint.", "Bloch, section 1.6", 0},
+    .card = {
+        .name = "knife_edge",
+        .summary = "Knife edge on an inclined plane: one nonholonomic constraint.",
+        .equations = "Bloch, section 1.6",
+        .description = "A skate slides along itself and turns, but does not slip sideways. Left alone at the top of the plane "
+                       "with some spin it does not run down: it drifts sideways on a cycloid.",
+        .reference = "A. M. Bloch, Nonholonomic Mechanics and Control, 2nd edition, Springer, 2015, section 1.6",
+    },
     .system = {
         .nq = N, .nv = N, .mn = 1,
         .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,

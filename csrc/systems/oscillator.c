@@ -52,7 +52,15 @@ static const zd_variable coordinate[] = {{"x", "m"}};
 static const zd_variable velocity[] = {{"x_dot", "m/s"}};
 
 const zd_kind zd_oscillator = {
-    .card = {"oscillator", "Mass on a spring, without constraints: the paper's example 2.", "section 4.2", 0},
+    .card = {
+        .name = "oscillator",
+        .summary = "Mass on a spring, without constraints: the paper's example 2.",
+        .equations = "section 4.2",
+        .description = "One degree of freedom and no constraint, with a solution in closed form: what integrators and energy "
+                       "correction do is seen without anything else.",
+        .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody "
+                     "systems, Multibody System Dynamics 7 (2002) 265-284, section 4.2",
+    },
     .system = {
         .nq = 1, .nv = 1,
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,

@@ -79,7 +79,15 @@ static const zd_variable velocity[] = {{"x_dot", "m/s"}, {"y_dot", "m/s"}};
 static const zd_variable constraint[] = {{"rod", "m"}};
 
 const zd_kind zd_pendulum = {
-    .card = {"pendulum", "Point mass on a massless rod, in Cartesian coordinates.", "IFToMM benchmark A01", 0},
+    .card = {
+        .name = "pendulum",
+        .summary = "Point mass on a massless rod, in Cartesian coordinates.",
+        .equations = "IFToMM benchmark A01",
+        .description = "The smallest system that can drift from its constraint. The constraint is divided by twice the length, "
+                       "so that its violation is the distance from the circle in m, and the multiplier is the tension of the rod "
+                       "in N.",
+        .reference = "IFToMM library of computational benchmark problems, A01; SUNDIALS, example cvPendulum",
+    },
     .system = {
         .nq = N, .nv = N, .mh = 1,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,

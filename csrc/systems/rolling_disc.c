@@ -170,7 +170,15 @@ static const zd_variable velocity[] = {{"vx", "m/s"},   {"vy", "m/s"},   {"vz", 
 static const zd_variable constraint[] = {{"height", "m"}, {"slip_x", "m/s"}, {"slip_y", "m/s"}};
 
 const zd_kind zd_rolling_disc = {
-    .card = {"rolling_disc", "Thin disc that rolls, leans and spins on a plane.", "Bloch, section 1.5", 0},
+    .card = {
+        .name = "rolling_disc",
+        .summary = "Thin disc that rolls, leans and spins on a plane.",
+        .equations = "Bloch, section 1.5",
+        .description = "A thin disc, such as a coin, rolls on a horizontal plane without slipping. Its velocities are those of "
+                       "the centre and the angular velocity in a frame that follows yaw and lean but not the spin, so that there "
+                       "is a kinematic matrix. One holonomic constraint and two nonholonomic ones.",
+        .reference = "A. M. Bloch, Nonholonomic Mechanics and Control, 2nd edition, Springer, 2015, section 1.5",
+    },
     .system = {
         .nq = N, .nv = N, .mh = 1, .mn = 2,
         .provides = ZD_A | ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,

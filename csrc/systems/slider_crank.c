@@ -138,7 +138,14 @@ static const zd_variable velocity[] = {{"crank_dot", "rad/s"}, {"x_dot", "m/s"},
 static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
 
 const zd_kind zd_slider_crank = {
-    .card = {"slider_crank", "Slider-crank with a spring, a damper and a constant force.", "SUNDIALS idaSlCrank", 0},
+    .card = {
+        .name = "slider_crank",
+        .summary = "Slider-crank with a spring, a damper and a constant force.",
+        .equations = "SUNDIALS idaSlCrank",
+        .description = "A crank, a rod and a slider. A spring and a damper join the midpoints of crank and rod, and a constant "
+                       "force pulls at the rod's far end. It loses energy through its damper, which is accounted for by (28).",
+        .reference = "SUNDIALS, IDA, example idaSlCrank",
+    },
     .system = {
         .nq = N, .nv = N, .mh = 2,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER | ZD_TIMELESS,

@@ -98,7 +98,14 @@ static const zd_variable velocity[] = {{"x_dot", "m/s"}, {"y_dot", "m/s"}, {"phi
 static const zd_variable constraint[] = {{"slip_x", "m/s"}, {"slip_y", "m/s"}};
 
 const zd_kind zd_vertical_disc = {
-    .card = {"vertical_disc", "Disc that rolls on a plane and is kept upright.", "Bloch, section 1.4", 0},
+    .card = {
+        .name = "vertical_disc",
+        .summary = "Disc that rolls on a plane and is kept upright.",
+        .equations = "Bloch, section 1.4",
+        .description = "A disc rolls on a plane, and something keeps it upright: the textbooks' first nonholonomic system. It "
+                       "turns and rolls at constant rates, in a circle. V = 0 is declared so that its energy can be watched.",
+        .reference = "A. M. Bloch, Nonholonomic Mechanics and Control, 2nd edition, Springer, 2015, section 1.4",
+    },
     .system = {
         .nq = N, .nv = N, .mn = 2,
         .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,

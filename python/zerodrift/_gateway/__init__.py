@@ -8,6 +8,7 @@ from .base import (
     FULL,
     INTERRUPTED,
     PAUSED,
+    ROW_VALUES,
     TERMS,
     Card,
     Parameter,
@@ -30,11 +31,11 @@ from .runs import Record, Run, acceleration, count_steps, project, settings, ste
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "TERMS", "VERSION", "Card",
-    "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter", "PythonCore", "Record",
-    "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "clash", "count_steps", "default", "doubles",
-    "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds", "lacking",
-    "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
+    "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "ROW_VALUES", "TERMS",
+    "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter",
+    "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "clash", "count_steps",
+    "default", "doubles", "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds",
+    "lacking", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

@@ -16,6 +16,7 @@ from .._fingerprint import core_fingerprint
 TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 MESSAGE_SIZE = 512
+ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 INTERRUPTED = 3     # positive, as it is Python that stops early
