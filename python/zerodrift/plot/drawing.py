@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from .. import _check
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, system_of
 from .style import COLOURS, given_axes
 
 COLOUR = COLOURS[0]
@@ -51,6 +51,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     >>> ax = zd.plot.mechanism(bar)
     >>> ax = zd.plot.mechanism(zd.simulate(bar, 2.0, step=0.01))
     """
+    system_or_solution = system_of(system_or_solution, p)
     if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
         raise TypeError(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
     moving = isinstance(system_or_solution, Solution) and p is None

@@ -10,7 +10,7 @@ import textwrap
 from typing import Any, ClassVar
 
 from .. import _check, _gateway
-from ..systems.base import BaseSystem, core_of
+from ..systems.base import BaseSystem, core_of, system_of
 
 WIDTH = 100     # columns of a page
 
@@ -194,7 +194,7 @@ def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
     table = TABLES["formulations"]
     if system is None:
         return CardTable(table)
-    core = core_of(system)
+    core = core_of(system_of(system))
     return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits_formulation(row)})
 
 
@@ -215,7 +215,7 @@ def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
     table = TABLES["integrators"]
     if system is None:
         return CardTable(table)
-    core = core_of(system)
+    core = core_of(system_of(system))
     return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits(row)})
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import Interrupted
-from ..systems.base import BaseSystem, core_of, direct_core_of
+from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
 from . import diagnosis, settings
 from . import events as _events
 from .keyboard import Keyboard
@@ -160,6 +160,7 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
+    system = system_of(system, p0, v0)
     core_of(system)
     span = _check.span(t_span)
     chosen = settings.checked(
@@ -170,7 +171,7 @@ def simulate(
     core = core_of(system) if direct is False else direct_core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events)
-    p0, v0 = system._state_or_start(p0, v0)
+    p0, v0 = system._state_or_start(p0, v0, t=span[0])
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:

@@ -161,6 +161,9 @@ class Solution:
         >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
         True
         """
+        measured = self.system._measured(name, self)
+        if measured is not None:
+            return measured
         columns = [array[:, column] for array, variables in self._named() for column, variable in enumerate(variables)
                    if variable.name == name]
         if len(columns) == 1:

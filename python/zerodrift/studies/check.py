@@ -12,7 +12,7 @@ from .. import _check
 from ..errors import ZerodriftError
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
-from ..systems.base import BaseSystem, Terms
+from ..systems.base import BaseSystem, Terms, system_of
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, in units of what is varied
 AGREE = 1e-5                            # relative: far above the 1e-10 a difference leaves, far below any mistake
@@ -78,7 +78,8 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     >>> bool(zd.check(zd.systems.four_bar()))
     True
     """
-    p, v = system._state_or_start(p, v, "p", "v")
+    system = system_of(system, p, v)
+    p, v = system._state_or_start(p, v, "p", "v", t)
     t, problems, names, states = _check.number("t", t), {}, {}, 0
     for p_now, v_now in [(p, v), *_samples(system, p, v, t, _check.count("samples", samples, least=0), seed)]:
         states += 1

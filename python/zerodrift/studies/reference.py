@@ -36,7 +36,7 @@ from ..runs import settings
 from ..runs.diagnosis import unwarned
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem, core_of
+from ..systems.base import BaseSystem, core_of, system_of
 
 SAFETY = 10         # the certified error, in units of the largest difference
 ROUNDING = np.finfo(float).eps
@@ -176,6 +176,7 @@ def reference(
     ()
     """
     wanted = None if error is None else _check.number("error", error, above=0)
+    system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step}
     motion = _Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
@@ -230,7 +231,7 @@ class _Motion:
 
     def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
-        self.start = system._state_or_start(p0, v0)
+        self.start = system._state_or_start(p0, v0, t=span[0])
         self.bounded = bounds["max_step"] is not None
         cards = sorted(settings.integrators(system).values(), key=lambda card: -card.order)     # as they stand, where equal
         self.method, self.other = cards[0].name, cards[1].name

@@ -12,7 +12,7 @@ from .. import _check
 from ..errors import Interrupted
 from ..runs import settings
 from ..runs.progress import progress_of
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .work_precision import Bench, Row, Setting, default_steps
 
@@ -162,9 +162,10 @@ def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
         reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
         return Bench(system, span, p0, v0, reference)
 
+    system = system_of(system, p0, v0)
     if isinstance(system, BaseSystem) or not callable(system):
         return [bench(system, reference)] * len(values)
-    return [bench(system(value), None) for value in values]
+    return [bench(system_of(system(value), p0, v0), None) for value in values]
 
 
 def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple[Setting, ...]:

@@ -19,7 +19,7 @@ from ..runs.operations import acceleration
 from ..runs.progress import progress_of
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .compare import states_of
 
@@ -239,7 +239,7 @@ def work_precision(
     >>> bool(wp.pareto()[-1].error < 1e-9)
     True
     """
-    span = _check.span(t_span)
+    system, span = system_of(system, p0, v0), _check.span(t_span)
     taken, able = settings.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
     formulations = _names("formulations", settings.formulations(), able)
     integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)
@@ -328,7 +328,7 @@ def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> li
     """The formulations that can take the system where it starts: some invert a mass matrix that may be singular."""
     def can(name: str) -> bool:
         try:
-            acceleration(system, *system._state_or_start(p0, v0), span[0], name)
+            acceleration(system, *system._state_or_start(p0, v0, t=span[0]), span[0], name)
         except SingularSystem:
             return False
         return True

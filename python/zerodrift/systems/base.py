@@ -71,8 +71,9 @@ class BaseSystem:
         p, v = self._state_or_start(p, v, "p", "v")
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
 
-    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0") -> tuple[np.ndarray, np.ndarray]:
-        """The state given, or the system's own start for what is left out."""
+    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
+                        t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """The state given, or the system's own start at t for what is left out."""
         if p is None and self.p0 is None:
             raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
         p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
@@ -151,10 +152,34 @@ class BaseSystem:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return None
 
+    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
+        """A measure at every row of a solution; None where nothing is measured by that name."""
+        return None
+
     def _described(self) -> dict[str, Any]:
         """What a saved solution says of its system, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,
                 "constraints": self.constraints, "has_energy": self.has_energy}
+
+
+class Makes:
+    """What is no system, but makes one: every function that takes a system takes it."""
+
+    name: str
+
+    def system(self) -> BaseSystem:
+        """The system that is meant where none was made."""
+        raise NotImplementedError
+
+
+def system_of(given: Any, *state: Any) -> Any:
+    """The system that an argument means: a mechanism stands for its own, and takes no state in coordinates that it chose itself."""
+    if not isinstance(given, Makes):
+        return given
+    if any(part is not None for part in state):
+        raise TypeError(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where it "
+                        'starts by its start(), or take its system("joint")')
+    return given.system()
 
 
 def _listed(variables: Sequence[Variable]) -> str:

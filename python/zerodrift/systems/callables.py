@@ -179,7 +179,7 @@ class _Function:
     def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
         self.name = name
         if callable(given):
-            names = _arguments(name, given, [*_check.STATE, *parameters])
+            names = arguments(name, given, [*_check.STATE, *parameters])
             bound = {key: _view(parameters[key]) for key in names if key in parameters}
             self.state_arguments = frozenset(names) - frozenset(bound)
             self._function = functools.partial(given, **bound) if bound else given
@@ -227,7 +227,7 @@ def _view(value: Any) -> Any:
     return value.view() if isinstance(value, np.ndarray) else value
 
 
-def _arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
+def arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
     """The names of the arguments that a callable wants."""
     wants, there_is = [], f"there is {', '.join(allowed)}"
     for argument in _signature(name, given, there_is):

@@ -1,0 +1,286 @@
+"""Assembly: from a sketch to positions in which all joints are closed, and velocities that they allow.
+
+The unknowns are absolute coordinates, of the mass centres, so that the start is the same whatever coordinates a simulation takes. Steps
+are least in the mass metric.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import _gateway
+from ..errors import CorrectionFailed, InconsistentStart
+
+CLOSED = 1e-12          # of a row in units of its size: what counts as closed
+ATTEMPTS = 200          # damped steps from a sketch
+TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
+LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
+RANK = 1e-9             # of the largest singular value: what counts as dependent
+
+
+class Target(NamedTuple):
+    """A component of a measure, and the value it shall have."""
+
+    name: str
+    measure: int
+    component: int
+    value: float
+
+
+class Assembly:
+    """The assembly of one mechanism at one time.
+
+    Parameters
+    ----------
+    core : MechanismCore
+        In absolute coordinates.
+    rows : sequence of str
+        What each row of C belongs to, for errors.
+    left_out : sequence of int
+        Holonomic rows that are not looked at: of drives whose start value is not known yet.
+    length : float
+        The size of the mechanism in m.
+    """
+
+    def __init__(self, core: _gateway.MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float) -> None:
+        self.core, self.rows, self.length, self.t = core, rows, length, t
+        self.kept = [row for row in range(core.mh) if row not in set(left_out)]
+        self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
+        angles = np.array([coordinate.kind == "angle" for coordinate in core.coordinates])
+        self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are told in rad and parts of the length
+        self._size: dict[int, np.ndarray] = {}
+        self._weigh()
+
+    def _weigh(self) -> None:
+        """The square root of the mass metric in scaled coordinates; what has no mass gets a millionth of the largest."""
+        mass = np.diag(self._evaluate(np.zeros(self.core.nq))["M"]) * self.scale**2
+        largest = mass.max(initial=0.0) or 1.0
+        self.weight = np.sqrt(np.maximum(mass, 1e-6 * largest))
+
+    def _evaluate(self, p: np.ndarray) -> dict[str, np.ndarray]:
+        """All terms at rest, where there are rows."""
+        return self.core.evaluate(self.t, p, np.zeros(self.core.nv))
+
+    # ---- positions ----
+
+    def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
+        """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
+        residual, _ = self._residual(p, held)
+        if np.abs(residual).max(initial=0.0) > CLOSED:
+            p = self._close(p)
+            p = self._track(p, held)
+        return self._approach(p, held, wished) if wished else p
+
+    def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
+        """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
+        terms = self._evaluate(p)
+        values = terms["Phi"][self.kept] if self.core.mh else np.zeros(0)
+        rows = terms["C"][self.kept] if self.core.mh else np.zeros((0, self.core.nv))
+        for target in targets:
+            found = self.core.measure_at(target.measure, self.t, p, np.zeros(self.core.nv))
+            values = np.append(values, found["value"][target.component] - target.value)
+            rows = np.vstack([rows, found["row"][target.component]])
+        rows = rows * self.scale
+        size = self._sizes(rows, targets)
+        return values / size, rows / size[:, None]
+
+    def _sizes(self, rows: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
+        """The size of each row, as it was where it was first met: units must not change while squares are made least."""
+        known = self._size.get(len(targets))
+        if known is None:
+            known = np.linalg.norm(rows, axis=1)
+            known = self._size[len(targets)] = np.maximum(known, 1e-3 * known.max(initial=self.length))
+        return known
+
+    def _close(self, p: np.ndarray) -> np.ndarray:
+        """Closes the joints alone, by damped least squares from wherever the sketch has them."""
+        def joints(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            residual, rows = self._residual(p, ())
+            return residual[self.is_joint], rows[self.is_joint]
+
+        p, residual = self._least_squares(p, joints)
+        if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
+            raise CorrectionFailed("joints")
+        return p
+
+    def scaled_rows(self, p: np.ndarray) -> np.ndarray:
+        """All rows of C in scaled coordinates, each of length one."""
+        rows = self._evaluate(p)["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
+        size = np.linalg.norm(rows, axis=1, keepdims=True)
+        return rows / np.where(size > 1e-9 * self.length, size, self.length)
+
+    def nearby(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
+        """The positions nearest to these in which all rows are met but those left out; these, where there are none."""
+        kept = [i for i, row in enumerate(self.kept) if row not in left_out]
+
+        def system(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            residual, rows = self._residual(p, ())
+            return residual[kept], rows[kept]
+
+        found = self._newton(p, system)
+        return p if found is None else found
+
+    def least_open(self, p: np.ndarray) -> np.ndarray:
+        """Positions in which the joints are as nearly closed as can be."""
+        return self._least_squares(p, lambda p: self._residual(p, ()))[0]
+
+    def free_motions(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The mass matrix (nv, nv), and a basis (nv, k) of the velocities that all rows leave free, both in scaled coordinates."""
+        terms = self._evaluate(p)
+        rows = terms["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
+        return terms["M"] * np.outer(self.scale, self.scale), _nullspace(rows)
+
+    def _track(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+        """Leads drives, couplings and held targets from where they are to where they shall be, in small steps on one branch."""
+        start = self._residual(p, held)[0]
+        start[: len(self.kept)][self.is_joint] = 0.0
+        way = self._way(p, held)
+        parts = min(200, max(1, int(np.ceil(way / TRACKED))))
+        for part in range(parts):
+            left = 1.0 - (part + 1) / parts
+            moved = self._newton(p, lambda p, left=left: self._shifted(p, held, left * start))
+            if moved is None:
+                break
+            p = moved
+        else:
+            return p
+        p, residual = self._least_squares(p, lambda p: self._residual(p, held))
+        if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
+            raise self._unmet(residual, held)
+        return p
+
+    def _shifted(self, p: np.ndarray, held: Sequence[Target], shift: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        residual, rows = self._residual(p, held)
+        return residual - shift, rows
+
+    def _way(self, p: np.ndarray, held: Sequence[Target]) -> float:
+        """How far drives, couplings and targets are from where they shall be, in rad or parts of the length."""
+        residual, rows = self._residual(p, held)
+        residual[: len(self.kept)][self.is_joint] = 0.0
+        return float(np.abs(residual).max(initial=0.0))
+
+    def _newton(self, p: np.ndarray, system: Callable) -> np.ndarray | None:
+        """Least steps in the mass metric until nothing gets better; None where that is not near enough."""
+        residual, rows = system(p)
+        best = np.abs(residual).max(initial=0.0)
+        for _ in range(40):
+            if best < 1e-15:
+                break
+            step = -self._least_step(rows, residual)
+            if np.abs(step).max(initial=0.0) > LONGEST:
+                step *= LONGEST / np.abs(step).max()
+            tried = p + step * self.scale
+            tried_residual, tried_rows = system(tried)
+            error = np.abs(tried_residual).max(initial=0.0)
+            if not error < best:
+                break
+            p, residual, rows, best = tried, tried_residual, tried_rows, error
+        return p if best <= CLOSED else None
+
+    def _least_step(self, rows: np.ndarray, right: np.ndarray) -> np.ndarray:
+        """The least solution of rows @ step = right in the mass metric, in scaled coordinates."""
+        return np.linalg.lstsq(rows / self.weight, right, rcond=RANK)[0] / self.weight
+
+    def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
+        """Levenberg's and Marquardt's method, then Newton's: positions, and the residual that remains."""
+        residual, rows = system(p)
+        damping, size = 1e-2, float(residual @ residual)
+        for _ in range(ATTEMPTS):
+            if size < 1e-12:
+                break
+            u, s, vt = np.linalg.svd(rows, full_matrices=False)
+            while damping < 1e12:
+                step = -vt.T @ ((u.T @ residual) * s / (s**2 + damping * s.max(initial=1.0)**2))
+                step *= min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
+                tried = p + step * self.scale
+                tried_residual, tried_rows = system(tried)
+                if (tried_size := float(tried_residual @ tried_residual)) < size:
+                    break
+                damping *= 4
+            else:
+                break
+            gain = size - tried_size
+            p, residual, rows, size = tried, tried_residual, tried_rows, tried_size
+            damping = max(damping / 5, 1e-12)
+            if gain < 1e-14 * size:
+                break
+        polished = self._newton(p, system)
+        p = p if polished is None else polished
+        return p, system(p)[0]
+
+    def _approach(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
+        """Comes as near to the wishes as what is held allows."""
+        count = len(self.kept) + len(held)
+        for _ in range(ATTEMPTS):
+            residual, rows = self._residual(p, [*held, *wished])
+            free = _nullspace(rows[:count])
+            step = free @ np.linalg.lstsq(rows[count:] @ free, -residual[count:], rcond=1e-6)[0]
+            step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
+            moved = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
+            if moved is None:
+                break
+            error, before = (float(np.linalg.norm(self._residual(q, wished)[0][len(self.kept):])) for q in (moved, p))
+            if not error < before * (1 - 1e-9):
+                break
+            p = moved
+        return p
+
+    def _unmet(self, residual: np.ndarray, held: Sequence[Target]) -> Exception:
+        """The error that names what is not met: what is held, and drives and couplings, with what remains of each."""
+        names = [*(self.rows[row] for row in self.kept), *(target.name for target in held)]
+        movable = np.append(~self.is_joint, np.ones(len(held), dtype=bool))
+        size = np.where(movable, np.abs(residual), 0.0)
+        if not size.max(initial=0.0) > 0:
+            return CorrectionFailed("joints")
+        worst = [i for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
+        told = ", ".join(f"{names[i]!r}" for i in worst[:4])
+        return InconsistentStart(f"what the start holds and what is driven cannot be met together: {told}; "
+                                 f"what remains is {size.max():.3g} rad or parts of the mechanism's length")
+
+    # ---- velocities ----
+
+    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
+        """The least velocities in the mass metric with which all rows and held targets are met, and wished ones as nearly as possible."""
+        rows, right, names = self._rates(p, held)
+        if not right.any() and not wished:
+            return np.zeros(self.core.nv)
+        size = np.linalg.norm(rows, axis=1)
+        size[size < 1e-9 * self.length] = self.length
+        rows, right = rows / size[:, None], right / size
+        scaled = self._least_step(rows, right)
+        left = rows @ scaled - right
+        if np.abs(left).max(initial=0.0) > 1e-9 * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
+            worst = [names[i] for i in np.argsort(-np.abs(left)) if abs(left[i]) > 1e-3 * np.abs(left).max()]
+            told = " and ".join(map(repr, dict.fromkeys(name for name in worst if name)))
+            raise InconsistentStart(f"start: the velocities of {told} contradict each other, by {np.abs(left * size).max():.3g}")
+        if wished:
+            wish, wanted, _ = self._rates(p, wished, only=True)
+            free = _nullspace(rows / self.weight) / self.weight[:, None]
+            scaled = scaled + free @ np.linalg.lstsq(wish @ free, wanted - wish @ scaled, rcond=1e-9)[0]
+        return scaled * self.scale
+
+    def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
+        """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""
+        zero, terms = np.zeros(self.core.nv), self._evaluate(p)
+        m = 0 if only else self.core.m
+        rows = [terms["C"] * self.scale] if m else []
+        right = [-terms["Phi_t"] if terms.get("Phi_t") is not None else np.zeros(m)] if m else []
+        for target in held:
+            found = self.core.measure_at(target.measure, self.t, p, zero)
+            rows.append(found["row"][target.component : target.component + 1] * self.scale)
+            right.append(np.array([target.value - found["value"][target.component]]))
+        owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(m)]
+        stacked = np.vstack(rows) if rows else np.zeros((0, self.core.nv))
+        return stacked, np.concatenate([*right, []]), [*owners, *(target.name for target in held)]
+
+
+def _nullspace(rows: np.ndarray) -> np.ndarray:
+    """An orthonormal basis (n, k) of what the rows leave free."""
+    if not len(rows):
+        return np.eye(rows.shape[1])
+    _, s, vt = np.linalg.svd(rows)
+    rank = int((s > RANK * s.max(initial=0.0)).sum())
+    return vt[rank:].T

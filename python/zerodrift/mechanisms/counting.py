@@ -1,0 +1,108 @@
+"""Counting: velocities, rows and their rank; which rows follow from others, and which reactions that leaves undetermined."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .assembly import Assembly
+from .drawing import Drawing
+from .forces import Motor
+from .numbers import AS_GIVEN
+from .starting import Starting
+from .system import row_names
+from .tables import Tables
+
+DEPENDENT = 1e-9        # of a row's own size: what is left of a row that follows from others
+NUDGE = 1e-3            # how far a second pose is moved, in rad or parts of the length
+
+
+class Count(NamedTuple):
+    """The rows of absolute coordinates at the assembled start.
+
+    Attributes
+    ----------
+    velocities, rows, rank : int
+        How many there are, and how many rows are independent.
+    redundant : tuple of str
+        Rows that follow from others, here and in a pose nearby.
+    undetermined : tuple of str
+        Rows whose reactions are not determined because of that.
+    singular : tuple of str
+        Rows that follow from others in this pose alone.
+    """
+
+    velocities: int
+    rows: int
+    rank: int
+    redundant: tuple[str, ...]
+    undetermined: tuple[str, ...]
+    singular: tuple[str, ...]
+
+    @property
+    def freedom(self) -> int:
+        """Velocities that the rows leave free, drives included."""
+        return self.velocities - self.rank
+
+    @property
+    def gruebler(self) -> int:
+        """The same by the number of rows."""
+        return self.velocities - self.rows
+
+
+def count(drawing: Drawing) -> Count:
+    """The count of a mechanism at its assembled start."""
+    start = Starting(drawing, AS_GIVEN)
+    tables = Tables(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
+    assembly, p = start.assembled(0.0)
+    rows = assembly.scaled_rows(p)
+    names = [variable.name for variable in row_names(tables, assembly.core)]
+    here = dependent(rows)
+    there = dependent(assembly.scaled_rows(nudged(assembly, p, _driven(drawing, assembly)))) if here else set()
+    redundant = here & there
+    left = _left_null(rows) if redundant else np.zeros((len(rows), 0))
+    undetermined = np.flatnonzero(np.abs(left).max(axis=1, initial=0.0) > 1e-6)
+    return Count(assembly.core.nv, len(rows), len(rows) - len(redundant), _named(names, redundant), _named(names, undetermined),
+                 _named(names, here - there))
+
+
+def nudged(assembly: Assembly, p: np.ndarray, driven: set[int], size: float = NUDGE) -> np.ndarray:
+    """Positions that are moved a little along a random free direction, drives let go, and assembled."""
+    rows = np.delete(assembly.scaled_rows(p), sorted(driven), axis=0)
+    free = _left_null(rows.T) if len(rows) else np.eye(assembly.core.nv)
+    if not free.shape[1]:
+        return p
+    direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
+    return assembly.nearby(p + size * direction / np.abs(direction).max() * assembly.scale, driven)
+
+
+def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:
+    """The rows of drives."""
+    motors = {motor.name for motor in drawing.of(Motor)}
+    return {i for i, (row, name) in enumerate(zip(assembly.core.rows, assembly.rows, strict=True))
+            if row.owner == "relation" and name in motors}
+
+
+def dependent(rows: np.ndarray) -> set[int]:
+    """Rows that follow from those before them: what is left of each when their part is taken out twice is only rounding."""
+    basis, found = np.zeros((0, rows.shape[1])), set()
+    for i, row in enumerate(rows):
+        left = row - basis.T @ (basis @ row)
+        left -= basis.T @ (basis @ left)
+        size = np.linalg.norm(left)
+        if size <= DEPENDENT * np.linalg.norm(row):
+            found.add(i)
+        else:
+            basis = np.vstack([basis, left / size])
+    return found
+
+
+def _left_null(rows: np.ndarray) -> np.ndarray:
+    """A basis (k, n) of the combinations of rows that are zero."""
+    u, s, _ = np.linalg.svd(rows)
+    return u[:, int((s > 1e-9 * s.max(initial=0.0)).sum()):]
+
+
+def _named(names: list[str], rows: set[int] | np.ndarray) -> tuple[str, ...]:
+    return tuple(names[i] for i in sorted(rows))

@@ -1,0 +1,75 @@
+"""A mechanism as it is at one moment: what systems are made from, and what does not change when it is added to."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .bodies import Body, Particle, Point
+from .numbers import Numbers
+
+
+class Drawing(NamedTuple):
+    """All that a mechanism consists of, and where it shall start."""
+
+    name: str
+    gravity: np.ndarray
+    parameters: dict[str, float]
+    elements: dict[str, Any]
+    held: dict[str, Any]
+    wished: dict[str, Any]
+
+    def of(self, kind: type | tuple[type, ...]) -> list[Any]:
+        """The elements of a kind, in the order in which they were added."""
+        return [element for element in self.elements.values() if isinstance(element, kind)]
+
+    @property
+    def ground(self) -> Body:
+        """What does not move."""
+        return self.elements["ground"]
+
+    def parts(self) -> list[Body]:
+        """The bodies that move by themselves: all but the ground, and particles that belong to others."""
+        return [body for body in self.of(Body) if body is not self.ground and not (isinstance(body, Particle) and body.carrier)]
+
+    def numbers(self, now: Numbers) -> dict[str, float]:
+        """Every number that has a path, and the user's own parameters."""
+        listed = {"gravity.x": float(self.gravity[0]), "gravity.y": float(self.gravity[1]), **self.parameters}
+        for element in self.elements.values():
+            if hasattr(element, "numbers"):
+                listed |= {f"{element.name}.{quantity}": value for quantity, value in element.numbers(now).items()}
+        return listed
+
+
+class Inertias:
+    """The mass of each part with the particles that belong to it, and where its centre is in its frame."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.of: dict[str, tuple[float, float, np.ndarray]] = {}
+        carried: dict[str, list[tuple[float, np.ndarray]]] = {}
+        for particle in drawing.of(Particle):
+            if particle.carrier:
+                place = particle.carrier.local_with(numbers)
+                carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
+        for body in drawing.parts():
+            self.of[body.name] = _together(*body.properties(numbers), carried.get(body.name, []))
+
+    def local(self, point: Point, numbers: Numbers) -> tuple[float, float]:
+        """A point from its body's mass centre, in the body's axes; on the ground from its origin."""
+        place = point.local_with(numbers)
+        known = self.of.get(point.body.name)
+        place = place if known is None else place - known[2]
+        return float(place[0]), float(place[1])
+
+
+def _together(mass: float, inertia: float, com: np.ndarray, others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
+    """Mass, moment of inertia and centre of a body with point masses on it."""
+    if not others:
+        return mass, inertia, com
+    total = mass + sum(other for other, _ in others)
+    if not total:
+        return mass, inertia, com
+    centre = (mass * com + sum(other * place for other, place in others)) / total
+    shifted = [(mass, com), *others]
+    return total, inertia + sum(part * float((place - centre) @ (place - centre)) for part, place in shifted), centre

@@ -1,0 +1,167 @@
+"""The elements of a mechanism by name, and how arguments are read that mean bodies, points and joints among them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from . import names
+from .bodies import Body, Ground, Particle, Point
+from .forces import Motor
+from .joints import Joint
+from .laws import Law
+
+
+class Elements:
+    """What a mechanism consists of; the verbs of `Mechanism` add to it."""
+
+    name: str
+
+    def __init__(self, parameters: Any) -> None:
+        self.ground = Ground()
+        self.ground.register = self._register_point
+        self.parameters = {key: _check.number(f"parameter {key!r}", value)
+                           for key, value in _check.parameters(parameters).items() if _is_identifier(key)}
+        self._elements: dict[str, Any] = {"ground": self.ground}
+
+    # ---- adding ----
+
+    def _new_name(self, name: Any, what: str) -> str:
+        return names.checked(name, what, self._elements)
+
+    def _add(self, element: Any) -> Any:
+        self._elements[element.name] = element
+        if isinstance(element, Body):
+            element.register = self._register_point
+        return element
+
+    def _register_point(self, point: Point) -> Point:
+        if point.name is not None:
+            self._elements[self._new_name(point.name, "point")] = point
+        return point
+
+    # ---- reading arguments ----
+
+    def _body(self, argument: str, value: Any) -> Body:
+        """A body of this mechanism."""
+        _check.instance(argument, value, Body, f"a body of {self.name!r}")
+        if self._elements.get(value.name) is not value:
+            raise ValueError(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
+        return value
+
+    def _point(self, argument: str, value: Any, *, center: bool = False) -> Point:
+        """A point of this mechanism; of a particle, its place, and of a body its centre of mass, where that is meant."""
+        if isinstance(value, Particle):
+            return self._particle_point(argument, value)
+        if center and isinstance(value, Body):
+            return self._body(argument, value).center
+        if isinstance(value, Body):
+            raise TypeError(f"{argument} must be a point, and {value.name!r} is a whole body: take {value.name}.point(...)")
+        _check.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
+        self._body(argument, value.body)
+        return value
+
+    def _particle_point(self, argument: str, particle: Particle) -> Point:
+        self._body(argument, particle)
+        return Point(particle, np.zeros(2)) if particle.carrier is None else particle.carrier
+
+    def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
+        """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
+        _check.instance(argument, value, Joint, "a joint")
+        if self._elements.get(value.name) is not value:
+            raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
+        if value.coordinate not in coordinate:
+            raise ValueError(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}")
+        particle = next((body for body in value.bodies if not body.turns), None)
+        if value.coordinate == "angle" and particle is not None:
+            raise ValueError(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no orientation, and so no angle")
+        return value
+
+    def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
+        """The points that a joint joins, each in the frame of its body, (first, second)."""
+        is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
+        if at is not None and not all(is_body):
+            raise TypeError(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is")
+        if at is not None:
+            at = _check.vector("at", at, 2)
+            sides = tuple(self._body(side, value).point(at=at) for side, value in (("first", first), ("second", second)))
+        else:
+            sides = self._given_sides(name, first, second, is_body)
+        return self._different(name, *sides)
+
+    def _given_sides(self, name: str, first: Any, second: Any, is_body: list[bool]) -> tuple[Point, Point]:
+        if all(is_body):
+            raise TypeError(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}, and needs at=, a place in the drawing; "
+                            "or a point of one of them")
+        if is_body[0]:
+            second = self._point("second", second)
+            return self._body("first", first).point(at=second.drawn), second
+        first = self._point("first", first)
+        return first, self._body("second", second).point(at=first.drawn) if is_body[1] else self._point("second", second)
+
+    def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
+        if first.body is second.body:
+            raise ValueError(f"{name!r} joins {first.body.name!r} to itself: first and second must belong to two bodies")
+        return first, second
+
+    def _turning(self, name: str, what: str, *bodies: Body) -> None:
+        """Refuses particles, which have no orientation."""
+        for body in bodies:
+            if not body.turns:
+                raise ValueError(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none")
+
+    def _direction(self, argument: str, value: Any) -> np.ndarray:
+        """A direction in the drawing, (2,) of length one."""
+        vector = _check.vector(argument, value, 2)
+        length = np.hypot(*vector)
+        if not length > 0:
+            raise ValueError(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
+        return vector / length
+
+    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None) -> Law:
+        law = Law(what, given, of=of, parameters=self.parameters)
+        for measure in law.measures:
+            self._check_measured(what, measure)
+        return law
+
+    def _check_measured(self, what: str, measure: str) -> None:
+        """Refuses measures of what is not there."""
+        owner = measure.partition(".")[0]
+        if owner not in self._elements:
+            raise ValueError(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
+                             f"there is {', '.join(map(repr, self._elements))}")
+
+    # ---- looking ----
+
+    def __getitem__(self, name: str) -> Any:
+        """The element of that name."""
+        if name not in self._elements:
+            raise KeyError(f"nothing in {self.name} is called {name!r}; there are {', '.join(self._elements)}")
+        return self._elements[name]
+
+    def _of(self, kind: type | tuple[type, ...]) -> list[Any]:
+        return [element for element in self._elements.values() if isinstance(element, kind)]
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """Bodies, links and particles, in the order in which they were added; the ground is none of them."""
+        return tuple(body for body in self._of(Body) if body is not self.ground)
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Joints, in the order in which they were added."""
+        return tuple(self._of(Joint))
+
+    @property
+    def motors(self) -> tuple[Motor, ...]:
+        """Motors, in the order in which they were added."""
+        return tuple(self._of(Motor))
+
+
+def _is_identifier(name: str) -> bool:
+    if not name.isidentifier():
+        raise ValueError(f"parameters must have names that a callable can take, without a dot, not {name!r}")
+    return True

@@ -1,0 +1,169 @@
+"""Joints, as they were given: which points of which bodies they join, and along which axis of the first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .bodies import Point
+from .laws import Law
+from .measures import scalar, vector
+from .numbers import AS_GIVEN, Numbers
+
+
+class Joint:
+    """What joins two bodies; verbs of `Mechanism` make it.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+        What it joins; its reaction is what the first body does to the second, at the second's point.
+    damping : float
+        Of its coordinate, in N m s or N s/m.
+    cut : bool
+        Whether it shall close a loop, and own no coordinate.
+    """
+
+    kind = ""           # as the core's table calls it
+    own = 0             # coordinates that it may own where bodies hang on it
+    coordinate = None   # what motors and dampers act along: "angle" or "displacement"
+
+    def __init__(self, name: str, first: Point, second: Point, *, axis: np.ndarray | None = None, damping: float = 0.0,
+                 cut: bool = False) -> None:
+        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
+        self.damping, self.cut = damping, cut
+
+    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N.")
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def bodies(self) -> tuple[Any, Any]:
+        """The two bodies."""
+        return self.first.body, self.second.body
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.coordinate is None else {"damping": self.damping}
+
+    def angle_as_drawn(self) -> float:
+        """The second body's angle less the first's in the drawing, where the joint's angle is zero."""
+        return self.second.body.pose.angle - self.first.body.pose.angle
+
+    def offset_as_drawn(self, numbers: Numbers) -> float:
+        """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        return float(apart @ self.axis_as_drawn())
+
+    def axis_as_drawn(self) -> np.ndarray:
+        """The axis (2,) in the drawing, of length one."""
+        return self.first.body.pose.direction(self.axis)
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}: {self.first.body.name} - {self.second.body.name}>"
+
+
+class Revolute(Joint):
+    """A hinge, `Mechanism.revolute`."""
+
+    kind, own, coordinate = "revolute", 1, "angle"
+    angle = scalar("angle", "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
+    speed = scalar("speed", "The rate of `angle`, in rad/s.")
+    torque = scalar("torque", "The moment that the first body exerts on the second through the joint, in N m.")
+
+
+class Prismatic(Joint):
+    """A slider, `Mechanism.prismatic`."""
+
+    kind, own, coordinate = "prismatic", 1, "displacement"
+    displacement = scalar("displacement", "How far the second's point has moved along the axis since the drawing, in m.")
+    speed = scalar("speed", "The rate of `displacement`, in m/s.")
+    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
+
+
+class Weld(Joint):
+    """Two bodies that are one, `Mechanism.weld`."""
+
+    kind = "weld"
+    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
+
+
+class Rod(Joint):
+    """A massless rod between two points, `Mechanism.rod`."""
+
+    kind = "rod"
+    tension = scalar("tension", "The force in the rod, positive where it pulls, in N.")
+
+    def __init__(self, name: str, first: Point, second: Point, length: float | None) -> None:
+        super().__init__(name, first, second)
+        self.length = length
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its length; where none was given, the distance in the drawing."""
+        drawn = float(np.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))))
+        return numbers(self, "length", drawn if self.length is None else self.length)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"length": self.length_with(now)}
+
+
+class Slot(Joint):
+    """A point on a line of a body, `Mechanism.slot`."""
+
+    kind, coordinate = "slot", "displacement"
+    displacement = scalar("displacement", "How far the point has moved along the line since the drawing, in m.")
+    speed = scalar("speed", "The rate of `displacement`, in m/s.")
+
+
+class KnifeEdge(Joint):
+    """A blade, `Mechanism.knife_edge`: its point moves along its axis only. The axis turns with the second body."""
+
+    kind = "knife_edge"
+
+    def axis_as_drawn(self) -> np.ndarray:
+        return self.second.body.pose.direction(self.axis)
+
+
+class Rolling(Joint):
+    """A wheel on a line, `Mechanism.rolling`."""
+
+    kind = "rolling"
+
+    def __init__(self, name: str, first: Point, second: Point, radius: float, normal: np.ndarray) -> None:
+        super().__init__(name, first, second)
+        self.radius, self.normal = radius, normal       # the normal (2,) in the first's frame, towards the wheel
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"radius": self.radius}
+
+
+class Coupling:
+    """One row between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
+
+    Attributes
+    ----------
+    name : str
+    kind : str
+    of : tuple of str
+        The measures it couples: of gears and racks (first, second), where ``second = ratio * first``.
+    ratio : float or None
+    law : Law or None
+        What has to be zero, of the others.
+    """
+
+    def __init__(self, name: str, kind: str, of: tuple[str, ...], *, ratio: float | None = None, law: Law | None = None) -> None:
+        self.name, self.kind, self.of, self.ratio, self.law = name, kind, of, ratio, law
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.ratio is None else {"ratio": self.ratio}
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}: {', '.join(self.of)}>"

@@ -1,0 +1,105 @@
+"""Laws: what a drive prescribes, what a force is, and what a user's constraint says; numbers, callables or SymPy expressions."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..systems import jets
+from ..systems.callables import arguments
+from .measures import name_of
+
+
+class Law:
+    """A number that may depend on t, on measures and on the mechanism's own parameters.
+
+    Attributes
+    ----------
+    what : str
+        Whose it is, for errors: ``"speed of motor 'drive'"``.
+    measures : tuple of str
+        The measures it depends on, in the order in which `value` takes them.
+    constant : float or None
+        Its value where it is a plain number.
+    """
+
+    def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
+        self.what, self.constant, self.expression, self._function = what, None, None, None
+        bound = {name: name_of(measure, f"of[{name!r}]") for name, measure in _of(what, of).items()}
+        if callable(given):
+            self._names = _wanted(what, given, ["t", *parameters, *bound])
+            self._function, self._bound = given, {name: bound[name] for name in self._names if name in bound}
+        elif hasattr(given, "free_symbols"):
+            self._read_expression(given, bound, list(parameters))
+        else:
+            self.constant, self._names, self._bound = _check.number(what, given), [], {}
+        self.measures = tuple(self._bound.values())
+        self.depends_on_time = "t" in self._names
+
+    def _read_expression(self, expression: Any, bound: dict[str, str], parameters: list[str]) -> None:
+        """A SymPy expression of t, parameters, and measures: by what `of` calls them, or themselves."""
+        self.expression = expression
+        self._names, self._bound = [], {}
+        for symbol in sorted(expression.free_symbols, key=str):
+            name = str(symbol)
+            if "." in name:
+                self._bound[name] = name
+            elif name in bound:
+                self._bound[name] = bound[name]
+            elif name != "t" and name not in parameters:
+                raise TypeError(f"{self.what} has the symbol {name}; there is {', '.join(['t', *parameters, *bound])}, and measures")
+            self._names.append(name)
+
+    @functools.cached_property
+    def _call(self) -> Callable[..., Any]:
+        """The function of its names, in their order."""
+        if self.expression is None:
+            return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
+        import sympy as sp
+
+        by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
+        return sp.lambdify([by_name[name] for name in self._names], self.expression, "numpy")
+
+    def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
+        """Its value at a time and values of its measures; where these are jets, a jet."""
+        if self.constant is not None:
+            return self.constant
+        known = {**parameters, "t": t, **dict(zip(self._bound, x, strict=True))}
+        try:
+            return self._call(*(known[name] for name in self._names))
+        except BaseException as error:
+            _check.tell(error, f"in {self.what}, called at t = {jets.value(t):g}")
+            raise
+
+    def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
+        """Its value, checked to be a finite number."""
+        value = self.value(t, x, parameters)
+        if type(value) is float and -np.inf < value < np.inf:
+            return value
+        return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
+
+    def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> jets.Jet:
+        """Its value with derivatives; a law that is constant along them has none."""
+        value = self.value(t, x, parameters)
+        value = value[()] if isinstance(value, np.ndarray) else value
+        return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_call"}
+
+
+def _of(what: str, of: Any) -> Mapping[str, Any]:
+    if of is None:
+        return {}
+    if not isinstance(of, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in of):
+        raise TypeError(f"of= of {what} must be a dict of measures by the names under which it is handed them, not {_check.shown(of)}")
+    return of
+
+
+def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
+    """The names of the arguments that a callable wants. A function that NumPy wrote itself, such as np.sin, is one of t."""
+    return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed)

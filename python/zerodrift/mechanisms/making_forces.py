@@ -1,0 +1,265 @@
+"""The verbs of a mechanism that drive, push and damp."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .bodies import Body, Particle, Point
+from .elements import Elements
+from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .joints import Joint
+
+DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
+          "force": ("displacement",)}
+
+
+class ForceVerbs(Elements):
+    """Drives, springs, forces. Callables name what they want: ``t``, parameters, and what ``of=`` binds to measures."""
+
+    def motor(self, name: str, joint: Joint, *, angle: Any = None, displacement: Any = None, speed: Any = None, torque: Any = None,
+              force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
+        """Drive a joint.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint
+            With an angle or a displacement.
+        angle, displacement : float, callable or SymPy expression of t
+            What the joint's coordinate is, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's functions.
+        speed : float, callable or expression
+            The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
+        torque, force : float, callable or expression
+            What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
+            positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Motor
+
+        Raises
+        ------
+        TypeError, ValueError
+            If not one of the five is given, the joint has no such coordinate, another motor prescribes its motion already, or a
+            callable asks for what there is not.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("crank")
+        >>> crank = m.link("crank", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, crank.start)
+        >>> m.motor("drive", pin, angle=lambda t: 0.5 * np.sin(3 * t))
+        <motor drive: angle of pin>
+        """
+        name = self._new_name(name, "motor")
+        given = {"angle": angle, "displacement": displacement, "speed": speed, "torque": torque, "force": force}
+        words = [word for word, value in given.items() if value is not None]
+        if len(words) != 1:
+            raise TypeError(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
+        drives = words[0]
+        joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
+        law = self._law(f"{drives} of motor {name!r}", given[drives], of)
+        if drives in ("angle", "displacement") and law.measures:
+            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: constraint() couples measures")
+        motor = Motor(name, joint, drives, law)
+        rival = next((other for other in self.motors if other.joint is joint and other.prescribes), None)
+        if motor.prescribes and rival is not None:
+            raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe the motion of {joint.name!r}: one freedom takes one")
+        return self._add(motor)
+
+    def spring(self, name: str, first: Point | Particle, second: Point | Particle, *, stiffness: Any, length: float | None = None,
+               damping: float = 0.0) -> Spring:
+        """Put a spring with a damper between two points.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point or Particle
+        stiffness : float
+            In N/m, at least 0.
+        length : float, optional
+            At which it is slack, in m; left out: as drawn.
+        damping : float
+            In N s/m, at least 0.
+
+        Returns
+        -------
+        Spring
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("bungee")
+        >>> bob = m.particle("bob", 1.0, at=(0, -1))
+        >>> m.spring("rope", m.ground.point((0, 0)), bob, stiffness=50.0).force
+        Measure('rope.force')
+        """
+        name = self._new_name(name, "spring")
+        first, second = self._different(name, self._point("first", first), self._point("second", second))
+        if length is not None:
+            length = _check.number(f"length of {name!r}", length, least=0)
+        return self._add(Spring(name, first, second, _least("stiffness", name, stiffness), length, _least("damping", name, damping)))
+
+    def torsion_spring(self, name: str, joint: Joint, *, stiffness: float, angle: float = 0.0, damping: float = 0.0) -> TorsionSpring:
+        """Put a spring with a damper about a hinge.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint
+            A revolute.
+        stiffness : float
+            In N m/rad, at least 0.
+        angle : float
+            Of the joint, at which it is slack, in rad.
+        damping : float
+            In N m s/rad, at least 0.
+
+        Returns
+        -------
+        TorsionSpring
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("door")
+        >>> door = m.link("door", (0, 0), (1, 0), mass=1.0)
+        >>> hinge = m.revolute("hinge", m.ground, door.start)
+        >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
+        Measure('closer.torque')
+        """
+        name = self._new_name(name, "torsion spring")
+        joint = self._joint(f"joint of {name!r}", joint, ("angle",))
+        return self._add(TorsionSpring(name, joint, _least("stiffness", name, stiffness), _check.number(f"angle of {name!r}", angle),
+                                       _least("damping", name, damping)))
+
+    def bushing(self, name: str, first: Body | Point, second: Body | Point, *, at: Any = None, stiffness: Any = (0.0, 0.0),
+                damping: Any = (0.0, 0.0), torsion: float = 0.0, torsion_damping: float = 0.0) -> Bushing:
+        """Join two bodies softly, by springs and dampers along and about the axes of the first.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body or Point
+            As of `revolute`. It is slack as drawn.
+        at : array_like (2,)
+            Where it is in the drawing, in m.
+        stiffness, damping : array_like (2,)
+            Along the first body's x and y axis, in N/m and N s/m, at least 0.
+        torsion, torsion_damping : float
+            In N m/rad and N m s/rad, at least 0.
+
+        Returns
+        -------
+        Bushing
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("mount")
+        >>> engine = m.body("engine", 50.0, 2.0)
+        >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
+        <bushing mount: ground - engine>
+        """
+        name = self._new_name(name, "bushing")
+        first, second = self._sides(name, first, second, at)
+        self._turning(name, "bushing", first.body, second.body)
+        along, across = _pair("stiffness", name, stiffness), _pair("damping", name, damping)
+        values = {"stiffness.x": along[0], "stiffness.y": along[1], "damping.x": across[0], "damping.y": across[1],
+                  "torsion": _least("torsion", name, torsion), "torsion_damping": _least("torsion_damping", name, torsion_damping)}
+        return self._add(Bushing(name, first, second, values))
+
+    def force(self, name: str, point: Point | Body, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
+              frame: Body | None = None) -> Force:
+        """Let a force act at a point.
+
+        Parameters
+        ----------
+        name : str
+        point : Point or Body
+            Of a body without a point, its centre of mass.
+        along : array_like (2,)
+            Its direction in the drawing; the length of the vector is ignored.
+        value : float, callable or SymPy expression
+            In N, of t, parameters and measures of positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+        frame : Body, optional
+            With which the direction turns; left out: it stays.
+
+        Returns
+        -------
+        Force
+
+        Notes
+        -----
+        A stop or a contact can be a steep smooth law, such as ``value=lambda y: 1e5 * max(0.0, -y)**1.5``.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("rocket")
+        >>> rocket = m.body("rocket", 1.0, 0.1)
+        >>> m.force("thrust", rocket, along=(0, 1), value=lambda t: 20.0 * np.exp(-t), frame=rocket)
+        <force thrust at rocket>
+        """
+        name = self._new_name(name, "force")
+        along = self._direction(f"along of {name!r}", along)
+        point = self._point("point", point, center=True)
+        frame = self.ground if frame is None else self._body("frame", frame)
+        self._turning(name, "the frame of", frame)
+        if point.body is self.ground:
+            raise ValueError(f"force {name!r} acts on the ground, which does not move: point must be of another body")
+        return self._add(Force(name, point, frame.pose.local_direction(along), frame, self._law(f"value of force {name!r}", value, of)))
+
+    def torque(self, name: str, body: Body, *, value: Any, of: Mapping[str, Any] | None = None, against: Body | None = None) -> Torque:
+        """Let a moment act on a body.
+
+        Parameters
+        ----------
+        name : str
+        body : Body
+        value : float, callable or SymPy expression
+            In N m, counter-clockwise, of t, parameters and measures of positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+        against : Body, optional
+            On which the opposite acts; left out: the ground.
+
+        Returns
+        -------
+        Torque
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("fan")
+        >>> fan = m.body("fan", 1.0, 0.1)
+        >>> m.torque("air", fan, value=lambda w: -0.01 * w * abs(w), of={"w": fan.angular_velocity})
+        <torque air on fan>
+        """
+        name = self._new_name(name, "torque")
+        body = self._body("body", body)
+        against = self.ground if against is None else self._body("against", against)
+        self._turning(name, "torque", body, against)
+        if body is against:
+            raise ValueError(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
+        return self._add(Torque(name, body, against, self._law(f"value of torque {name!r}", value, of)))
+
+
+def _least(quantity: str, name: str, value: Any) -> float:
+    return _check.number(f"{quantity} of {name!r}", value, least=0)
+
+
+def _pair(quantity: str, name: str, value: Any) -> tuple[float, float]:
+    pair = _check.vector(f"{quantity} of {name!r}", np.broadcast_to(value, 2) if np.ndim(value) == 0 else value, 2)
+    return _least(quantity, name, float(pair[0])), _least(quantity, name, float(pair[1]))

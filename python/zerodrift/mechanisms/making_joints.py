@@ -1,0 +1,299 @@
+"""The verbs of a mechanism that make joints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .. import _check
+from .bodies import Body, Particle, Point
+from .elements import Elements
+from .joints import KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
+
+Side = Body | Point
+
+
+class JointVerbs(Elements):
+    """Joints between bodies.
+
+    Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that lies
+    there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing.
+    """
+
+    gravity: Any
+
+    def revolute(self, name: str, first: Side, second: Side, *, at: Any = None, damping: float = 0.0, cut: bool = False) -> Revolute:
+        """Join two bodies by a hinge.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body or Point
+            Two points; a body and a point; or two bodies, and `at`. One of them may be a particle.
+        at : array_like (2,)
+            Where the joint is in the drawing, in m.
+        damping : float
+            In N m s, at least 0.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best.
+
+        Returns
+        -------
+        Revolute
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a point belongs to no body of this mechanism, or both sides to one.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("pendulum")
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> m.revolute("A", m.ground, link.start)
+        <revolute A: ground - link>
+        """
+        name = self._new_name(name, "joint")
+        sides = self._sides(name, first, second, at)
+        damping = _check.number(f"damping of {name!r}", damping, least=0)
+        if damping:
+            self._turning(name, "damping of", *(side.body for side in sides))
+        return self._add(Revolute(name, *sides, damping=damping, cut=_flag(name, cut)))
+
+    def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
+                  cut: bool = False) -> Prismatic:
+        """Join two bodies by a slider, which keeps their angle.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body or Point
+            As of `revolute`; two points may lie apart along the axis. Of two bodies without `at`, the second's origin is meant.
+        axis : array_like (2,)
+            Its direction in the drawing; it turns with the first body.
+        at : array_like (2,)
+            Where the joint is in the drawing, in m.
+        damping : float
+            In N s/m, at least 0.
+        cut : bool
+            As of `revolute`.
+
+        Returns
+        -------
+        Prismatic
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for an axis of length zero, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("drawer")
+        >>> drawer = m.body("drawer", 2.0)
+        >>> m.prismatic("rail", m.ground, drawer, axis=(1, 0)).displacement
+        Measure('rail.displacement')
+        """
+        name = self._new_name(name, "joint")
+        axis = self._direction(f"axis of {name!r}", axis)
+        if at is None and isinstance(first, Body) and isinstance(second, Body) and first.turns and second.turns:
+            at = second.pose.origin
+        sides = self._sides(name, first, second, at)
+        self._turning(name, "prismatic", *(side.body for side in sides))
+        return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=_flag(name, cut),
+                                   damping=_check.number(f"damping of {name!r}", damping, least=0)))
+
+    def weld(self, name: str, first: Side, second: Side, *, at: Any = None) -> Weld:
+        """Join two bodies rigidly, as they are drawn.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body or Point
+            As of `revolute`; the reaction is told at the second's point.
+        at : array_like (2,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        Weld
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a particle.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("bracket")
+        >>> arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
+        >>> m.weld("wall", m.ground, arm.start).torque
+        Measure('wall.torque')
+        """
+        name = self._new_name(name, "joint")
+        sides = self._sides(name, first, second, at)
+        self._turning(name, "weld", *(side.body for side in sides))
+        return self._add(Weld(name, *sides))
+
+    def rod(self, name: str, first: Point | Particle, second: Point | Particle, *, length: float | None = None) -> Rod:
+        """Keep two points at a distance, as a massless rod with a hinge at each end does.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point or Particle
+        length : float, optional
+            In m; left out: as drawn.
+
+        Returns
+        -------
+        Rod
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and if two points that lie in one place have no length.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("pendulum")
+        >>> bob = m.particle("bob", 1.0, at=(0.6, -0.8))
+        >>> m.rod("rod", m.ground.point((0, 0)), bob).tension
+        Measure('rod.tension')
+        """
+        name = self._new_name(name, "joint")
+        sides = self._different(name, self._point("first", first), self._point("second", second))
+        if length is not None:
+            length = _check.number(f"length of {name!r}", length, above=0)
+        rod = Rod(name, *sides, length)
+        _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
+        return self._add(rod)
+
+    def slot(self, name: str, first: Body, second: Point | Particle, *, axis: Any) -> Slot:
+        """Keep a point on a line of a body.
+
+        Parameters
+        ----------
+        name : str
+        first : Body
+            What the line belongs to; it goes, as drawn, through the point.
+        second : Point or Particle
+            What slides.
+        axis : array_like (2,)
+            The line's direction in the drawing.
+
+        Returns
+        -------
+        Slot
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for an axis of length zero, or if the line would belong to a particle.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("bead")
+        >>> bead = m.particle("bead", 0.1, at=(0, 0))
+        >>> m.slot("wire", m.ground, bead, axis=(1, -1)).displacement
+        Measure('wire.displacement')
+        """
+        name = self._new_name(name, "joint")
+        axis = self._direction(f"axis of {name!r}", axis)
+        _check.instance("first", first, Body, "the body that the line belongs to")
+        self._turning(name, "the line of", first)
+        second = self._point("second", second)
+        first, second = self._different(name, self._body("first", first).point(at=second.drawn), second)
+        return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
+
+    def rolling(self, name: str, first: Body, second: Side, *, radius: float, at: Any = (0.0, 0.0), normal: Any = None) -> Rolling:
+        """Let a wheel roll on a line without slipping.
+
+        Parameters
+        ----------
+        name : str
+        first : Body
+            What the line belongs to.
+        second : Body or Point
+            The wheel, whose origin is its centre, or the point of the body that is.
+        radius : float
+            In m.
+        at : array_like (2,)
+            A place of the line in the drawing.
+        normal : array_like (2,), optional
+            Of the line in the drawing, towards the wheel; left out: against gravity, and where there is none, y.
+
+        Returns
+        -------
+        Rolling
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a normal of length zero, a radius that is not positive, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("wheel", gravity=(0, -9.81))
+        >>> wheel = m.body("wheel", *zm.inertia.disc(mass=1.0, radius=0.5), at=(0, 0.5))
+        >>> m.rolling("road", m.ground, wheel, radius=0.5).force
+        VectorMeasure('road.force')
+        """
+        name = self._new_name(name, "joint")
+        radius = _check.number(f"radius of {name!r}", radius, above=0)
+        if normal is None:
+            normal = -self.gravity if self.gravity.any() else (0.0, 1.0)
+        normal = self._direction(f"normal of {name!r}", normal)
+        _check.instance("first", first, Body, "the body that the line belongs to")
+        if isinstance(second, Body) and second.turns:
+            second = self._body("second", second).point((0.0, 0.0))
+        first, second = self._different(name, self._body("first", first).point(at=at), self._point("second", second))
+        self._turning(name, "rolling", first.body, second.body)
+        return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
+
+    def knife_edge(self, name: str, point: Side, *, along: Any) -> KnifeEdge:
+        """Let a point of a body move along one direction of the body only, as a skate does on ice.
+
+        Parameters
+        ----------
+        name : str
+        point : Point or Body
+            Of a body without a point, its centre of mass.
+        along : array_like (2,)
+            The direction in the drawing in which it glides; it turns with the body.
+
+        Returns
+        -------
+        KnifeEdge
+            Its first body is the ground.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a direction of length zero, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("sleigh")
+        >>> sleigh = m.body("sleigh", 1.0, 0.1)
+        >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
+        <knife_edge blade: ground - sleigh>
+        """
+        name = self._new_name(name, "joint")
+        along = self._direction(f"along of {name!r}", along)
+        point = self._point("point", point, center=True)
+        self._turning(name, "knife edge", point.body)
+        first, point = self._different(name, self.ground.point(at=point.drawn), point)
+        return self._add(KnifeEdge(name, first, point, axis=point.body.pose.local_direction(along)))
+
+
+def _flag(name: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
+    return value

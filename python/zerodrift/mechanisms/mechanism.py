@@ -1,0 +1,138 @@
+"""`Mechanism`: bodies and joints, from which systems are made."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..systems.base import Makes
+from .drawing import Drawing
+from .making_bodies import BodyVerbs
+from .making_couplings import CouplingVerbs
+from .making_forces import ForceVerbs
+from .making_joints import JointVerbs
+from .report import headline, report
+from .start import StartVerbs
+from .system import LAYOUTS, MechanismSystem
+
+
+class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
+    """A mechanism in the plane, from bodies and joints.
+
+    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Every function
+    that takes a system takes a mechanism, and there is no call that finishes it: what is added later counts from then on.
+
+    Parameters
+    ----------
+    name : str
+        For tables and plots.
+    dimension : int
+        2, the plane; mechanisms in space are not there yet.
+    gravity : array_like (2,), optional
+        In m/s^2, in the drawing's axes; left out: none.
+    parameters : dict of str to float, optional
+        Numbers of one's own, which callables and expressions may name.
+
+    Attributes
+    ----------
+    ground : Body
+        What does not move; its frame is the drawing's.
+    bodies, joints, motors : tuple
+        In the order in which they were added; ``m["name"]`` is any element.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For a wrong argument.
+
+    Examples
+    --------
+    The paper's four-bar, from a sketch:
+
+    >>> import numpy as np
+    >>> import zerodrift.mechanisms as zm
+    >>> bar = zm.Mechanism("four-bar", gravity=(0, -9.81))
+    >>> crank = bar.link("crank", (0, 0), (0, 0.3), mass=1.5)
+    >>> coupler = bar.link("coupler", (0, 0.3), (0.95, 0.6), mass=5.0, length=1.0)
+    >>> rocker = bar.link("rocker", (0.95, 0.6), (1, 0), mass=3.0, length=0.6)
+    >>> A, B = bar.revolute("A", bar.ground, crank.start), bar.revolute("B", crank.end, coupler.start)
+    >>> C, D = bar.revolute("C", coupler.end, rocker.start), bar.revolute("D", rocker.end, bar.ground.point((1, 0)))
+    >>> bar.start({crank.angle: np.pi / 2, crank.angular_velocity: 1.0})
+    """
+
+    def __init__(self, name: str, *, dimension: int = 2, gravity: Any = None, parameters: Mapping[str, float] | None = None) -> None:
+        if not isinstance(name, str) or not name:
+            raise TypeError(f"name must be a string that is not empty, not {_check.shown(name)}")
+        if dimension != 2:
+            raise ValueError(f"dimension must be 2, not {_check.shown(dimension)}: there are mechanisms in the plane, not yet in space")
+        self.name, self.dimension = name, 2
+        self.gravity = np.zeros(2) if gravity is None else _check.vector("gravity", gravity, 2)
+        super().__init__(parameters)
+
+    def system(self, coordinates: str | None = None) -> MechanismSystem:
+        """The equations of the mechanism as it is now; what is added later does not change them.
+
+        Parameters
+        ----------
+        coordinates : {None, "joint", "absolute"}
+            "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints. "absolute":
+            three coordinates a body, and all joints are constraints. None: "joint", the cheaper one.
+
+        Returns
+        -------
+        MechanismSystem
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> m.system("absolute")
+        <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
+        """
+        layout = LAYOUTS[0] if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
+        return MechanismSystem(self._drawing(), layout, {})
+
+    def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:
+        """The system of this mechanism with some numbers changed, assembled anew.
+
+        Parameters
+        ----------
+        changes : dict of path to float
+            Such as ``{"crank.mass": 2.0}``. What follows from a number, as a link's inertia does from its length, changes with it,
+            unless it was given.
+        **changed
+            The mechanism's own parameters by name.
+
+        Returns
+        -------
+        MechanismSystem
+
+        Raises
+        ------
+        ValueError, TypeError
+            If there is no such number, or the value is none that it can have.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> m.with_parameters({"link.length": 2.0}).parameters["link.length"]
+        2.0
+        """
+        return self.system().with_parameters(changes, **changed)
+
+    def __repr__(self) -> str:
+        return headline(self._drawing())
+
+    def __str__(self) -> str:
+        return report(self._drawing())
+
+    def _drawing(self) -> Drawing:
+        return Drawing(self.name, self.gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished))

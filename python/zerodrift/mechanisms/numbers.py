@@ -1,0 +1,27 @@
+"""The numbers of a mechanism by path, ``"crank.mass"``: as they were given, or as `with_parameters` changed them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+
+class Numbers:
+    """Looks a number up by its path, and falls back on what was given."""
+
+    def __init__(self, changed: Mapping[str, Any] | None = None) -> None:
+        self.changed = dict(changed or {})
+
+    def __call__(self, element: Any, quantity: str, given: float) -> float:
+        return self.changed.get(f"{element.name}.{quantity}", given)
+
+    def vector(self, name: str | None, quantity: str, given: np.ndarray) -> np.ndarray:
+        """A vector (2,), whose components have paths of their own, ``"gas.along.x"``."""
+        if not self.changed:
+            return given
+        return np.array([self.changed.get(f"{name}.{quantity}.{axis}", value) for axis, value in zip("xy", given, strict=True)])
+
+
+AS_GIVEN = Numbers()

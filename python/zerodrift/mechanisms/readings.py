@@ -1,0 +1,54 @@
+"""What a measure of positions or velocities reads: which element, which of its quantities, and whether its rate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from .bodies import Body, Link, Point
+from .forces import Spring
+from .joints import Joint
+
+RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
+
+
+class Reading(NamedTuple):
+    """A reading of a position, or its rate: `gauges` are the names of those that it reads, one for each component."""
+
+    gauges: tuple[str, ...]
+    is_rate: bool
+
+
+def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
+    """What a measure reads; None where it is no measure of positions or velocities, or where there is no such."""
+    owner, *rest = name.split(".")
+    element = elements.get(owner)
+    if isinstance(element, Link) and rest and rest[0] in ("start", "end"):
+        element, owner, rest = getattr(element, rest[0]), f"{owner}.{rest[0]}", rest[1:]
+    if element is None or not rest:
+        return None
+    quantity, *component = rest
+    base = element.coordinate if quantity == "speed" and isinstance(element, Joint) else RATES.get(quantity, quantity)
+    if base not in quantities(element):
+        return None
+    if base == "position":
+        axes = component or ["x", "y"]
+        return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
+            len(component) <= 1) else None
+    return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def quantities(element: Any) -> tuple[str, ...]:
+    """The positions that can be read of an element; all but lengths of springs have rates, too."""
+    if isinstance(element, Body):
+        return ("position", "angle") if element.turns else ("position",)
+    if isinstance(element, Point):
+        return ("position",)
+    if isinstance(element, Joint):
+        return (element.coordinate,) if has_coordinate(element) else ()
+    return ("length",) if isinstance(element, Spring) else ()
+
+
+def has_coordinate(joint: Joint) -> bool:
+    """Whether a joint has a coordinate to be read; a hinge of a particle has none."""
+    return joint.coordinate is not None and (joint.coordinate != "angle" or all(body.turns for body in joint.bodies))

@@ -1,0 +1,65 @@
+"""What `print(mechanism)` says."""
+
+from __future__ import annotations
+
+from ..errors import ZerodriftError
+from .counting import Count, count
+from .drawing import Drawing
+from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .joints import Joint, KnifeEdge
+from .numbers import AS_GIVEN
+from .tables import Tables
+
+
+def headline(drawing: Drawing) -> str:
+    """One line: what there is."""
+    bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
+    forces = [_several(len(drawing.of(kind)), word) for kind, word in (
+        (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
+        (Motor, "motor")) if drawing.of(kind)]
+    gravity = f"gravity ({drawing.gravity[0]:g}, {drawing.gravity[1]:g})" if drawing.gravity.any() else "no gravity"
+    said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
+    return f"<Mechanism {drawing.name}: plane, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
+
+
+def report(drawing: Drawing) -> str:
+    """What there is, what is free, what follows from what, what is driven, and which coordinates a simulation takes."""
+    if not drawing.parts():
+        return f"{headline(drawing)}\n nothing moves yet"
+    try:
+        counted = count(drawing)
+    except (ZerodriftError, ValueError) as error:
+        return f"{headline(drawing)}\n it cannot start: {error}"
+    lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
+    if counted.undetermined:
+        lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
+    if counted.singular:
+        lines.append(f" a singular pose: {', '.join(counted.singular)} follows from others as drawn, and not nearby; "
+                     "assemble(..., nudge=True) starts nearby")
+    driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
+    if driven:
+        lines.append(f" driven: {', '.join(driven)}")
+    lines.append(" a simulation takes joint coordinates, of which there are fewer")
+    return "\n".join(lines)
+
+
+def _freedom(drawing: Drawing, counted: Count) -> str:
+    """Freedom and coordinates of both kinds."""
+    tables = Tables(drawing, AS_GIVEN, in_tree=True)
+    core = tables.core()
+    carriers = {joint for joint in tables.carrier if joint >= 0}
+    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not isinstance(joint, KnifeEdge)]
+    closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {', '.join(cuts)}" if cuts else "")
+    return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); joint coordinates {core.nv}{closing}; "
+            f"absolute {counted.velocities}, {_several(counted.rows, 'row')}")
+
+
+def _rows(counted: Count) -> str:
+    if not counted.redundant:
+        return "no redundant rows"
+    follow = "follows" if len(counted.redundant) == 1 else "follow"
+    return f"{len(counted.redundant)} of {_several(counted.rows, 'row')} {follow} from others: {', '.join(counted.redundant)}"
+
+
+def _several(number: int, word: str, plural: str = "") -> str:
+    return f"{number} {word if number == 1 else plural or word + 's'}"

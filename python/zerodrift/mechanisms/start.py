@@ -1,0 +1,73 @@
+"""What a start holds and wishes: values of measures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .elements import Elements
+from .measures import name_of
+
+
+class StartVerbs(Elements):
+    """The verb that says where a mechanism starts."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__(parameters)
+        self._held: dict[str, Any] = {}
+        self._wished: dict[str, Any] = {}
+
+    def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None) -> None:
+        """Say where and how fast the motion starts; what is not said starts as drawn and at rest, and moves as little as possible.
+
+        Parameters
+        ----------
+        held : dict of measure to value
+            What is met: positions and velocities by object or by name, components or vectors. Later calls add and replace; None
+            as a value takes back.
+        wish : dict of measure to value
+            What is met as nearly as possible after that.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If nothing has such a measure, a value is no number or vector, or a motor prescribes it.
+
+        Examples
+        --------
+        >>> import zerodrift.mechanisms as zm
+        >>> m = zm.Mechanism("pendulum")
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
+        """
+        for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
+            for name, value in targets(given, what).items():
+                self._check_start(name)
+                kept.pop(name, None) if value is None else kept.update({name: value})
+
+    def _check_start(self, name: str) -> None:
+        """Refuses what is not there, and what a motor prescribes."""
+        self._check_measured("start", name)
+        for motor in self.motors:
+            taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"), "speed": ("speed",)}.get(motor.drives, ())
+            if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
+                raise ValueError(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
+
+
+def targets(given: Any, what: str) -> dict[str, Any]:
+    """Measures and their values, checked: names to numbers, vectors or None."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+    read = {}
+    for measure, value in given.items():
+        name = name_of(measure, f"a key of {what}")
+        if value is not None:
+            value = _check.vector(f"{what}[{name!r}]", value, 2) if np.ndim(value) else _check.number(f"{what}[{name!r}]", value)
+        read[name] = value
+    return read

@@ -1,0 +1,158 @@
+"""Where a mechanism starts: its drawing, what is held and wished, and its drives, assembled."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _gateway
+from ..errors import CorrectionFailed, SingularSystem
+from .assembly import Assembly, Target
+from .drawing import Drawing
+from .forces import Motor
+from .numbers import Numbers
+from .plane import turned
+from .readings import Reading, reading
+from .tables import JOINTS, Tables
+from .tree import loop
+
+MASSLESS = 1e-13        # of the largest: how little a motion may weigh
+
+
+class Starting:
+    """The start of a mechanism, in poses of mass centres."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.drawing, self.numbers = drawing, numbers
+        self.has_speeds = any(_is_constant_speed(motor) for motor in drawing.of(Motor))
+        self._check_held()
+
+    def _check_held(self) -> None:
+        for what, given in (("start", self.drawing.held), ("wish", self.drawing.wished)):
+            for name, value in given.items():
+                read = reading(name, self.drawing.elements)
+                if read is None:
+                    raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities")
+                if len(read.gauges) != np.size(value):
+                    raise ValueError(f"{what}[{name!r}] must have {len(read.gauges)} components, not {np.size(value)}")
+
+    @functools.cached_property
+    def drives(self) -> dict[str, float]:
+        """Where the coordinates that drives of constant speed prescribe are at t = 0."""
+        if not self.has_speeds:
+            return {}
+        tables = self._tables({})
+        assembly = self._assembly(tables, 0.0, skip_speeds=True)
+        p = self._positions(tables, assembly)
+        names = [f"{motor.joint.name}.{motor.joint.coordinate}" for motor in self.drawing.of(Motor) if _is_constant_speed(motor)]
+        index = {row.name: i for i, row in enumerate(assembly.core.measures)}
+        zero = np.zeros(assembly.core.nv)
+        return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
+
+    def assembled(self, t: float) -> tuple[Assembly, np.ndarray]:
+        """The assembly at a time, and the positions that it found."""
+        tables = self._tables(self.drives)
+        assembly = self._assembly(tables, t)
+        p = self._positions(tables, assembly)
+        self._check_mass(tables, assembly, p)
+        return assembly, p
+
+    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (bodies, 3) of the mass centres at a time, and their rates."""
+        assembly, p = self.assembled(t)
+        held, wished = (self._targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
+        return assembly.core.poses(p, assembly.velocities(p, held, wished))
+
+    def _tables(self, starts: Mapping[str, float]) -> Tables:
+        return Tables(self.drawing, self.numbers, in_tree=False, starts=starts)
+
+    def _assembly(self, tables: Tables, t: float, *, skip_speeds: bool = False) -> Assembly:
+        core = tables.core()
+        names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
+        speeds = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if skip_speeds else set()
+        left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in speeds]
+        return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t)
+
+    def drawn(self, tables: Tables) -> np.ndarray:
+        """Poses (bodies, 3) of the mass centres as drawn."""
+        poses = [(*(body.pose.origin + turned(body.pose.angle, tables.inertias.of[body.name][2])), body.pose.angle)
+                 for body in tables.parts]
+        return np.array(poses, dtype=float).reshape(-1, 3)
+
+    def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
+        p, _ = assembly.core.state(self.drawn(tables))
+        held, wished = (self._targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
+        try:
+            return assembly.positions(p, held, wished)
+        except CorrectionFailed:
+            raise CorrectionFailed(self._not_closed(assembly, p)) from None
+
+    def _targets(self, given: Mapping[str, Any], core: _gateway.MechanismCore, *, rates: bool) -> list[Target]:
+        """The components of what is held or wished, of positions or of velocities."""
+        index = {row.name: i for i, row in enumerate(core.measures)}
+        targets = []
+        for name, value in given.items():
+            read: Reading = reading(name, self.drawing.elements)
+            if read.is_rate != rates:
+                continue
+            base, _, axis = name.rpartition(".")
+            if name in index:
+                targets += [Target(name if np.ndim(value) == 0 else f"{name}.{'xy'[i]}", index[name], i, float(each))
+                            for i, each in enumerate(np.atleast_1d(value))]
+            else:
+                targets.append(Target(name, index[base], "xy".index(axis), float(value)))
+        return targets
+
+    # ---- what is wrong ----
+
+    def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
+        """Which loop does not close, and by how much, told in joint coordinates, where only the joints that close loops are open."""
+        tables = Tables(self.drawing, self.numbers, in_tree=True)
+        core = tables.core()
+        names = [tables.joints[row.index].name if row.owner == "joint" else "" for row in core.rows]
+        in_tree = Assembly(core, names, [i for i, name in enumerate(names) if not name], assembly.length, assembly.t)
+        p = in_tree.least_open(core.state(assembly.core.poses(p)[0])[0])
+        Phi = core.evaluate(assembly.t, p, np.zeros(core.nv))["Phi"]
+        open_by: dict[int, float] = {}
+        for row, value in zip(core.rows, Phi, strict=False):
+            if row.owner == "joint" and JOINTS[tables.joints[row.index].kind].rows[row.component].gauge != "angle":
+                open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
+        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+        joint = max(open_by, key=lambda each: open_by[each])
+        bodies, joints = loop(tables.carrier, ends, joint)
+        parts = ["ground", *(body.name for body in tables.parts)]
+        return (f"the loop of {', '.join(parts[body] for body in bodies)}, through {', '.join(tables.joints[i].name for i in sorted(joints))}, "
+                f"cannot close: it stays open by {open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw "
+                "it nearer to how it closes")
+
+    def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
+        """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
+        if all(mass > 0 and (inertia > 0 or not body.turns) for body in tables.parts
+               for mass, inertia, _ in [tables.inertias.of[body.name]]):
+            return
+        M, free = assembly.free_motions(p)
+        if not free.shape[1]:
+            return
+        weights, motions = np.linalg.eigh(free.T @ M @ free)
+        if weights[0] > MASSLESS * max(np.abs(M).max(), 1e-300):
+            return
+        motion = np.abs(free @ motions[:, 0])
+        moved = {assembly.core.coordinates[i].body for i in np.flatnonzero(motion > 1e-6 * motion.max())}
+        names = ", ".join(repr(tables.parts[body - 1].name) for body in sorted(moved))
+        raise SingularSystem(f"{names} can move without moving any mass: give it mass and inertia, or hold it by a joint")
+
+
+def size_of(drawing: Drawing, numbers: Numbers) -> float:
+    """How large a drawing is, in m: the longest side of the box around its points; 1 where there is nothing."""
+    points = [point for joint in drawing.elements.values() for point in (getattr(joint, "first", None), getattr(joint, "second", None))
+              if hasattr(point, "drawn_with")]
+    places = [point.drawn_with(numbers) for point in points] + [body.pose.origin for body in drawing.parts()]
+    size = float(np.ptp(places, axis=0).max()) if places else 0.0
+    return size or 1.0
+
+
+def _is_constant_speed(motor: Motor) -> bool:
+    return motor.drives == "speed" and motor.law.constant is not None

@@ -1,0 +1,157 @@
+"""The system of a mechanism: a snapshot, in joint or in absolute coordinates."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from .. import _check, _gateway
+from .._gateway import Variable
+from ..systems.base import BaseSystem
+from .drawing import Drawing
+from .numbers import Numbers
+from .outline import outline
+from .starting import Starting
+from .tables import JOINTS, Tables
+from .watching import Watching
+
+LAYOUTS = ("joint", "absolute")
+
+
+class MechanismSystem(BaseSystem):
+    """The equations of a mechanism as it was when this was made; `Mechanism.system` makes it.
+
+    It does not change any more, can be pickled unless a callable cannot, and knows all names of the mechanism.
+
+    Attributes
+    ----------
+    layout : str
+        "joint": coordinates are absolute angles and displacements along the tree of joints, and only joints that close loops are
+        constraints. "absolute": position of the mass centre and angle of each body, and all joints are constraints.
+    parameters : dict
+        Every number by its path, such as ``"crank.mass"``, and the mechanism's own parameters.
+    measures : tuple of str
+        What ``sol[...]`` knows.
+    """
+
+    def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float]) -> None:
+        self._drawing, self.layout, self._changed, self.name = drawing, layout, changed, drawing.name
+        self._numbers = Numbers(changed)
+        self.parameters = drawing.numbers(self._numbers) | changed
+        self._start = Starting(drawing, self._numbers)
+        tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
+        self._first_core = tables.core()
+        self.measures = tuple(row.name for row in tables.observed)
+        self.coordinates, self.velocities = _variables(tables, self._first_core)
+        self.constraints = row_names(tables, self._first_core)
+        self._watching = Watching(self.measures, self._first_core)
+
+    @functools.cached_property
+    def _core(self) -> _gateway.MechanismCore:
+        if not self._start.has_speeds:
+            return self._first_core
+        return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives).core()
+
+    @functools.cached_property
+    def p0(self) -> np.ndarray:
+        """Where `simulate` starts, at t = 0."""
+        return self.start_at(0.0)[0]
+
+    @functools.cached_property
+    def v0(self) -> np.ndarray:
+        """The velocities there."""
+        return self.start_at(0.0)[1]
+
+    @functools.lru_cache(maxsize=4)     # noqa: B019 - a system lives as long as its start is asked for
+    def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """The assembled start (p, v) at a time: what is held, drives, and the rest as near to the drawing as can be."""
+        poses, rates = self._start.at(t)
+        p, v = self._core.state(poses, rates)
+        return _check.frozen(p), _check.frozen(v)
+
+    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0", t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        if p is None and v is None:
+            return self.start_at(t)
+        return super()._state_or_start(p, v, p_name, v_name)
+
+    def _with(self, changed: dict[str, Any]) -> MechanismSystem:
+        numbers = {name: _checked(name, value) for name, value in changed.items()}
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return MechanismSystem, (self._drawing, self.layout, self._changed)
+
+    def __repr__(self) -> str:
+        return (f"<system of {self.name}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} nonholonomic "
+                f"constraints>")
+
+    def points(self, p: Any) -> np.ndarray | None:
+        """The drawing at p: points (n, 2) in m, joined by lines where not NaN."""
+        poses, _ = self._core.poses(_check.vector("p", p, self.nq))
+        return outline(self._drawing, self._numbers, poses)
+
+    # ---- measures ----
+
+    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
+        """A measure at every row of a solution; None where nothing is measured by that name."""
+        return self._watching.values(getattr(name, "name", name), self._core, solution)
+
+    def _unique(self, name: Any, solution: Any) -> Any:
+        """Which components of a measure are the same whatever admissible multipliers there are."""
+        return self._watching.unique(getattr(name, "name", name), self._core, solution)
+
+    def _measure_at(self, name: str, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """A measure of positions or velocities at one state, (size,)."""
+        return self._watching.at(name, self._core, t, p, v)
+
+    def _names_of_measures(self) -> list[str]:
+        return list(self.measures)
+
+
+def _variables(tables: Tables, core: _gateway.MechanismCore) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
+    """Coordinates and velocities: the names of what they measure."""
+    coordinates, velocities = [], []
+    for coordinate in core.coordinates:
+        body = tables.parts[coordinate.body - 1]
+        if coordinate.kind == "displacement":
+            joint = tables.joints[tables.carrier[coordinate.body - 1]]
+            coordinates.append(Variable(f"{joint.name}.displacement", "m"))
+            velocities.append(Variable(f"{joint.name}.speed", "m/s"))
+        elif coordinate.kind == "angle":
+            coordinates.append(Variable(f"{body.name}.angle", "rad"))
+            velocities.append(Variable(f"{body.name}.angular_velocity", "rad/s"))
+        else:
+            coordinates.append(Variable(f"{body.name}.{coordinate.kind}", "m"))
+            velocities.append(Variable(f"{body.name}.{coordinate.kind}_dot", "m/s"))
+    return tuple(coordinates), tuple(velocities)
+
+
+def row_names(tables: Tables, core: _gateway.MechanismCore) -> tuple[Variable, ...]:
+    """What each row of C is: of a joint, which of its gauges; of a drive or coupling, its name."""
+    named = []
+    for row in core.rows:
+        if row.owner == "relation":
+            named.append(Variable(tables.relation_names[row.index], ""))
+            continue
+        joint = tables.joints[row.index]
+        rows = JOINTS[joint.kind].rows
+        gauge = rows[row.component].gauge
+        unit = "rad" if gauge == "angle" else "m"
+        named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{gauge}", unit))
+    return tuple(named)
+
+
+RULES = {"mass": 0, "inertia": 0, "stiffness": 0, "damping": 0, "torsion": 0, "torsion_damping": 0}
+
+
+def _checked(path: str, value: Any) -> float:
+    """A new value for a number, as its verb would have checked it."""
+    name = f"parameter {path!r}"
+    quantity = path.split(".")[1] if "." in path else ""
+    if quantity in RULES:
+        return _check.number(name, value, least=0)
+    if quantity in ("length", "radius"):
+        return _check.number(name, value, above=0)
+    return _check.number(name, value)

@@ -1,0 +1,282 @@
+"""From a drawing to the tables of numbers that the core makes a system from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import _gateway
+from .._gateway import mechanisms as rows
+from .._gateway.mechanisms import Gauge, Observed
+from . import law_rows
+from .bodies import Body, Particle, Point
+from .drawing import Drawing, Inertias
+from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .joints import Coupling, Joint, KnifeEdge, Rod, Rolling
+from .numbers import Numbers
+from .readings import has_coordinate, reading
+from .tree import Edge, carriers
+
+JOINTS, ELEMENTS = _gateway.joint_kinds(), _gateway.element_kinds()
+UNITS = {"position": ("m", "m/s"), "angle": ("rad", "rad/s"), "displacement": ("m", "m/s"), "length": ("m", "m/s")}
+RATES = {"position": "velocity", "angle": "angular_velocity"}
+
+
+class Tables:
+    """The tables of a mechanism, built up element by element.
+
+    Attributes
+    ----------
+    joints : list of Joint
+        In the order of the core's table.
+    carrier : list of int
+        The joint that carries each part; -1: it is free.
+    relation_names : list of str
+        What each relation belongs to.
+    """
+
+    def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
+        self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
+        self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
+        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), Inertias(drawing, numbers)
+        self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
+        self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
+        self.gauges: list[Gauge] = []
+        self.gauge_number: dict[str, int] = {}
+        self.relations: list[rows.Relation] = []
+        self.relation_names: list[str] = []
+        self.efforts: list[rows.Effort] = []
+        self.effort_of: dict[str, int] = {}
+        self.observed: list[Observed] = []
+        self.laws = law_rows.Laws()
+        self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
+        self._read_positions()
+        self._read_joints()
+        for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (TorsionSpring, self._torsion_spring),
+                          (Bushing, self._bushing), (Force, self._force), (Torque, self._torque)):
+            for element in drawing.of(kind):
+                add(element)
+
+    def core(self) -> _gateway.MechanismCore:
+        """The core's system."""
+        bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
+                  for body, carrier in zip(self.parts, self.carrier, strict=True)]
+        tables = rows.Tables(bodies, [self._joint(joint) for joint in self.joints], self.gauges, self.relations, self.efforts,
+                                 self.observed, self._gravity())
+        return _gateway.MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+
+    def _gravity(self) -> tuple[float, float]:
+        return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value)) for axis, value in zip("xy", self.drawing.gravity,
+                                                                                                     strict=True))
+
+    # ---- bodies and joints ----
+
+    def _tree(self) -> list[int]:
+        """The joint that carries each part."""
+        edges = [Edge(i, *(self.number[body.name] for body in joint.bodies), _freedoms(joint))
+                 for i, joint in enumerate(self.joints) if JOINTS[joint.kind].carrier and not joint.cut]
+        weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
+        return carriers(len(self.parts), edges, weights)
+
+    def _place(self, point: Point) -> tuple[int, tuple[float, float]]:
+        return self.number[point.body.name], self.inertias.local(point, self.numbers)
+
+    def _joint(self, joint: Joint) -> rows.Joint:
+        """A row of the table of joints."""
+        kind = JOINTS[joint.kind]
+        (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
+        if isinstance(joint, KnifeEdge):
+            return rows.Joint(kind.number, second, second, point2, point2, _pair(joint.axis))
+        if isinstance(joint, Rolling):
+            line = np.array([joint.normal[1], -joint.normal[0]])
+            apart = joint.second.drawn_with(self.numbers) - joint.first.drawn_with(self.numbers)
+            along = float(apart @ joint.first.body.pose.direction(line))
+            return rows.Joint(kind.number, first, second, point1, point2, _pair(line), along, 0.0, joint.angle_as_drawn(),
+                                  self.numbers(joint, "radius", joint.radius))
+        axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
+        along = joint.offset_as_drawn(self.numbers) if joint.axis is not None else 0.0
+        length = joint.length_with(self.numbers) if isinstance(joint, Rod) else 0.0
+        return rows.Joint(kind.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(), length)
+
+    # ---- measures ----
+
+    def _gauge(self, name: str, gauge: Gauge) -> int:
+        self.gauge_number[name] = len(self.gauges)
+        self.gauges.append(gauge)
+        return self.gauge_number[name]
+
+    def _observe(self, name: str, quantity: str, rate: str, gauge: int, size: int) -> None:
+        """Adds a measure of positions, and its rate."""
+        units = UNITS[quantity]
+        self.observed.append(Observed(f"{name}.{quantity}", units[0], "values", gauge, size))
+        self.observed.append(Observed(f"{name}.{rate}", units[1], "rates", gauge, size))
+
+    def _read_positions(self) -> None:
+        """Measures of bodies and named points."""
+        for body in self.drawing.of(Body):
+            if body is self.drawing.ground:
+                continue
+            carried = isinstance(body, Particle) and body.carrier
+            self._read_point(body.name, body.carrier if carried else Point(body, np.zeros(2)))
+            if body.turns:
+                gauge = self._gauge(f"{body.name}.angle", Gauge("angle", 0, self.number[body.name]))
+                self._observe(body.name, "angle", "angular_velocity", gauge, 1)
+            for point in (getattr(body, end, None) for end in ("start", "end")):
+                if point is not None:
+                    self._read_point(point.name, point)
+        for point in self.drawing.of(Point):
+            self._read_point(point.name, point)
+
+    def _read_point(self, name: str, point: Point) -> None:
+        body, local = self._place(point)
+        first = self._gauge(f"{name}.position.x", Gauge("x", 0, body, (0.0, 0.0), local))
+        self._gauge(f"{name}.position.y", Gauge("y", 0, body, (0.0, 0.0), local))
+        self._observe(name, "position", "velocity", first, 2)
+
+    def _read_joints(self) -> None:
+        """Measures of joints, and their damping."""
+        for i, joint in enumerate(self.joints):
+            kind, row = JOINTS[joint.kind], self._joint(joint)
+            self.observed.append(Observed(f"{joint.name}.force", "N", "joint force", i, 2))
+            if any(each.gauge == "angle" for each in kind.rows) or has_coordinate(joint) and kind.coordinate == "angle":
+                self.observed.append(Observed(f"{joint.name}.torque", "N m", "joint torque", i))
+            if kind.tension:
+                self.observed.append(Observed(f"{joint.name}.{kind.tension}", "N", "joint tension", i))
+            if has_coordinate(joint):
+                gauge = self._gauge(f"{joint.name}.{kind.coordinate}", Gauge(
+                    kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, getattr(row, kind.zero) if kind.zero else 0.0))
+                self._observe(joint.name, kind.coordinate, "speed", gauge, 1)
+                damping = self.numbers(joint, "damping", joint.damping)
+                if damping:
+                    self.efforts.append(rows.Effort("spring", gauge, damping=damping, joint=i))
+
+    # ---- drives and couplings ----
+
+    def _inputs(self, names: Sequence[str], first: Sequence[int] = ()) -> tuple[list[int], list[tuple[int, bool]]]:
+        """The gauges that a law is handed, and which of them, or of their rates, each of its measures is."""
+        gauges, picks = list(first), []
+        for name in names:
+            read = reading(name, self.drawing.elements)
+            gauge = self.gauge_number[read.gauges[0]]
+            if gauge not in gauges:
+                gauges.append(gauge)
+            picks.append((gauges.index(gauge), read.is_rate))
+        return gauges, picks
+
+    def _relation(self, name: str, relation: rows.Relation) -> None:
+        self.relation_names.append(name)
+        self.relations.append(relation)
+
+    def _motor(self, motor: Motor) -> None:
+        joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.joint.coordinate}"
+        gauge, quantity = self.gauge_number[coordinate], "torque" if motor.joint.coordinate == "angle" else "force"
+        unit = {"torque": "N m", "force": "N"}[quantity]
+        if motor.prescribes:
+            index, words = len(self.relations), ("drive", "drive power")
+            self._relation(motor.name, self._drive(motor, coordinate, gauge, joint))
+        else:
+            index, words = len(self.efforts), ("effort", "effort power")
+            self._effort(motor.name, motor.drives, gauge, motor, joint)
+        self.observed.append(Observed(f"{motor.name}.{quantity}", unit, words[0], index))
+        self.observed.append(Observed(f"{motor.name}.power", "W", words[1], index))
+
+    def _drive(self, motor: Motor, coordinate: str, gauge: int, joint: int) -> rows.Relation:
+        """The row of a drive that prescribes a motion."""
+        law = motor.law
+        if law.constant is not None:
+            value = self.numbers(motor, motor.drives, law.constant)
+            constant, slope = (self.starts.get(coordinate, 0.0), value) if motor.drives == "speed" else (value, 0.0)
+            return rows.Relation([gauge], [1.0], constant, slope, joint=joint)
+        if motor.drives != "speed":
+            return rows.Relation([gauge], law=self.laws.add(law_rows.Motion(law, (), self.parameters)), joint=joint)
+        gauges, picks = self._inputs(law.measures, [gauge])
+        row = self.laws.add(law_rows.Speed(law, picks, self.parameters))
+        return rows.Relation(gauges, nonholonomic=True, law=row, joint=joint)
+
+    def _coupling(self, coupling: Coupling) -> None:
+        if coupling.law is None:
+            gauges = [self.gauge_number[name] for name in coupling.of]
+            ratio = self.numbers(coupling, "ratio", coupling.ratio)
+            self._relation(coupling.name, rows.Relation(gauges, [-ratio, 1.0]))
+            return
+        gauges, picks = self._inputs(coupling.of)
+        nonholonomic = coupling.kind == "nonholonomic"
+        row = (law_rows.Nonholonomic if nonholonomic else law_rows.Holonomic)(coupling.law, picks, self.parameters)
+        if nonholonomic:
+            row.check_linear(len(gauges))
+        self._relation(coupling.name, rows.Relation(gauges, nonholonomic=nonholonomic, law=self.laws.add(row)))
+
+    # ---- forces ----
+
+    def _effort(self, name: str, quantity: str, gauge: int, element: Any, joint: int = -1) -> None:
+        """An effort by a number or a law."""
+        self.effort_of[name] = len(self.efforts)
+        if element.law.constant is not None:
+            value = self.numbers(element, quantity, element.law.constant)
+            self.efforts.append(rows.Effort("constant", gauge, value=value, joint=joint))
+            return
+        gauges, picks = self._inputs(element.law.measures)
+        row = self.laws.add(law_rows.Effort(element.law, picks, self.parameters))
+        self.efforts.append(rows.Effort("law", gauge, law=row, inputs=gauges, joint=joint))
+
+    def _observe_effort(self, element: Any) -> None:
+        """Adds the scalar measure that the core's table gives an element."""
+        kind = ELEMENTS[element.kind]
+        if kind.effort:
+            unit = "N m" if kind.effort == "torque" else "N"
+            self.observed.append(Observed(f"{element.name}.{kind.effort}", unit, "effort", self.effort_of[element.name],
+                                          scale=float(kind.sign)))
+
+    def _spring(self, spring: Spring) -> None:
+        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        length = self._gauge(f"{spring.name}.length", Gauge("distance", first, second, point1, point2))
+        self.observed.append(Observed(f"{spring.name}.length", "m", "values", length))
+        gauge = self._gauge(spring.name, Gauge("distance", first, second, point1, point2, zero=spring.free_length_with(self.numbers)))
+        self._elastic(spring, gauge)
+
+    def _torsion_spring(self, spring: TorsionSpring) -> None:
+        first, second = (self.number[body.name] for body in spring.joint.bodies)
+        zero = spring.joint.angle_as_drawn() + self.numbers(spring, "angle", spring.angle)
+        self._elastic(spring, self._gauge(spring.name, Gauge("angle", first, second, zero=zero)))
+
+    def _elastic(self, spring: Spring | TorsionSpring, gauge: int) -> None:
+        self.effort_of[spring.name] = len(self.efforts)
+        self.efforts.append(rows.Effort("spring", gauge, self.numbers(spring, "stiffness", spring.stiffness),
+                                            self.numbers(spring, "damping", spring.damping)))
+        self._observe_effort(spring)
+
+    def _bushing(self, bushing: Bushing) -> None:
+        (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
+        frame = bushing.first.body.pose
+        apart = frame.local_direction(bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
+        zero = {"along": float(apart[0]), "across": float(apart[1]), "angle": bushing.second.body.pose.angle - frame.angle}
+        paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"), "angle": ("torsion", "torsion_damping")}
+        for word, (stiffness, damping) in paths.items():
+            gauge = self._gauge(f"{bushing.name} {word}", Gauge(word, first, second, point1, point2, zero=zero[word]))
+            self.efforts.append(rows.Effort("spring", gauge, self.numbers(bushing, stiffness, bushing.values[stiffness]),
+                                                self.numbers(bushing, damping, bushing.values[damping])))
+
+    def _force(self, force: Force) -> None:
+        body, local = self._place(force.point)
+        gauge = self._gauge(force.name, Gauge("glide", self.number[force.frame.name], body, (0.0, 0.0), local, _pair(force.along)))
+        self._effort(force.name, "value", gauge, force)
+        self._observe_effort(force)
+
+    def _torque(self, torque: Torque) -> None:
+        gauge = self._gauge(torque.name, Gauge("angle", self.number[torque.against.name], self.number[torque.body.name]))
+        self._effort(torque.name, "value", gauge, torque)
+        self._observe_effort(torque)
+
+
+def _freedoms(joint: Joint) -> tuple[int, int]:
+    """How many coordinates a joint needs to carry its first body, and to carry its second."""
+    kind = JOINTS[joint.kind]
+    if kind.carrier == "turns":
+        return tuple(int(body.turns) for body in joint.bodies)
+    return (0, 0) if kind.carrier == "fixed" else (1, 1)
+
+
+def _pair(vector: np.ndarray) -> tuple[float, float]:
+    return float(vector[0]), float(vector[1])

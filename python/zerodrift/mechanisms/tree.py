@@ -1,0 +1,76 @@
+"""The tree that carries the bodies of a mechanism in joint coordinates; the joints that are not in it close loops."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from typing import NamedTuple
+
+
+class Edge(NamedTuple):
+    """A joint that can carry one of its bodies: `freedoms` says how many coordinates it needs for the first, and for the second."""
+
+    joint: int
+    first: int
+    second: int
+    freedoms: tuple[int, int]
+
+
+def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, ...]]) -> list[int]:
+    """For each body, numbered from 1 on, the joint that carries it; -1: none, it is free.
+
+    From the ground, which is 0, the tree grows by the joint of fewest freedoms, and among these by the one that is nearest to the
+    ground: so loops are cut where there is most freedom, and branches are short. What the ground is not joined to gets a free root of
+    its own, the heaviest body, as `weights` says.
+    """
+    around: list[list[Edge]] = [[] for _ in range(bodies + 1)]
+    for edge in edges:
+        around[edge.first].append(edge)
+        around[edge.second].append(edge)
+    carrier, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), []
+    roots = [0, *sorted(range(1, bodies + 1), key=lambda body: weights[body - 1], reverse=True)]
+    for root in roots:
+        if not reached[root]:
+            reached[root] = True
+            _offer(frontier, around[root], root, 0)
+            _grow(frontier, around, carrier, reached)
+    return carrier[1:]
+
+
+def _grow(frontier: list, around: list[list[Edge]], carrier: list[int], reached: list[bool]) -> None:
+    """Takes all that can be reached from the frontier."""
+    while frontier:
+        _, depth, joint, outer = heapq.heappop(frontier)
+        if not reached[outer]:
+            reached[outer], carrier[outer] = True, joint
+            _offer(frontier, around[outer], outer, depth)
+
+
+def _offer(frontier: list, edges: list[Edge], inner: int, depth: int) -> None:
+    """Adds a body's joints to the frontier."""
+    for edge in edges:
+        side = 1 if edge.first == inner else 0
+        heapq.heappush(frontier, (edge.freedoms[side], depth + 1, edge.joint, edge.second if side else edge.first))
+
+
+def loop(carrier: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) -> tuple[list[int], list[int]]:
+    """The bodies and the joints of the loop that a joint closes: `ends` has the two bodies of every joint."""
+    first, second = (_way_down(carrier, ends, body) for body in ends[joint])
+    shared = {body for body, _ in first} & {body for body, _ in second}
+    bodies, joints = [], [joint]
+    for way, order in ((first, -1), (second, 1)):
+        part = [step for step in way if step[0] not in shared]
+        bodies = bodies + [body for body, _ in part] if order == 1 else [body for body, _ in part][::-1]
+        joints += [by for _, by in part if by >= 0]
+    meet = next(body for body, _ in first if body in shared)
+    return [meet, *bodies], joints
+
+
+def _way_down(carrier: Sequence[int], ends: Sequence[tuple[int, int]], body: int) -> list[tuple[int, int]]:
+    """The bodies from one down to its root, or to the ground behind it, each with the joint that carries it."""
+    way = []
+    while body:
+        joint = carrier[body - 1]
+        way.append((body, joint))
+        body = 0 if joint < 0 else sum(ends[joint]) - body
+    return [*way, (0, -1)]
