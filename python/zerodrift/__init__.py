@@ -9,7 +9,7 @@
 import importlib
 from typing import Any
 
-from . import systems
+from . import inertia, systems
 from .errors import (
     AccuracyWarning,
     Bifurcation,
@@ -32,6 +32,7 @@ from .errors import (
     UnsuitedIntegrator,
     ZerodriftError,
 )
+from .mechanisms.mechanism import Mechanism
 from .runs.operations import acceleration, assemble, project
 from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
 from .runs.simulate import simulate
@@ -42,10 +43,10 @@ from .systems.callables import System
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted", "Mechanism",
     "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble",
-    "check", "corrections", "formulations", "from_mechanics", "get_include", "integrators", "load", "models", "native",
+    "check", "corrections", "formulations", "from_mechanics", "get_include", "inertia", "integrators", "load", "models", "native",
     "numba_signature", "plot", "project", "reference", "simulate", "stability_map", "symbolic", "systems", "tune",
     "work_precision",
 ]

@@ -1,7 +1,7 @@
 """Assembly: from a sketch to positions in which all joints are closed, and velocities that they allow.
 
-The unknowns are absolute coordinates, of the mass centres, so that the start is the same whatever coordinates a simulation takes. Steps
-are least in the mass metric.
+The unknowns are absolute coordinates, of the mass centres, so that the start is the same whatever coordinates a simulation takes.
+Steps are least in the mass metric.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ CLOSED = 1e-12          # of a row in units of its size: what counts as closed
 ATTEMPTS = 200          # damped steps from a sketch
 TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
+NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
 RANK = 1e-9             # of the largest singular value: what counts as dependent
 
 
@@ -45,7 +46,8 @@ class Assembly:
         The size of the mechanism in m.
     """
 
-    def __init__(self, core: _gateway.MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float) -> None:
+    def __init__(self, core: _gateway.MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
+                 t: float) -> None:
         self.core, self.rows, self.length, self.t = core, rows, length, t
         self.kept = [row for row in range(core.mh) if row not in set(left_out)]
         self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
@@ -112,7 +114,15 @@ class Assembly:
         size = np.linalg.norm(rows, axis=1, keepdims=True)
         return rows / np.where(size > 1e-9 * self.length, size, self.length)
 
-    def nearby(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
+    def nudged(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
+        """Positions that are moved a little along a random free direction, without the rows left out, and assembled."""
+        free = _nullspace(np.delete(self.scaled_rows(p), sorted(left_out), axis=0))
+        if not free.shape[1]:
+            return p
+        direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
+        return self._nearby(p + NUDGE * direction / np.abs(direction).max() * self.scale, left_out)
+
+    def _nearby(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
         """The positions nearest to these in which all rows are met but those left out; these, where there are none."""
         kept = [i for i, row in enumerate(self.kept) if row not in left_out]
 
@@ -128,7 +138,7 @@ class Assembly:
         return self._least_squares(p, lambda p: self._residual(p, ()))[0]
 
     def free_motions(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The mass matrix (nv, nv), and a basis (nv, k) of the velocities that all rows leave free, both in scaled coordinates."""
+        """The mass matrix (nv, nv), and a basis (nv, k) of the velocities that all rows leave free, in scaled coordinates."""
         terms = self._evaluate(p)
         rows = terms["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
         return terms["M"] * np.outer(self.scale, self.scale), _nullspace(rows)
@@ -158,7 +168,7 @@ class Assembly:
 
     def _way(self, p: np.ndarray, held: Sequence[Target]) -> float:
         """How far drives, couplings and targets are from where they shall be, in rad or parts of the length."""
-        residual, rows = self._residual(p, held)
+        residual, _ = self._residual(p, held)
         residual[: len(self.kept)][self.is_joint] = 0.0
         return float(np.abs(residual).max(initial=0.0))
 
@@ -217,7 +227,7 @@ class Assembly:
         for _ in range(ATTEMPTS):
             residual, rows = self._residual(p, [*held, *wished])
             free = _nullspace(rows[:count])
-            step = free @ np.linalg.lstsq(rows[count:] @ free, -residual[count:], rcond=1e-6)[0]
+            step = free @ _least_along(rows[count:], free, -residual[count:])
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
             moved = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
             if moved is None:
@@ -243,7 +253,7 @@ class Assembly:
     # ---- velocities ----
 
     def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
-        """The least velocities in the mass metric with which all rows and held targets are met, and wished ones as nearly as possible."""
+        """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)
@@ -259,7 +269,7 @@ class Assembly:
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = _nullspace(rows / self.weight) / self.weight[:, None]
-            scaled = scaled + free @ np.linalg.lstsq(wish @ free, wanted - wish @ scaled, rcond=1e-9)[0]
+            scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
@@ -275,6 +285,13 @@ class Assembly:
         owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(m)]
         stacked = np.vstack(rows) if rows else np.zeros((0, self.core.nv))
         return stacked, np.concatenate([*right, []]), [*owners, *(target.name for target in held)]
+
+
+def _least_along(rows: np.ndarray, free: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """The least y with which rows @ free @ y is nearest to the right side; what moves the rows by rounding only is zero."""
+    u, s, vt = np.linalg.svd(rows @ free, full_matrices=False)
+    counts = s > RANK * np.linalg.norm(rows) * np.linalg.norm(free)
+    return vt[counts].T @ ((u.T @ right)[counts] / s[counts])
 
 
 def _nullspace(rows: np.ndarray) -> np.ndarray:

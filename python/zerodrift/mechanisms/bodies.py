@@ -113,7 +113,7 @@ class Body:
         ----------
         local : array_like (2,)
             Its coordinates in the body's frame, in m.
-        at : array_like (2,)
+        at : array_like (2,) or Point
             Instead: where it is in the drawing.
         name : str, optional
             For its measures, ``"name.position"`` and ``"name.velocity"``.
@@ -128,9 +128,8 @@ class Body:
             If there are no coordinates, or the name is taken.
         """
         if (local is None) == (at is None):
-            raise TypeError(f"a point of {self.name!r} needs one of two: its coordinates in the body's frame, or at=, its place in "
-                            "the drawing")
-        local = _check.vector("local", local, 2) if at is None else self.pose.local(_check.vector("at", at, 2))
+            raise TypeError(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
+        local = _check.vector("local", local, 2) if at is None else self.pose.local(place("at", at))
         return self.register(Point(self, local, name))
 
     def properties(self, numbers: Numbers) -> MassProperties:
@@ -244,6 +243,11 @@ class Particle(Body):
         raise AttributeError(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
 
     angular_velocity = angle
+
+
+def place(argument: str, value: Any) -> np.ndarray:
+    """A place in the drawing, (2,): coordinates, or where a point is drawn."""
+    return value.drawn if isinstance(value, Point) else _check.vector(argument, value, 2)
 
 
 def _as_it_is(point: Point) -> Point:

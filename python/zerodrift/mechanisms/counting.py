@@ -15,7 +15,6 @@ from .system import row_names
 from .tables import Tables
 
 DEPENDENT = 1e-9        # of a row's own size: what is left of a row that follows from others
-NUDGE = 1e-3            # how far a second pose is moved, in rad or parts of the length
 
 
 class Count(NamedTuple):
@@ -59,22 +58,12 @@ def count(drawing: Drawing) -> Count:
     rows = assembly.scaled_rows(p)
     names = [variable.name for variable in row_names(tables, assembly.core)]
     here = dependent(rows)
-    there = dependent(assembly.scaled_rows(nudged(assembly, p, _driven(drawing, assembly)))) if here else set()
+    there = dependent(assembly.scaled_rows(assembly.nudged(p, _driven(drawing, assembly)))) if here else set()
     redundant = here & there
     left = _left_null(rows) if redundant else np.zeros((len(rows), 0))
     undetermined = np.flatnonzero(np.abs(left).max(axis=1, initial=0.0) > 1e-6)
     return Count(assembly.core.nv, len(rows), len(rows) - len(redundant), _named(names, redundant), _named(names, undetermined),
                  _named(names, here - there))
-
-
-def nudged(assembly: Assembly, p: np.ndarray, driven: set[int], size: float = NUDGE) -> np.ndarray:
-    """Positions that are moved a little along a random free direction, drives let go, and assembled."""
-    rows = np.delete(assembly.scaled_rows(p), sorted(driven), axis=0)
-    free = _left_null(rows.T) if len(rows) else np.eye(assembly.core.nv)
-    if not free.shape[1]:
-        return p
-    direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
-    return assembly.nearby(p + size * direction / np.abs(direction).max() * assembly.scale, driven)
 
 
 def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:

@@ -29,6 +29,11 @@ class Drawing(NamedTuple):
         """What does not move."""
         return self.elements["ground"]
 
+    def joined_points(self) -> list[Point]:
+        """The points at which joints, springs and bushings hold bodies."""
+        sides = (getattr(element, side, None) for element in self.elements.values() for side in ("first", "second"))
+        return [point for point in sides if isinstance(point, Point)]
+
     def parts(self) -> list[Body]:
         """The bodies that move by themselves: all but the ground, and particles that belong to others."""
         return [body for body in self.of(Body) if body is not self.ground and not (isinstance(body, Particle) and body.carrier)]
@@ -63,7 +68,8 @@ class Inertias:
         return float(place[0]), float(place[1])
 
 
-def _together(mass: float, inertia: float, com: np.ndarray, others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
+def _together(mass: float, inertia: float, com: np.ndarray,
+              others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
     """Mass, moment of inertia and centre of a body with point masses on it."""
     if not others:
         return mass, inertia, com

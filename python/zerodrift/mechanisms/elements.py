@@ -9,10 +9,11 @@ import numpy as np
 
 from .. import _check
 from . import names
-from .bodies import Body, Ground, Particle, Point
+from .bodies import Body, Ground, Particle, Point, place
 from .forces import Motor
 from .joints import Joint
 from .laws import Law
+from .readings import reading
 
 
 class Elements:
@@ -72,12 +73,12 @@ class Elements:
         """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
         _check.instance(argument, value, Joint, "a joint")
         if self._elements.get(value.name) is not value:
-            raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
+            raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism")
         if value.coordinate not in coordinate:
             raise ValueError(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}")
         particle = next((body for body in value.bodies if not body.turns), None)
         if value.coordinate == "angle" and particle is not None:
-            raise ValueError(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no orientation, and so no angle")
+            raise ValueError(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no angle")
         return value
 
     def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
@@ -86,7 +87,7 @@ class Elements:
         if at is not None and not all(is_body):
             raise TypeError(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is")
         if at is not None:
-            at = _check.vector("at", at, 2)
+            at = place("at", at)
             sides = tuple(self._body(side, value).point(at=at) for side, value in (("first", first), ("second", second)))
         else:
             sides = self._given_sides(name, first, second, is_body)
@@ -94,7 +95,7 @@ class Elements:
 
     def _given_sides(self, name: str, first: Any, second: Any, is_body: list[bool]) -> tuple[Point, Point]:
         if all(is_body):
-            raise TypeError(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}, and needs at=, a place in the drawing; "
+            raise TypeError(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}: it needs at=, its place as drawn, "
                             "or a point of one of them")
         if is_body[0]:
             second = self._point("second", second)
@@ -121,10 +122,16 @@ class Elements:
             raise ValueError(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
         return vector / length
 
-    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None) -> Law:
+    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False) -> Law:
+        """A law whose measures there are."""
         law = Law(what, given, of=of, parameters=self.parameters)
         for measure in law.measures:
             self._check_measured(what, measure)
+            read = reading(measure, self._elements)
+            if read is None or len(read.gauges) != 1:
+                raise ValueError(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none")
+            if read.is_rate and positions:
+                raise ValueError(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity")
         return law
 
     def _check_measured(self, what: str, measure: str) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from .bodies import Body, Point
@@ -58,7 +56,8 @@ class Spring:
     force = scalar("force", "Its tension, the damper's included, positive where it pulls, in N.")
     length = scalar("length", "The distance of its ends, in m.")
 
-    def __init__(self, name: str, first: Point, second: Point, stiffness: float, free_length: float | None, damping: float) -> None:
+    def __init__(self, name: str, first: Point, second: Point, stiffness: float, free_length: float | None,
+                 damping: float) -> None:
         self.name, self.first, self.second = name, first, second
         self.stiffness, self.free_length, self.damping = stiffness, free_length, damping
 

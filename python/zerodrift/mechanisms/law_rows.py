@@ -67,9 +67,10 @@ class Nonholonomic(_Call):
     def at(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Jet:
         """The value of h, its gradient in the rates, and its derivative along the motion while the rates stay."""
         axes = np.eye(len(x))
-        at = [Jet(float(xdot[place]), axes[place], 0.0, 0.0) if is_rate else Jet(float(x[place]), 0.0 * axes[0], float(xdot[place]), 0.0)
+        still = 0.0 * axes[0]
+        at = [Jet(float(xdot[place]), axes[place], 0.0, 0.0) if is_rate else Jet(float(x[place]), still, float(xdot[place]), 0.0)
               for place, is_rate in self.picks]
-        return self.law.jet(Jet(t, 0.0 * axes[0], 1.0, 0.0), at, self.parameters)
+        return self.law.jet(Jet(t, still, 1.0, 0.0), at, self.parameters)
 
     def check_linear(self, size: int) -> None:
         """Refuses what is not linear in velocities, as far as two of them tell."""

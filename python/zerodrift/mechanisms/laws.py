@@ -51,7 +51,7 @@ class Law:
             elif name in bound:
                 self._bound[name] = bound[name]
             elif name != "t" and name not in parameters:
-                raise TypeError(f"{self.what} has the symbol {name}; there is {', '.join(['t', *parameters, *bound])}, and measures")
+                raise TypeError(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
             self._names.append(name)
 
     @functools.cached_property
@@ -96,7 +96,7 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
     if of is None:
         return {}
     if not isinstance(of, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in of):
-        raise TypeError(f"of= of {what} must be a dict of measures by the names under which it is handed them, not {_check.shown(of)}")
+        raise TypeError(f"of= of {what} must be a dict of measures by the names of its arguments, not {_check.shown(of)}")
     return of
 
 

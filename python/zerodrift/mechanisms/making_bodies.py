@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .bodies import Body, Link, Particle, Point
+from .bodies import Body, Link, Particle, Point, place
 from .elements import Elements
 from .plane import Pose
 
@@ -27,7 +27,7 @@ class BodyVerbs(Elements):
             In kg, at least 0.
         inertia : float
             About the centre of mass, in kg m^2, at least 0; `zerodrift.inertia` has it for plain shapes.
-        at : array_like (2,)
+        at : array_like (2,) or Point
             Where the origin of its frame is in the drawing, in m.
         angle : float
             Of its frame, from the drawing's x axis, counter-clockwise, in rad.
@@ -45,13 +45,13 @@ class BodyVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("wheel", gravity=(0, -9.81))
-        >>> m.body("wheel", *zm.inertia.disc(mass=2.0, radius=0.5), at=(0, 0.5))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("wheel", gravity=(0, -9.81))
+        >>> m.body("wheel", *zd.inertia.disc(mass=2.0, radius=0.5), at=(0, 0.5))
         <body wheel>
         """
         name = self._new_name(name, "body")
-        pose = Pose(_check.vector(f"at of {name!r}", at, 2), _check.number(f"angle of {name!r}", angle))
+        pose = Pose(place(f"at of {name!r}", at), _check.number(f"angle of {name!r}", angle))
         return self._add(Body(name, pose, _amount("mass", name, mass), _amount("inertia", name, inertia),
                               _check.vector(f"com of {name!r}", com, 2)))
 
@@ -63,7 +63,7 @@ class BodyVerbs(Elements):
         ----------
         name : str
             Letters, digits, blanks, ``_`` and ``-``.
-        start, end : array_like (2,)
+        start, end : array_like (2,) or Point
             In the drawing, in m. Its frame begins at the start, and its x axis goes to the end.
         mass : float
             In kg, at least 0.
@@ -83,14 +83,14 @@ class BodyVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
         >>> link = m.link("link", (0, 0), (0.3, -0.4), mass=2.0)
         >>> link.length
         0.5
         """
         name = self._new_name(name, "link")
-        start, end = _check.vector(f"start of {name!r}", start, 2), _check.vector(f"end of {name!r}", end, 2)
+        start, end = place(f"start of {name!r}", start), place(f"end of {name!r}", end)
         if not np.hypot(*(end - start)) > 0:
             raise ValueError(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}")
         if length is not None:
@@ -123,8 +123,8 @@ class BodyVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
         >>> m.particle("bob", 1.0, at=(0.6, -0.8))
         <particle bob>
         """
@@ -154,8 +154,8 @@ class BodyVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
         >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
         >>> m.point("P", link, (0.5, 0)).position
         VectorMeasure('P.position')

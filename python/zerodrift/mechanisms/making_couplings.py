@@ -33,8 +33,8 @@ class CouplingVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("gears")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("gears")
         >>> wheels = [m.body(f"wheel{i}", 1.0, 0.1, at=(i, 0)) for i in range(2)]
         >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
         >>> m.gear("mesh", *pins, ratio=-2.0)
@@ -59,8 +59,8 @@ class CouplingVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("steering")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("steering")
         >>> wheel, bar = m.body("wheel", 1.0, 0.1), m.body("bar", 2.0, 0.1)
         >>> pinion = m.revolute("pinion", m.ground, wheel.point((0, 0)))
         >>> rack = m.prismatic("rack", m.ground, bar, axis=(1, 0))
@@ -96,8 +96,8 @@ class CouplingVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("differential")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("differential")
         >>> wheels = [m.body(f"wheel{i}", 1.0, 0.1) for i in range(3)]
         >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
         >>> m.coupler("cage", {pins[0].angle: 1.0, pins[1].angle: 1.0, pins[2].angle: -2.0})
@@ -130,8 +130,8 @@ class CouplingVerbs(Elements):
         Examples
         --------
         >>> import numpy as np
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("valve")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("valve")
         >>> shaft, valve = m.body("shaft", 1.0, 0.1), m.body("valve", 0.1)
         >>> turn = m.revolute("turn", m.ground, shaft.point((0, 0)))
         >>> lift = m.prismatic("lift", m.ground, valve, axis=(0, 1))
@@ -172,8 +172,8 @@ class CouplingVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("bead")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bead")
         >>> bead = m.particle("bead", 0.1, at=(1, 1))
         >>> m.constraint("wire", lambda x, y: y - x**2, of={"x": bead.position.x, "y": bead.position.y})
         <constraint wire: bead.position.x, bead.position.y>
@@ -198,8 +198,8 @@ class CouplingVerbs(Elements):
         Examples
         --------
         >>> import numpy as np
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("sleigh")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("sleigh")
         >>> sleigh = m.body("sleigh", 1.0, 0.1)
         >>> m.nonholonomic("blade", lambda a, u, v: u * np.sin(a) - v * np.cos(a),
         ...                of={"a": sleigh.angle, "u": sleigh.velocity.x, "v": sleigh.velocity.y})
@@ -208,7 +208,7 @@ class CouplingVerbs(Elements):
         return self._by_law(self._new_name(name, "nonholonomic constraint"), "nonholonomic", value, of)
 
     def _by_law(self, name: str, kind: str, value: Any, of: Any) -> Coupling:
-        law = self._law(f"{kind} {name!r}", value, of)
+        law = self._law(f"{kind} {name!r}", value, of, positions=kind != "nonholonomic")
         if not law.measures:
             raise ValueError(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}")
         return self._add(Coupling(name, kind, law.measures, law=law))

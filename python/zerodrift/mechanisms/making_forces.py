@@ -20,8 +20,8 @@ DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("ang
 class ForceVerbs(Elements):
     """Drives, springs, forces. Callables name what they want: ``t``, parameters, and what ``of=`` binds to measures."""
 
-    def motor(self, name: str, joint: Joint, *, angle: Any = None, displacement: Any = None, speed: Any = None, torque: Any = None,
-              force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
+    def motor(self, name: str, joint: Joint, *, angle: Any = None, displacement: Any = None, speed: Any = None,
+              torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
         """Drive a joint.
 
         Parameters
@@ -52,8 +52,8 @@ class ForceVerbs(Elements):
         Examples
         --------
         >>> import numpy as np
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("crank")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("crank")
         >>> crank = m.link("crank", (0, 0), (1, 0), mass=1.0)
         >>> pin = m.revolute("pin", m.ground, crank.start)
         >>> m.motor("drive", pin, angle=lambda t: 0.5 * np.sin(3 * t))
@@ -66,13 +66,13 @@ class ForceVerbs(Elements):
             raise TypeError(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
         drives = words[0]
         joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
-        law = self._law(f"{drives} of motor {name!r}", given[drives], of)
+        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"))
         if drives in ("angle", "displacement") and law.measures:
-            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: constraint() couples measures")
+            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         motor = Motor(name, joint, drives, law)
         rival = next((other for other in self.motors if other.joint is joint and other.prescribes), None)
         if motor.prescribes and rival is not None:
-            raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe the motion of {joint.name!r}: one freedom takes one")
+            raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
         return self._add(motor)
 
     def spring(self, name: str, first: Point | Particle, second: Point | Particle, *, stiffness: Any, length: float | None = None,
@@ -96,8 +96,8 @@ class ForceVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("bungee")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bungee")
         >>> bob = m.particle("bob", 1.0, at=(0, -1))
         >>> m.spring("rope", m.ground.point((0, 0)), bob, stiffness=50.0).force
         Measure('rope.force')
@@ -106,9 +106,11 @@ class ForceVerbs(Elements):
         first, second = self._different(name, self._point("first", first), self._point("second", second))
         if length is not None:
             length = _check.number(f"length of {name!r}", length, least=0)
-        return self._add(Spring(name, first, second, _least("stiffness", name, stiffness), length, _least("damping", name, damping)))
+        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
+        return self._add(Spring(name, first, second, stiffness, length, damping))
 
-    def torsion_spring(self, name: str, joint: Joint, *, stiffness: float, angle: float = 0.0, damping: float = 0.0) -> TorsionSpring:
+    def torsion_spring(self, name: str, joint: Joint, *, stiffness: float, angle: float = 0.0,
+                       damping: float = 0.0) -> TorsionSpring:
         """Put a spring with a damper about a hinge.
 
         Parameters
@@ -129,8 +131,8 @@ class ForceVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("door")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("door")
         >>> door = m.link("door", (0, 0), (1, 0), mass=1.0)
         >>> hinge = m.revolute("hinge", m.ground, door.start)
         >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
@@ -138,8 +140,8 @@ class ForceVerbs(Elements):
         """
         name = self._new_name(name, "torsion spring")
         joint = self._joint(f"joint of {name!r}", joint, ("angle",))
-        return self._add(TorsionSpring(name, joint, _least("stiffness", name, stiffness), _check.number(f"angle of {name!r}", angle),
-                                       _least("damping", name, damping)))
+        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
+        return self._add(TorsionSpring(name, joint, stiffness, _check.number(f"angle of {name!r}", angle), damping))
 
     def bushing(self, name: str, first: Body | Point, second: Body | Point, *, at: Any = None, stiffness: Any = (0.0, 0.0),
                 damping: Any = (0.0, 0.0), torsion: float = 0.0, torsion_damping: float = 0.0) -> Bushing:
@@ -163,8 +165,8 @@ class ForceVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("mount")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("mount")
         >>> engine = m.body("engine", 50.0, 2.0)
         >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
         <bushing mount: ground - engine>
@@ -174,7 +176,8 @@ class ForceVerbs(Elements):
         self._turning(name, "bushing", first.body, second.body)
         along, across = _pair("stiffness", name, stiffness), _pair("damping", name, damping)
         values = {"stiffness.x": along[0], "stiffness.y": along[1], "damping.x": across[0], "damping.y": across[1],
-                  "torsion": _least("torsion", name, torsion), "torsion_damping": _least("torsion_damping", name, torsion_damping)}
+                  "torsion": _least("torsion", name, torsion),
+                  "torsion_damping": _least("torsion_damping", name, torsion_damping)}
         return self._add(Bushing(name, first, second, values))
 
     def force(self, name: str, point: Point | Body, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
@@ -206,8 +209,8 @@ class ForceVerbs(Elements):
         Examples
         --------
         >>> import numpy as np
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("rocket")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("rocket")
         >>> rocket = m.body("rocket", 1.0, 0.1)
         >>> m.force("thrust", rocket, along=(0, 1), value=lambda t: 20.0 * np.exp(-t), frame=rocket)
         <force thrust at rocket>
@@ -219,9 +222,11 @@ class ForceVerbs(Elements):
         self._turning(name, "the frame of", frame)
         if point.body is self.ground:
             raise ValueError(f"force {name!r} acts on the ground, which does not move: point must be of another body")
-        return self._add(Force(name, point, frame.pose.local_direction(along), frame, self._law(f"value of force {name!r}", value, of)))
+        law = self._law(f"value of force {name!r}", value, of)
+        return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
-    def torque(self, name: str, body: Body, *, value: Any, of: Mapping[str, Any] | None = None, against: Body | None = None) -> Torque:
+    def torque(self, name: str, body: Body, *, value: Any, of: Mapping[str, Any] | None = None,
+               against: Body | None = None) -> Torque:
         """Let a moment act on a body.
 
         Parameters
@@ -241,8 +246,8 @@ class ForceVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("fan")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("fan")
         >>> fan = m.body("fan", 1.0, 0.1)
         >>> m.torque("air", fan, value=lambda w: -0.01 * w * abs(w), of={"w": fan.angular_velocity})
         <torque air on fan>

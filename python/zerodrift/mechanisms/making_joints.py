@@ -15,13 +15,14 @@ Side = Body | Point
 class JointVerbs(Elements):
     """Joints between bodies.
 
-    Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that lies
-    there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing.
+    Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
+    lies there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing.
     """
 
     gravity: Any
 
-    def revolute(self, name: str, first: Side, second: Side, *, at: Any = None, damping: float = 0.0, cut: bool = False) -> Revolute:
+    def revolute(self, name: str, first: Side, second: Side, *, at: Any = None, damping: float = 0.0,
+                 cut: bool = False) -> Revolute:
         """Join two bodies by a hinge.
 
         Parameters
@@ -47,8 +48,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
         >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
         >>> m.revolute("A", m.ground, link.start)
         <revolute A: ground - link>
@@ -89,8 +90,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("drawer")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("drawer")
         >>> drawer = m.body("drawer", 2.0)
         >>> m.prismatic("rail", m.ground, drawer, axis=(1, 0)).displacement
         Measure('rail.displacement')
@@ -126,8 +127,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("bracket")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bracket")
         >>> arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
         >>> m.weld("wall", m.ground, arm.start).torque
         Measure('wall.torque')
@@ -158,8 +159,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
         >>> bob = m.particle("bob", 1.0, at=(0.6, -0.8))
         >>> m.rod("rod", m.ground.point((0, 0)), bob).tension
         Measure('rod.tension')
@@ -196,8 +197,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("bead")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bead")
         >>> bead = m.particle("bead", 0.1, at=(0, 0))
         >>> m.slot("wire", m.ground, bead, axis=(1, -1)).displacement
         Measure('wire.displacement')
@@ -210,7 +211,8 @@ class JointVerbs(Elements):
         first, second = self._different(name, self._body("first", first).point(at=second.drawn), second)
         return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
-    def rolling(self, name: str, first: Body, second: Side, *, radius: float, at: Any = (0.0, 0.0), normal: Any = None) -> Rolling:
+    def rolling(self, name: str, first: Body, second: Side, *, radius: float, at: Any = (0.0, 0.0),
+                normal: Any = None) -> Rolling:
         """Let a wheel roll on a line without slipping.
 
         Parameters
@@ -238,9 +240,9 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("wheel", gravity=(0, -9.81))
-        >>> wheel = m.body("wheel", *zm.inertia.disc(mass=1.0, radius=0.5), at=(0, 0.5))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("wheel", gravity=(0, -9.81))
+        >>> wheel = m.body("wheel", *zd.inertia.disc(mass=1.0, radius=0.5), at=(0, 0.5))
         >>> m.rolling("road", m.ground, wheel, radius=0.5).force
         VectorMeasure('road.force')
         """
@@ -279,8 +281,8 @@ class JointVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("sleigh")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("sleigh")
         >>> sleigh = m.body("sleigh", 1.0, 0.1)
         >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
         <knife_edge blade: ground - sleigh>

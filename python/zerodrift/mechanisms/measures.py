@@ -17,8 +17,8 @@ class Measure:
 
     Examples
     --------
-    >>> import zerodrift.mechanisms as zm
-    >>> m = zm.Mechanism("pendulum")
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum")
     >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
     >>> link.angle, link.end.position.y
     (Measure('link.angle'), Measure('link.end.position.y'))

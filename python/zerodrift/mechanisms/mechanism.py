@@ -22,8 +22,8 @@ from .system import LAYOUTS, MechanismSystem
 class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
     """A mechanism in the plane, from bodies and joints.
 
-    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Every function
-    that takes a system takes a mechanism, and there is no call that finishes it: what is added later counts from then on.
+    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Every
+    function that takes a system takes a mechanism. No call finishes it: what is added later counts from then on.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     The paper's four-bar, from a sketch:
 
     >>> import numpy as np
-    >>> import zerodrift.mechanisms as zm
-    >>> bar = zm.Mechanism("four-bar", gravity=(0, -9.81))
+    >>> import zerodrift as zd
+    >>> bar = zd.Mechanism("four-bar", gravity=(0, -9.81))
     >>> crank = bar.link("crank", (0, 0), (0, 0.3), mass=1.5)
     >>> coupler = bar.link("coupler", (0, 0.3), (0.95, 0.6), mass=5.0, length=1.0)
     >>> rocker = bar.link("rocker", (0.95, 0.6), (1, 0), mass=3.0, length=0.6)
@@ -63,11 +63,12 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     >>> bar.start({crank.angle: np.pi / 2, crank.angular_velocity: 1.0})
     """
 
-    def __init__(self, name: str, *, dimension: int = 2, gravity: Any = None, parameters: Mapping[str, float] | None = None) -> None:
+    def __init__(self, name: str, *, dimension: int = 2, gravity: Any = None,
+                 parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
             raise TypeError(f"name must be a string that is not empty, not {_check.shown(name)}")
         if dimension != 2:
-            raise ValueError(f"dimension must be 2, not {_check.shown(dimension)}: there are mechanisms in the plane, not yet in space")
+            raise ValueError(f"dimension must be 2, not {_check.shown(dimension)}: mechanisms are in the plane, not yet in space")
         self.name, self.dimension = name, 2
         self.gravity = np.zeros(2) if gravity is None else _check.vector("gravity", gravity, 2)
         super().__init__(parameters)
@@ -78,8 +79,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Parameters
         ----------
         coordinates : {None, "joint", "absolute"}
-            "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints. "absolute":
-            three coordinates a body, and all joints are constraints. None: "joint", the cheaper one.
+            "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints.
+            "absolute": three coordinates a body, and all joints are constraints. None: "joint", the cheaper one.
 
         Returns
         -------
@@ -87,8 +88,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
         >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
         >>> pin = m.revolute("pin", m.ground, link.start)
         >>> m.system("absolute")
@@ -103,8 +104,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Parameters
         ----------
         changes : dict of path to float
-            Such as ``{"crank.mass": 2.0}``. What follows from a number, as a link's inertia does from its length, changes with it,
-            unless it was given.
+            Such as ``{"crank.mass": 2.0}``. What follows from a number, as a link's inertia does from its length, changes with
+            it, unless it was given.
         **changed
             The mechanism's own parameters by name.
 
@@ -119,8 +120,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
         >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
         >>> pin = m.revolute("pin", m.ground, link.start)
         >>> m.with_parameters({"link.length": 2.0}).parameters["link.length"]

@@ -16,7 +16,7 @@ def checked(name: Any, what: str, taken: Iterable[str]) -> str:
     if not isinstance(name, str):
         raise TypeError(f"name of a {what} must be a string, not {_check.shown(name)}")
     if not ALLOWED.fullmatch(name):
-        raise ValueError(f"name of a {what} must be letters, digits, blanks inside, '_' and '-', with no dot and not empty, not {name!r}")
+        raise ValueError(f"name of a {what} must be of letters, digits, blanks inside, '_' and '-', not {name!r}")
     if name in taken:
         raise ValueError(f"name {name!r} is taken: each element of a mechanism has a name of its own")
     return name

@@ -24,8 +24,7 @@ def outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.ndarray
 def _attached(body: Body, drawing: Drawing, numbers: Numbers) -> list[Point]:
     """The points at which joints and springs hold a body, each place once."""
     points = [body.start, body.end] if isinstance(body, Link) else []
-    points += [point for element in drawing.elements.values() for point in (getattr(element, "first", None), getattr(element, "second", None))
-               if isinstance(point, Point) and point.body is body]
+    points += [point for point in drawing.joined_points() if point.body is body]
     points += [point for point in drawing.of(Point) if point.body is body]
     different: list[Point] = []
     for point in points:

@@ -11,8 +11,8 @@ from ..systems import jets
 
 PERIOD = 2 * np.pi
 
-# Quintic polynomials in s = 0 ... 1 by their values, first and second derivatives at both ends: rows (y0, y0', y0'', y1, y1', y1''),
-# columns 1, s, ..., s**5.
+# Quintic polynomials in s = 0 ... 1 by their values, first and second derivatives at both ends: rows (y0, y0', y0'', y1, y1',
+# y1''), columns 1, s, ..., s**5.
 HERMITE = np.array([[1, 0, 0, -10, 15, -6], [0, 1, 0, -6, 8, -3], [0, 0, 0.5, -1.5, 1.5, -0.5],
                     [0, 0, 0, 10, -15, 6], [0, 0, 0, -4, 7, -3], [0, 0, 0, 0.5, -1, 0.5]])
 # Their third and fourth derivatives at both ends.

@@ -21,7 +21,7 @@ class StartVerbs(Elements):
         self._wished: dict[str, Any] = {}
 
     def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None) -> None:
-        """Say where and how fast the motion starts; what is not said starts as drawn and at rest, and moves as little as possible.
+        """Say where and how fast the motion starts; what is not said starts as drawn and at rest, or as near as can be.
 
         Parameters
         ----------
@@ -38,8 +38,8 @@ class StartVerbs(Elements):
 
         Examples
         --------
-        >>> import zerodrift.mechanisms as zm
-        >>> m = zm.Mechanism("pendulum")
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
         >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
         >>> pin = m.revolute("pin", m.ground, link.start)
         >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
@@ -53,7 +53,8 @@ class StartVerbs(Elements):
         """Refuses what is not there, and what a motor prescribes."""
         self._check_measured("start", name)
         for motor in self.motors:
-            taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"), "speed": ("speed",)}.get(motor.drives, ())
+            taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"),
+                     "speed": ("speed",)}.get(motor.drives, ())
             if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
                 raise ValueError(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
 

@@ -60,9 +60,11 @@ class Starting:
         self._check_mass(tables, assembly, p)
         return assembly, p
 
-    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (bodies, 3) of the mass centres at a time, and their rates."""
+    def at(self, t: float, *, nudge: bool = False) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged a little, where asked for."""
         assembly, p = self.assembled(t)
+        if nudge:
+            p = assembly.nudged(p, set())
         held, wished = (self._targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
         return assembly.core.poses(p, assembly.velocities(p, held, wished))
 
@@ -109,7 +111,7 @@ class Starting:
     # ---- what is wrong ----
 
     def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
-        """Which loop does not close, and by how much, told in joint coordinates, where only the joints that close loops are open."""
+        """Which loop does not close, and by how much: in joint coordinates only the joints that close loops are open."""
         tables = Tables(self.drawing, self.numbers, in_tree=True)
         core = tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else "" for row in core.rows]
@@ -124,9 +126,9 @@ class Starting:
         joint = max(open_by, key=lambda each: open_by[each])
         bodies, joints = loop(tables.carrier, ends, joint)
         parts = ["ground", *(body.name for body in tables.parts)]
-        return (f"the loop of {', '.join(parts[body] for body in bodies)}, through {', '.join(tables.joints[i].name for i in sorted(joints))}, "
-                f"cannot close: it stays open by {open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw "
-                "it nearer to how it closes")
+        around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
+        return (f"the loop of {', '.join(around)}, through {', '.join(through)}, cannot close: it stays open by "
+                f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
 
     def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
         """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
@@ -147,9 +149,7 @@ class Starting:
 
 def size_of(drawing: Drawing, numbers: Numbers) -> float:
     """How large a drawing is, in m: the longest side of the box around its points; 1 where there is nothing."""
-    points = [point for joint in drawing.elements.values() for point in (getattr(joint, "first", None), getattr(joint, "second", None))
-              if hasattr(point, "drawn_with")]
-    places = [point.drawn_with(numbers) for point in points] + [body.pose.origin for body in drawing.parts()]
+    places = [point.drawn_with(numbers) for point in drawing.joined_points()] + [body.pose.origin for body in drawing.parts()]
     size = float(np.ptp(places, axis=0).max()) if places else 0.0
     return size or 1.0
 

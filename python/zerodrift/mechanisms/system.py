@@ -13,6 +13,7 @@ from ..systems.base import BaseSystem
 from .drawing import Drawing
 from .numbers import Numbers
 from .outline import outline
+from .start import targets
 from .starting import Starting
 from .tables import JOINTS, Tables
 from .watching import Watching
@@ -71,7 +72,15 @@ class MechanismSystem(BaseSystem):
         p, v = self._core.state(poses, rates)
         return _check.frozen(p), _check.frozen(v)
 
-    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0", t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    def _assembled(self, held: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """The state at a time that holds and wishes more than the mechanism's own start does."""
+        drawing = self._drawing
+        drawing = drawing._replace(held=drawing.held | targets(held, "held"), wished=drawing.wished | targets(wish, "wish"))
+        start = Starting(drawing, self._numbers)
+        return self._core.state(*start.at(t, nudge=nudge))
+
+    def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
+                        t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         if p is None and v is None:
             return self.start_at(t)
         return super()._state_or_start(p, v, p_name, v_name)

@@ -54,8 +54,8 @@ class Tables:
         self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
         self._read_positions()
         self._read_joints()
-        for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (TorsionSpring, self._torsion_spring),
-                          (Bushing, self._bushing), (Force, self._force), (Torque, self._torque)):
+        for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (Bushing, self._bushing),
+                          (TorsionSpring, self._torsion_spring), (Force, self._force), (Torque, self._torque)):
             for element in drawing.of(kind):
                 add(element)
 
@@ -140,13 +140,14 @@ class Tables:
         for i, joint in enumerate(self.joints):
             kind, row = JOINTS[joint.kind], self._joint(joint)
             self.observed.append(Observed(f"{joint.name}.force", "N", "joint force", i, 2))
-            if any(each.gauge == "angle" for each in kind.rows) or has_coordinate(joint) and kind.coordinate == "angle":
+            if any(each.gauge == "angle" for each in kind.rows) or (has_coordinate(joint) and kind.coordinate == "angle"):
                 self.observed.append(Observed(f"{joint.name}.torque", "N m", "joint torque", i))
             if kind.tension:
                 self.observed.append(Observed(f"{joint.name}.{kind.tension}", "N", "joint tension", i))
             if has_coordinate(joint):
+                zero = getattr(row, kind.zero) if kind.zero else 0.0
                 gauge = self._gauge(f"{joint.name}.{kind.coordinate}", Gauge(
-                    kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, getattr(row, kind.zero) if kind.zero else 0.0))
+                    kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero))
                 self._observe(joint.name, kind.coordinate, "speed", gauge, 1)
                 damping = self.numbers(joint, "damping", joint.damping)
                 if damping:
@@ -233,8 +234,8 @@ class Tables:
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         length = self._gauge(f"{spring.name}.length", Gauge("distance", first, second, point1, point2))
         self.observed.append(Observed(f"{spring.name}.length", "m", "values", length))
-        gauge = self._gauge(spring.name, Gauge("distance", first, second, point1, point2, zero=spring.free_length_with(self.numbers)))
-        self._elastic(spring, gauge)
+        slack = spring.free_length_with(self.numbers)
+        self._elastic(spring, self._gauge(spring.name, Gauge("distance", first, second, point1, point2, zero=slack)))
 
     def _torsion_spring(self, spring: TorsionSpring) -> None:
         first, second = (self.number[body.name] for body in spring.joint.bodies)
@@ -252,7 +253,8 @@ class Tables:
         frame = bushing.first.body.pose
         apart = frame.local_direction(bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
         zero = {"along": float(apart[0]), "across": float(apart[1]), "angle": bushing.second.body.pose.angle - frame.angle}
-        paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"), "angle": ("torsion", "torsion_damping")}
+        paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"),
+                 "angle": ("torsion", "torsion_damping")}
         for word, (stiffness, damping) in paths.items():
             gauge = self._gauge(f"{bushing.name} {word}", Gauge(word, first, second, point1, point2, zero=zero[word]))
             self.efforts.append(rows.Effort("spring", gauge, self.numbers(bushing, stiffness, bushing.values[stiffness]),
@@ -260,7 +262,8 @@ class Tables:
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)
-        gauge = self._gauge(force.name, Gauge("glide", self.number[force.frame.name], body, (0.0, 0.0), local, _pair(force.along)))
+        frame = self.number[force.frame.name]
+        gauge = self._gauge(force.name, Gauge("glide", frame, body, (0.0, 0.0), local, _pair(force.along)))
         self._effort(force.name, "value", gauge, force)
         self._observe_effort(force)
 

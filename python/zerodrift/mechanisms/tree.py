@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Edge(NamedTuple):
-    """A joint that can carry one of its bodies: `freedoms` says how many coordinates it needs for the first, and for the second."""
+    """A joint that can carry one of its bodies: `freedoms` are the coordinates it needs for the first, and for the second."""
 
     joint: int
     first: int
@@ -20,8 +20,8 @@ def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, 
     """For each body, numbered from 1 on, the joint that carries it; -1: none, it is free.
 
     From the ground, which is 0, the tree grows by the joint of fewest freedoms, and among these by the one that is nearest to the
-    ground: so loops are cut where there is most freedom, and branches are short. What the ground is not joined to gets a free root of
-    its own, the heaviest body, as `weights` says.
+    ground: so loops are cut where there is most freedom, and branches are short. What the ground is not joined to gets a free
+    root of its own, the heaviest body, as `weights` says.
     """
     around: list[list[Edge]] = [[] for _ in range(bodies + 1)]
     for edge in edges:

@@ -48,8 +48,8 @@ class Watching:
         """The accelerations (k, nv) at all rows."""
         known = self._accelerations.get(solution)
         if known is None:
-            known = np.array([_acceleration(core, solution, row) for row in range(len(solution.t))]).reshape(len(solution.t), core.nv)
-            self._accelerations[solution] = known
+            rows = [_acceleration(core, solution, row) for row in range(len(solution.t))]
+            known = self._accelerations[solution] = np.array(rows).reshape(len(rows), core.nv)
         return known
 
     def unique(self, name: str, core: _gateway.MechanismCore, solution: Any) -> Any:
@@ -70,7 +70,8 @@ class Watching:
     def at(self, name: str, core: _gateway.MechanismCore, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """A measure of positions or velocities at one state."""
         number, component = self.find(name)
-        return _component(core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))["value"][None], component)[0]
+        found = core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))
+        return _component(found["value"][None], component)[0]
 
 
 def _component(values: np.ndarray, component: int | None) -> np.ndarray:

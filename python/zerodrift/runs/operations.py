@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Variable
-from ..systems.base import BaseSystem, core_of
+from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import settings
 
 
-def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Any = (), *, t: float = 0.0, tol: float = 1e-12,
-             max_iterations: int = 100) -> tuple[np.ndarray, np.ndarray]:
-    """Find a consistent state near a guess.
+def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *, wish: Mapping[Any, Any] | None = None,
+             nudge: bool = False, t: float = 0.0, tol: float = 1e-12, max_iterations: int = 100) -> tuple[np.ndarray, np.ndarray]:
+    """Find a consistent state near a guess, or that of a mechanism near its drawing.
 
     Positions are iterated onto the constraints, then velocities corrected; each moves as little as possible in the mass
     metric, (25), and what is held does not move at all.
@@ -24,13 +24,19 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Any = (), *, t: fl
     ----------
     system : system
         One of `zerodrift.systems`, or a `zerodrift.System`.
-    p : array_like (nq,)
-        Guess of the coordinates.
+    p : array_like (nq,), or dict of measure to value
+        Guess of the coordinates. Of a mechanism: what is held, positions and velocities, besides what its `start` holds; all
+        else is as near to the drawing and to rest as can be.
     v : array_like (nv,), optional
         Guess of the velocities; left out: zero.
     hold : sequence of str or Variable, or one of them
         Coordinates and velocities that keep the values of the guess: their names, or entries of `system.coordinates` and
         `system.velocities`.
+    wish : dict of measure to value
+        Of a mechanism: what is met as nearly as possible after that.
+    nudge : bool
+        Of a mechanism: whether it starts a thousandth of its size from the assembled position, along a random free direction; for
+        drawings that are singular, as a stretched linkage is.
     t : float
         Time in s, for constraints that depend on it.
     tol : float
@@ -48,6 +54,8 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Any = (), *, t: fl
         If no consistent position was found: links cannot close, what is held contradicts them, or the guess is too far away.
     SingularSystem
         If what is held leaves no way to satisfy the constraints.
+    InconsistentStart
+        If what a mechanism is to hold cannot be met; the error names it.
 
     Examples
     --------
@@ -57,11 +65,27 @@ def assemble(system: BaseSystem, p: Any, v: Any = None, hold: Any = (), *, t: fl
     >>> float(p[0]), float(v[0])
     (1.2, 2.0)
     """
+    if isinstance(p, Mapping) or isinstance(system, Makes):
+        return _assembled(system_of(system), p, v, hold, wish, nudge, _check.number("t", t))
     core_of(system)
+    if wish is not None or nudge:
+        raise TypeError(f"wish and nudge are for mechanisms, and {system.name} is none")
+    if p is None:
+        raise TypeError(f"p is needed, a guess of the coordinates of {system.name}")
     hold = _held(system, hold)
     holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
+
+
+def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
+    """The state of a mechanism near its drawing."""
+    core_of(system)
+    if v is not None or hold != () or not (held is None or isinstance(held, Mapping)):
+        raise TypeError("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
+    if not hasattr(system, "_assembled"):
+        raise TypeError(f"a dict of values by measure is for mechanisms, and {system.name} is none: p must be (nq,)")
+    return system._assembled(held, wish, nudge, t)
 
 
 def _held(system: BaseSystem, hold: Any) -> list[str]:

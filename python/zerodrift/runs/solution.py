@@ -137,16 +137,17 @@ class Solution:
         return "\n".join(lines)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A coordinate, a velocity, or the multiplier of a constraint, by its name, at every row.
+        """A coordinate, a velocity, the multiplier of a constraint, or a measure of a mechanism, by its name, at every row.
 
         Parameters
         ----------
-        name : str
-            One of the names in ``system.coordinates``, ``system.velocities`` and ``system.constraints``.
+        name : str or measure
+            A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or one of the names in
+            ``system.coordinates``, ``system.velocities`` and ``system.constraints``.
 
         Returns
         -------
-        ndarray (k,)
+        ndarray (k,), or (k, 2) of a measure that is a vector
             In the unit of that coordinate or velocity; of a constraint, what `multipliers` has in its column.
 
         Raises
@@ -171,8 +172,40 @@ class Solution:
         if columns:
             raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
                            "take the column of p, v or multipliers")
-        known = ", ".join(variable.name for _, variables in self._named() for variable in variables)
+        known = ", ".join(dict.fromkeys(self._ipython_key_completions_()))
         raise KeyError(f"nothing in {self.system.name} is called {name!r}; there are {known}")
+
+    def unique(self, name: str) -> Any:
+        """Whether a measure of a mechanism does not depend on which of all admissible multipliers are taken.
+
+        Where constraints are redundant, reactions are not determined by the motion of rigid bodies, and those that are told have
+        the least effect. Forces of this kind differ from one choice of coordinates to another; those that are unique do not.
+
+        Parameters
+        ----------
+        name : str or measure
+            Such as ``"A.force"``.
+
+        Returns
+        -------
+        bool, or ndarray of bool
+            One for each component: True where it is the same at every row.
+
+        Raises
+        ------
+        KeyError
+            If nothing is measured by that name.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> zd.simulate(m, 0.1, step=0.01).unique(pin.force)
+        array([ True,  True])
+        """
+        return self.system._unique(name, self)
 
     def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
         """Arrays whose columns have names, with these."""
@@ -180,7 +213,8 @@ class Solution:
         return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [variable.name for _, variables in self._named() for variable in variables]
+        return [*self.system._names_of_measures(),
+                *(variable.name for _, variables in self._named() for variable in variables)]
 
     def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at any time between the first and the last row.

@@ -156,6 +156,14 @@ class BaseSystem:
         """A measure at every row of a solution; None where nothing is measured by that name."""
         return None
 
+    def _names_of_measures(self) -> list[str]:
+        """What is measured by names of its own."""
+        return []
+
+    def _unique(self, name: Any, solution: Any) -> Any:
+        """Which components of a measure are the same whatever admissible multipliers there are."""
+        raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
+
     def _described(self) -> dict[str, Any]:
         """What a saved solution says of its system, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,
@@ -173,12 +181,12 @@ class Makes:
 
 
 def system_of(given: Any, *state: Any) -> Any:
-    """The system that an argument means: a mechanism stands for its own, and takes no state in coordinates that it chose itself."""
+    """The system that an argument means: a mechanism stands for its own, and takes no state in coordinates."""
     if not isinstance(given, Makes):
         return given
     if any(part is not None for part in state):
-        raise TypeError(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where it "
-                        'starts by its start(), or take its system("joint")')
+        raise TypeError(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
+                        'it starts by its start(), or take its system("joint")')
     return given.system()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .. import _check
+from . import _check
 
 __all__ = ["Inertia", "box", "disc", "rod"]
 
@@ -14,7 +14,7 @@ def __dir__() -> list[str]:
 
 
 class Inertia(NamedTuple):
-    """A mass in kg and its moment of inertia about the centre of mass in kg m^2, in the order in which `Mechanism.body` takes them."""
+    """A mass in kg and its moment of inertia about the centre of mass in kg m^2, as `Mechanism.body` takes them."""
 
     mass: float
     moment: float

@@ -1,0 +1,295 @@
+"""Mechanisms as they are drawn: what is wrong is said at once, with its name, its value and what is allowed."""
+
+import pickle
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import zerodrift as zd
+
+
+@pytest.fixture
+def m():
+    return zd.Mechanism("m", gravity=(0, -9.81), parameters={"amplitude": 0.1})
+
+
+@pytest.fixture
+def link(m):
+    return m.link("link", (0, 0), (1, 0), mass=1.0)
+
+
+@pytest.fixture
+def pin(m, link):
+    return m.revolute("pin", m.ground, link.start)
+
+
+# ---- names ----
+
+
+@pytest.mark.parametrize("name", ["", " ", "a.b", " a", "a ", "é", "a\n"])
+def test_a_name_is_letters_digits_and_blanks(m, name):
+    with pytest.raises(ValueError, match=r"name of a body must be of letters, digits, blanks inside, '_' and '-', not "):
+        m.body(name, 1.0)
+
+
+def test_a_name_is_a_string(m):
+    with pytest.raises(TypeError, match=r"name of a body must be a string, not 3"):
+        m.body(3, 1.0)
+
+
+@pytest.mark.parametrize("add", [
+    lambda m: m.body("link", 1.0), lambda m: m.link("link", (0, 0), (1, 0)), lambda m: m.particle("link", 1.0, at=(0, 0)),
+    lambda m: m.point("link", m.ground, (0, 0)), lambda m: m.ground.point((0, 0), name="link"),
+    lambda m: m.revolute("link", m.ground, m["link"].start),
+    lambda m: m.spring("ground", m.ground.point((0, 0)), m["link"].end, stiffness=1.0)])
+def test_a_name_is_taken_once(m, link, add):
+    with pytest.raises(ValueError, match=r"name '(link|ground)' is taken"):
+        add(m)
+
+
+def test_elements_are_found_by_name(m, link, pin):
+    assert m["link"] is link
+    assert (m.bodies, m.joints, m.motors) == ((link,), (pin,), ())
+    with pytest.raises(KeyError, match=r"nothing in m is called 'rod'; there are ground, link, pin"):
+        m["rod"]
+
+
+# ---- bodies and points ----
+
+
+@pytest.mark.parametrize(("add", "error"), [
+    (lambda m: m.body("b", -1.0), "mass of 'b' must be at least 0, not -1"),
+    (lambda m: m.body("b", 1.0, -0.1), "inertia of 'b' must be at least 0, not -0.1"),
+    (lambda m: m.body("b", 1.0, at=(1, 2, 3)), r"at of 'b' must have shape \(2,\)"),
+    (lambda m: m.body("b", 1.0, com=(np.nan, 0)), "com of 'b' must be finite"),
+    (lambda m: m.link("l", (1, 1), (1, 1), 1.0), "start and end of 'l' must be two places"),
+    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, length=0.0), "length of 'l' must be greater than 0, not 0"),
+    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, inertia=-1.0), "inertia of 'l' must be at least 0, not -1"),
+    (lambda m: m.particle("p", -2.0, at=(0, 0)), "mass of 'p' must be at least 0, not -2"),
+    (lambda m: m.prismatic("s", m.ground, m.body("b", 1.0), axis=(0, 0)), "axis of 's' must be a direction in the drawing"),
+    (lambda m: m.slot("s", m.ground, m.particle("p", 1.0, at=(0, 0)), axis=(0, 0)), "axis of 's' must be a direction"),
+    (lambda m: m.knife_edge("k", m.body("b", 1.0), along=(0, 0)), "along of 'k' must be a direction in the drawing"),
+    (lambda m: m.force("f", m.body("b", 1.0), along=(0, 0), value=1.0), "along of 'f' must be a direction in the drawing"),
+    (lambda m: m.rolling("r", m.ground, m.body("b", 1.0), radius=-1.0), "radius of 'r' must be greater than 0, not -1"),
+    (lambda m: m.rod("r", m.ground.point((0, 0)), m.particle("p", 1.0, at=(0, 0))), "length of 'r', as drawn, must be"),
+    (lambda m: m.revolute("r", m.ground, m.body("b", 1.0), at=(0, 0), damping=-1.0), "damping of 'r' must be at least 0, not -1"),
+])
+def test_numbers_are_checked_where_they_are_given(m, add, error):
+    with pytest.raises(ValueError, match=error):
+        add(m)
+
+
+def test_a_mechanism_is_in_the_plane():
+    with pytest.raises(ValueError, match=r"dimension must be 2, not 3: mechanisms are in the plane, not yet in space"):
+        zd.Mechanism("m", dimension=3)
+
+
+@pytest.mark.parametrize("name", ["a.b", "t", "p", "two words"])
+def test_parameters_have_names_that_callables_can_take(name):
+    with pytest.raises(ValueError, match=r"parameters"):
+        zd.Mechanism("m", parameters={name: 1.0})
+
+
+def test_a_point_has_one_place(m, link):
+    for given in ({}, {"local": (0, 0), "at": (0, 0)}):
+        with pytest.raises(TypeError, match=r"a point of 'link' needs one of two"):
+            link.point(**given)
+
+
+def test_only_named_points_have_measures(m, link):
+    assert link.point((0.5, 0), name="P").position.x.name == "P.position.x"
+    with pytest.raises(AttributeError, match=r"has no name, and so no measures: give it one, link.point"):
+        _ = link.point((0.5, 0)).position
+
+
+def test_a_particle_has_no_angle(m):
+    with pytest.raises(AttributeError, match=r"particle 'bob' has no orientation"):
+        _ = m.particle("bob", 1.0, at=(0, 0)).angle
+
+
+def test_the_frame_of_a_link(m):
+    link = m.link("link", (1, 1), (1, 3), mass=12.0)
+    np.testing.assert_allclose((link.length, link.inertia, link.pose.angle), (2.0, 4.0, np.pi / 2))
+    np.testing.assert_allclose(link.point((0.5, 0)).drawn, (1, 1.5), atol=1e-15)
+    np.testing.assert_allclose(link.point(at=(0, 1)).local, (0, 1), atol=1e-15)
+
+
+# ---- joints ----
+
+
+def test_a_joint_joins_two_bodies(m, link):
+    with pytest.raises(ValueError, match=r"'j' joins 'link' to itself"):
+        m.revolute("j", link.start, link.end)
+    with pytest.raises(ValueError, match=r"'s' joins 'link' to itself"):
+        m.spring("s", link.start, link.end, stiffness=1.0)
+
+
+def test_two_bodies_need_a_place(m, link):
+    with pytest.raises(TypeError, match=r"'j' joins two bodies, 'ground' and 'link': it needs at="):
+        m.revolute("j", m.ground, link)
+    with pytest.raises(TypeError, match=r"at= of 'j' goes with two bodies"):
+        m.revolute("j", m.ground, link.start, at=(0, 0))
+
+
+def test_points_belong_to_the_mechanism(m, link):
+    stranger = zd.Mechanism("other").link("link", (0, 0), (1, 0), mass=1.0)
+    with pytest.raises(ValueError, match=r"second must be a body of 'm', and <link link> is not"):
+        m.revolute("j", m.ground, stranger.start)
+    with pytest.raises(TypeError, match=r"second must be a point of a body, such as link.end or body.point\(\(x, y\)\), not"):
+        m.revolute("j", m.ground, (0, 0))
+    with pytest.raises(TypeError, match=r"first must be a point, and 'link' is a whole body: take link.point\(...\)"):
+        m.rod("r", link, m.ground.point((0, 0)))
+
+
+def test_a_body_and_a_point_meet_where_the_point_is_drawn(m, link):
+    other = m.body("other", 1.0, at=(1, 1), angle=np.pi / 2)
+    joint = m.revolute("j", link.end, other)
+    np.testing.assert_allclose(joint.second.local, (-1, 0), atol=1e-15)
+
+
+@pytest.mark.parametrize("add", [
+    lambda m, p: m.prismatic("j", m.ground, p, axis=(1, 0)), lambda m, p: m.weld("j", m.ground.point((0, 0)), p),
+    lambda m, p: m.revolute("j", m.ground.point((0, 0)), p, damping=1.0),
+    lambda m, p: m.slot("j", p, m.ground.point((0, 0)), axis=(1, 0)),
+    lambda m, p: m.motor("j", m.revolute("r", m.ground.point((0, 0)), p), speed=1.0),
+    lambda m, p: m.torque("j", p, value=1.0), lambda m, p: m.knife_edge("j", p, along=(1, 0))])
+def test_what_needs_an_orientation_refuses_a_particle_by_name(m, add):
+    with pytest.raises(ValueError, match=r"particle"):
+        add(m, m.particle("bob", 1.0, at=(0, 0)))
+
+
+# ---- drives and laws ----
+
+
+@pytest.mark.parametrize("given", [{}, {"angle": 1.0, "speed": 2.0}])
+def test_a_motor_has_one_law(m, pin, given):
+    with pytest.raises(TypeError, match=r"motor 'drive' needs one of angle, displacement, speed, torque, force, not "):
+        m.motor("drive", pin, **given)
+
+
+def test_a_motor_drives_what_the_joint_has(m, pin):
+    with pytest.raises(ValueError, match=r"joint of motor 'drive' must be a joint with displacement, and 'pin' is a revolute"):
+        m.motor("drive", pin, displacement=1.0)
+
+
+def test_two_motors_on_one_freedom_are_named(m, pin):
+    m.motor("torque", pin, torque=1.0)
+    m.motor("one", pin, speed=1.0)
+    with pytest.raises(ValueError, match=r"motors 'one' and 'two' both prescribe 'pin': one freedom takes one motor"):
+        m.motor("two", pin, angle=1.0)
+
+
+def test_a_start_against_a_motor_names_both(m, pin):
+    m.motor("drive", pin, speed=1.0)
+    with pytest.raises(ValueError, match=r"start holds 'pin.speed', which motor 'drive' prescribes"):
+        m.start({pin.speed: 2.0})
+
+
+def test_callables_that_ask_for_what_is_not_there(m, link, pin):
+    with pytest.raises(TypeError, match=r"torque of motor 'drive' asks for 'x'; there is t, amplitude, s"):
+        m.motor("drive", pin, torque=lambda x: x, of={"s": pin.angle})
+    with pytest.raises(TypeError, match=r"value of force 'f' asks for 'y'; there is t, amplitude, and measures"):
+        m.force("f", link, along=(1, 0), value=sp.Symbol("y"))
+    with pytest.raises(ValueError, match=r"value of force 'f' names 'rod.angle', and there is no 'rod' in 'm'"):
+        m.force("f", link, along=(1, 0), value=lambda a: a, of={"a": "rod.angle"})
+    with pytest.raises(TypeError, match=r"of= of value of force 'f' must be a dict of measures"):
+        m.force("f", link, along=(1, 0), value=lambda a: a, of=[pin.angle])
+
+
+@pytest.mark.parametrize("measure", ["link.colour", "link.angle.x", "link.position", "pin.force", "pin.displacement",
+                                     "link.position.z"])
+def test_laws_depend_on_scalar_measures_of_positions_and_velocities(m, link, pin, measure):
+    with pytest.raises(ValueError, match=r"must depend on scalar measures of positions and velocities"):
+        m.force("f", link, along=(1, 0), value=lambda a: a, of={"a": measure})
+
+
+def test_drives_and_holonomic_constraints_do_not_depend_on_velocities(m, link, pin):
+    with pytest.raises(ValueError, match=r"measures of positions alone, and 'pin.speed' is a velocity"):
+        m.motor("drive", pin, speed=lambda w: w, of={"w": pin.speed})
+    with pytest.raises(ValueError, match=r"measures of positions alone, and 'link.velocity.x' is a velocity"):
+        m.constraint("c", lambda u: u, of={"u": link.velocity.x})
+
+
+def test_a_nonholonomic_constraint_is_linear(m, link):
+    m.nonholonomic("c", lambda u: u**2, of={"u": link.velocity.x})
+    with pytest.raises(ValueError, match=r"nonholonomic 'c' must be linear in measures of velocities, and is not"):
+        m.system()
+
+
+@pytest.mark.parametrize("profile", [([0, 1], [0, 1]), ([0, 2, 1], [0, 1, 2]), ([0, 3, 6.3], [0, 1, 2]), ([0, 1, 2],), 3.0,
+                                     sp.Symbol("a") * sp.Symbol("b")])
+def test_the_profile_of_a_cam_is_checked(m, pin, profile):
+    with pytest.raises((ValueError, TypeError), match=r"of (profile of )?'cam'"):
+        m.cam("cam", pin, "link.angle", profile=profile)
+
+
+@pytest.mark.parametrize("ratio", [0.0, np.inf])
+def test_gears_have_a_ratio(m, link, pin, ratio):
+    other = m.revolute("other", link.end, m.link("next", (1, 0), (2, 0), mass=1.0).start)
+    with pytest.raises(ValueError, match=r"ratio of 'gear' must"):
+        m.gear("gear", pin, other, ratio=ratio)
+    with pytest.raises(ValueError, match=r"'gear' couples 'pin' to itself"):
+        m.gear("gear", pin, pin, ratio=1.0)
+
+
+# ---- start ----
+
+
+def test_a_start_names_what_there_is(m, link, pin):
+    with pytest.raises(ValueError, match=r"start names 'rod.angle', and there is no 'rod' in 'm'"):
+        m.start({"rod.angle": 1.0})
+    with pytest.raises(TypeError, match=r"a key of held must be a measure, such as crank.angle, or its name, not 3"):
+        m.start({3: 1.0})
+    m.start({"link.colour": 1.0})
+    with pytest.raises(ValueError, match=r"start names 'link.colour', and there is no such measure"):
+        m.system()
+
+
+def test_later_starts_add_replace_and_take_back(m, link, pin):
+    m.start({link.angle: 0.5, "pin.speed": 1.0})
+    m.start({"link.angle": 0.25, pin.speed: None})
+    np.testing.assert_allclose(m.system().p0, [0.25])
+    np.testing.assert_allclose(m.system().v0, [0.0])
+
+
+# ---- snapshots ----
+
+
+def test_what_is_added_later_changes_no_system(m, link, pin):
+    system = m.system()
+    m.spring("spring", m.ground.point((0, 1)), link.end, stiffness=1.0)
+    assert "spring.force" not in system.measures
+    assert "spring.force" in m.system().measures
+    assert system.nq == 1
+
+
+def test_a_system_can_be_pickled(m, link, pin):
+    m.motor("drive", pin, torque=0.3)
+    m.force("wind", link, along=(1, 0), value=sp.Symbol("t") * sp.Symbol("amplitude") + sp.Symbol("pin.angle"))
+    system = m.with_parameters({"link.mass": 2.0})
+    again = pickle.loads(pickle.dumps(system))
+    runs = [zd.simulate(each, 1.0, step=0.01) for each in (system, again)]
+    assert (runs[0].p == runs[1].p).all()
+    assert again.parameters == system.parameters
+
+
+def test_coordinates_are_one_of_two(m, link, pin):
+    with pytest.raises(ValueError, match=r"coordinates must be one of 'joint', 'absolute', not 'relative'"):
+        m.system("relative")
+
+
+def test_numbers_change_by_path_and_what_follows_from_them(m, link, pin):
+    changed = m.with_parameters({"link.length": 2.0, "link.mass": 3.0}, amplitude=0.5).parameters
+    assert changed["link.inertia"] == 1.0
+    assert changed["amplitude"] == 0.5
+    for path, value, error in (("link.mass", -1.0, "must be at least 0"), ("link.length", 0.0, "must be greater than 0"),
+                               ("link.colour", 1.0, "must be one of")):
+        with pytest.raises(ValueError, match=error):
+            m.with_parameters({path: value})
+
+
+def test_a_state_is_for_systems_alone(m, link, pin):
+    with pytest.raises(TypeError, match=r"p0 and v0 are for a system, whose coordinates are known, and 'm' is a mechanism"):
+        zd.simulate(m, 1.0, [0.0], step=0.1)
+    assert zd.simulate(m.system("joint"), 1.0, [0.3], step=0.1).p[0, 0] == 0.3
