@@ -172,7 +172,7 @@ class Solution:
         if columns:
             raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
                            "take the column of p, v or multipliers")
-        known = ", ".join(dict.fromkeys(self._ipython_key_completions_()))
+        known = ", ".join(self._ipython_key_completions_())
         raise KeyError(f"nothing in {self.system.name} is called {name!r}; there are {known}")
 
     def unique(self, name: str) -> Any:
