@@ -7,6 +7,7 @@
  * Dynamics of Nonholonomic Systems, 1972; Bloch, Nonholonomic Mechanics and Control, 2015, section 1.7. Nothing pulls it:
  * V = 0 is declared so that its energy can be watched.
  */
+#include "../include/zerodrift/sines.h"
 #include "kind.h"
 #include "skate.h"
 
@@ -38,7 +39,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     (void)t;
     const given *k = data;
     sines *h = (sines *)out->scratch;
-    if (want & ZD_MOVED) *h = (sines){sin(p[PHI]), cos(p[PHI])};
+    if (want & ZD_MOVED) zd_sines(1, p + PHI, &h->s, &h->c);
     if (want & ZD_M) write_mass(k, h, out->M);
     if (want & ZD_BIAS) {
         double centripetal = k->m * k->a * v[PHI] * v[PHI];

@@ -5,6 +5,7 @@
  * It depends on time, so that Phi_t enters (5) and its rate (6). Its multiplier is minus the torque of the drive in N m, by which
  * energy comes in.
  */
+#include "../include/zerodrift/sines.h"
 #include "four_bar.h"
 #include "kind.h"
 
@@ -26,13 +27,13 @@ typedef struct constants {
     drive drive;
 } constants;
 
-static double drive_angle(const drive *u, double t) { return u->angle + u->rate * t + u->amplitude * sin(u->frequency * t); }
+static double drive_angle(const drive *u, double t) { return u->angle + u->rate * t + u->amplitude * zd_sin(u->frequency * t); }
 
-static double drive_rate(const drive *u, double t) { return u->rate + u->amplitude * u->frequency * cos(u->frequency * t); }
+static double drive_rate(const drive *u, double t) { return u->rate + u->amplitude * u->frequency * zd_cos(u->frequency * t); }
 
 static double drive_acceleration(const drive *u, double t)
 {
-    return -u->amplitude * u->frequency * u->frequency * sin(u->frequency * t);
+    return -u->amplitude * u->frequency * u->frequency * zd_sin(u->frequency * t);
 }
 
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)

@@ -8,6 +8,7 @@
  */
 #include "four_bar.h"
 
+#include "../include/zerodrift/sines.h"
 #include "../linalg/small.h"
 #include "kind.h"
 
@@ -26,17 +27,6 @@ typedef struct sines {          /* kept while p stays */
 } sines;
 
 _Static_assert(sizeof(sines) == ZD_FOUR_BAR_SCRATCH * sizeof(double), "the header tells other systems the size of the scratch");
-
-/* By value: what is written through a pointer might be p, and sin and cos of an angle would not be computed in one go. */
-static sines sines_of(const double *p)
-{
-    sines a;
-    for (int i = 0; i < N; i++) {
-        a.s[i] = sin(p[i]);
-        a.c[i] = cos(p[i]);
-    }
-    return a;
-}
 
 static void write_mass(const constants *k, const sines *a, double *M)
 {
@@ -79,8 +69,13 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
     (void)t;
     const constants *k = data;
     sines *kept = (sines *)out->scratch;
-    if (want & ZD_MOVED) *kept = sines_of(p);
-    const sines a = *kept;
+    sines a;        /* a local, not read back from where it is kept */
+    if (want & ZD_MOVED) {
+        zd_sines(N, p, a.s, a.c);
+        *kept = a;
+    } else {
+        a = *kept;
+    }
     if (want & ZD_M) write_mass(k, &a, out->M);
     if (want & ZD_BIAS) write_bias(k, &a, v, out->d);
     if (want & ZD_FORCE)
@@ -102,12 +97,12 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
  * with side 0, on the side where alpha_2 has it. Returns whether they can. */
 static int close_loop(double l0, const double *l, double side, double *p)
 {
-    double x = l0 - l[0] * cos(p[ALPHA_1]), y = -l[0] * sin(p[ALPHA_1]), diagonal = hypot(x, y), direction = atan2(y, x);
+    double x = l0 - l[0] * zd_cos(p[ALPHA_1]), y = -l[0] * zd_sin(p[ALPHA_1]), diagonal = hypot(x, y), direction = atan2(y, x);
     double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
     if (!(fabs(cosine) <= 1 + ROUNDING)) return 0;
     if (side == 0) side = p[ALPHA_2] - direction < TURN * round((p[ALPHA_2] - direction) / TURN) ? -1 : 1;
     p[ALPHA_2] = direction + side * acos(fmax(-1, fmin(cosine, 1)));
-    p[ALPHA_3] = atan2(y - l[1] * sin(p[ALPHA_2]), x - l[1] * cos(p[ALPHA_2]));
+    p[ALPHA_3] = atan2(y - l[1] * zd_sin(p[ALPHA_2]), x - l[1] * zd_cos(p[ALPHA_2]));
     return 1;
 }
 
@@ -127,10 +122,10 @@ static int embed(const void *data, double t, const double *q, double *p)
 
 static void close_rates(const given *q, const double *p, double *v)
 {
-    double sine = sin(p[ALPHA_3] - p[ALPHA_2]);
+    double sine = zd_sin(p[ALPHA_3] - p[ALPHA_2]);
     v[ALPHA_1] = q->rate;
-    v[ALPHA_2] = q->rate * q->l[1] / q->l[2] * sin(p[ALPHA_1] - p[ALPHA_3]) / sine;
-    v[ALPHA_3] = q->rate * q->l[1] / q->l[3] * sin(p[ALPHA_2] - p[ALPHA_1]) / sine;
+    v[ALPHA_2] = q->rate * q->l[1] / q->l[2] * zd_sin(p[ALPHA_1] - p[ALPHA_3]) / sine;
+    v[ALPHA_3] = q->rate * q->l[1] / q->l[3] * zd_sin(p[ALPHA_2] - p[ALPHA_1]) / sine;
 }
 
 void zd_four_bar_start(const given *q, double *p, double *v)
@@ -156,7 +151,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
     double p[N] = {q->angle};
     if (!close_loop(q->l[0], q->l + 1, q->crossed ? -1 : 1, p))
         return "links of these lengths cannot close the loop at this crank_angle";
-    if (!(fabs(sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
+    if (!(fabs(zd_sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
     double J[N];
     for (int i = 0; i < N; i++) J[i] = isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];
@@ -179,8 +174,8 @@ void zd_four_bar_draw(const double *data, const double *p, double *points)
     const constants *k = (const constants *)data;
     points[0] = points[1] = 0;
     for (int i = 0; i < N; i++) {
-        points[2 * i + 2] = points[2 * i] + k->l[i] * cos(p[i]);
-        points[2 * i + 3] = points[2 * i + 1] + k->l[i] * sin(p[i]);
+        points[2 * i + 2] = points[2 * i] + k->l[i] * zd_cos(p[i]);
+        points[2 * i + 3] = points[2 * i + 1] + k->l[i] * zd_sin(p[i]);
     }
 }
 

@@ -8,6 +8,7 @@
  * Left alone at the top with some spin it does not run down: it drifts sideways on a cycloid. Bloch, Nonholonomic Mechanics and
  * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
  */
+#include "../include/zerodrift/sines.h"
 #include "kind.h"
 #include "skate.h"
 
@@ -33,7 +34,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     (void)t;
     const constants *k = data;
     sines *a = (sines *)out->scratch;
-    if (want & ZD_MOVED) *a = (sines){sin(p[PHI]), cos(p[PHI])};
+    if (want & ZD_MOVED) zd_sines(1, p + PHI, &a->s, &a->c);
     if (want & ZD_M) memcpy(out->M, (double[]){k->m, 0, 0, 0, k->m, 0, 0, 0, k->I}, N * N * sizeof(double));
     if (want & ZD_FORCE) memcpy(out->f, (double[]){k->weight, 0, 0}, N * sizeof(double));
     if (want & ZD_C) memcpy(out->C, (double[]){a->s, -a->c, 0}, N * sizeof(double));           /* (5) */
@@ -47,7 +48,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     const given *q = (const given *)parameters;
-    const constants k = {q->m, q->I, q->m * q->g * sin(q->incline)};
+    const constants k = {q->m, q->I, q->m * q->g * zd_sin(q->incline)};
     memcpy(to, &k, sizeof k);
     return NULL;
 }

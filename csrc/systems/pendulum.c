@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
 #include "kind.h"
 
@@ -52,8 +53,8 @@ static const char *prepare(const double *parameters, double *to)
 static void start(const double *parameters, double *p, double *v)
 {
     const given *q = (const given *)parameters;
-    p[X] = q->L * sin(q->angle);
-    p[Y] = -q->L * cos(q->angle);
+    p[X] = q->L * zd_sin(q->angle);
+    p[Y] = -q->L * zd_cos(q->angle);
     v[X] = -q->rate * p[Y];
     v[Y] = q->rate * p[X];
 }

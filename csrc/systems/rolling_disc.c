@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
 #include "disc.h"
 #include "kind.h"
@@ -45,6 +46,14 @@ typedef struct constants {
 typedef struct sines {              /* of yaw and lean, kept while p stays */
     double sy, cy, sl, cl;
 } sines;
+
+static sines sines_of(const double *p)
+{
+    const double angle[] = {p[YAW], p[LEAN]};
+    double s[2], c[2];
+    zd_sines(2, angle, s, c);
+    return (sines){s[0], c[0], s[1], c[1]};
+}
 
 static void write_kinematics(const sines *a, double *A)
 {
@@ -97,7 +106,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     (void)t;
     const constants *k = data;
     sines *a = (sines *)out->scratch;
-    if (want & ZD_MOVED) *a = (sines){sin(p[YAW]), cos(p[YAW]), sin(p[LEAN]), cos(p[LEAN])};
+    if (want & ZD_MOVED) *a = sines_of(p);
     if (a->cl < FLAT) return ZD_CALLBACK;
     if (want & ZD_A) write_kinematics(a, out->A);                                               /* (1) */
     if (want & ZD_M) write_mass(k, out->M);
@@ -113,7 +122,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     const given *q = (const given *)parameters;
-    if (!(cos(q->lean) > FLAT))
+    if (!(zd_cos(q->lean) > FLAT))
         return "lean must be between -pi/2 and pi/2: where the disc lies flat, yaw and spin are the same turn";
     double thin = q->m * q->R * q->R / 4;
     const constants k = {
@@ -131,7 +140,7 @@ static const char *prepare(const double *parameters, double *to)
 static void start(const double *parameters, double *p, double *v)
 {
     const given *q = (const given *)parameters;
-    double s = sin(q->lean), c = cos(q->lean), w1 = q->spin_rate - q->yaw_rate * s;
+    double s = zd_sin(q->lean), c = zd_cos(q->lean), w1 = q->spin_rate - q->yaw_rate * s;
     const double position[N] = {[X] = q->R * s, [Z] = q->R * c, [LEAN] = q->lean};
     const double velocity[N] = {
         q->R * q->lean_rate * c, -q->R * w1, -q->R * q->lean_rate * s,
@@ -144,8 +153,8 @@ static void start(const double *parameters, double *p, double *v)
 static void draw(const double *data, const double *p, double *points)
 {
     const constants *k = (const constants *)data;
-    double sy = sin(p[YAW]), cy = cos(p[YAW]), sl = sin(p[LEAN]), cl = cos(p[LEAN]);
-    const double e3[] = {cy * sl, sy * sl, cl}, ahead[] = {sy, -cy, 0};     /* -e2: the spin takes e3 there */
+    const sines a = sines_of(p);
+    const double e3[] = {a.cy * a.sl, a.sy * a.sl, a.cl}, ahead[] = {a.sy, -a.cy, 0};     /* -e2: the spin takes e3 there */
     zd_draw_disc(p, k->R, e3, ahead, p[SPIN], points);
 }
 

@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
 #include "../linalg/small.h"
 #include "kind.h"
@@ -35,7 +36,10 @@ typedef struct geometry {       /* kept while p stays */
 
 static geometry locate(const given *k, const double *p)
 {
-    geometry g = {.s1 = sin(p[Q]), .c1 = cos(p[Q]), .s2 = sin(p[ANGLE]), .c2 = cos(p[ANGLE])};
+    const double angle[] = {p[Q], p[ANGLE]};
+    double s[2], c[2];
+    zd_sines(2, angle, s, c);
+    geometry g = {.s1 = s[0], .c1 = c[0], .s2 = s[1], .c2 = c[1]};
     double dx = p[X] - 0.5 * (k->a * g.c1 + k->b * g.c2);      /* from the crank's midpoint to the rod's */
     double dy = -0.5 * (k->a * g.s1 + k->b * g.s2);
     g.l = hypot(dx, dy);                                        /* at least (b - a) / 2 once the loop is closed */
@@ -101,18 +105,18 @@ static void start(const double *parameters, double *p, double *v)
 {
     const given *k = (const given *)parameters;
     p[Q] = k->angle;
-    p[ANGLE] = asin(-k->a / k->b * sin(p[Q]));
-    p[X] = k->a * cos(p[Q]) + k->b * cos(p[ANGLE]);
+    p[ANGLE] = asin(-k->a / k->b * zd_sin(p[Q]));
+    p[X] = k->a * zd_cos(p[Q]) + k->b * zd_cos(p[ANGLE]);
     v[Q] = k->rate;
-    v[ANGLE] = -k->a * cos(p[Q]) / (k->b * cos(p[ANGLE])) * v[Q];
-    v[X] = -k->a * sin(p[Q]) * v[Q] - k->b * sin(p[ANGLE]) * v[ANGLE];
+    v[ANGLE] = -k->a * zd_cos(p[Q]) / (k->b * zd_cos(p[ANGLE])) * v[Q];
+    v[X] = -k->a * zd_sin(p[Q]) * v[Q] - k->b * zd_sin(p[ANGLE]) * v[ANGLE];
 }
 
 /* Crank, rod with its far end, pen up, spring. */
 static void draw(const double *data, const double *p, double *points)
 {
     const given *k = (const given *)data;
-    double ax = k->a * cos(p[Q]), ay = k->a * sin(p[Q]), bx = k->b * cos(p[ANGLE]), by = k->b * sin(p[ANGLE]);
+    double ax = k->a * zd_cos(p[Q]), ay = k->a * zd_sin(p[Q]), bx = k->b * zd_cos(p[ANGLE]), by = k->b * zd_sin(p[ANGLE]);
     const double line[] = {0, 0, ax, ay, p[X], 0, p[X] + bx, by, NAN, NAN, ax / 2, ay / 2, p[X] - bx / 2, -by / 2};
     memcpy(points, line, sizeof line);
 }

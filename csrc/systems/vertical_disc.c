@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
 #include "disc.h"
 #include "kind.h"
@@ -40,7 +41,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     (void)t;
     const given *k = data;
     sines *h = (sines *)out->scratch;
-    if (want & ZD_MOVED) *h = (sines){sin(p[PHI]), cos(p[PHI])};
+    if (want & ZD_MOVED) zd_sines(1, p + PHI, &h->s, &h->c);
     if (want & ZD_M) write_mass(k, out->M);
     if (want & ZD_C) {                                                                          /* (5) */
         const double rows[] = {1, 0, 0, -k->R * h->c, 0, 1, 0, -k->R * h->s};
@@ -71,13 +72,13 @@ static void start(const double *parameters, double *p, double *v)
     const given *k = (const given *)parameters;
     double speed = k->R * k->roll_rate;
     memcpy(p, (double[N]){[PHI] = k->heading}, N * sizeof *p);
-    memcpy(v, (double[N]){speed * cos(k->heading), speed * sin(k->heading), k->turn_rate, k->roll_rate}, N * sizeof *v);
+    memcpy(v, (double[N]){speed * zd_cos(k->heading), speed * zd_sin(k->heading), k->turn_rate, k->roll_rate}, N * sizeof *v);
 }
 
 static void draw(const double *data, const double *p, double *points)
 {
     const given *k = (const given *)data;
-    const double centre[] = {p[X], p[Y], k->R}, up[] = {0, 0, 1}, ahead[] = {cos(p[PHI]), sin(p[PHI]), 0};
+    const double centre[] = {p[X], p[Y], k->R}, up[] = {0, 0, 1}, ahead[] = {zd_cos(p[PHI]), zd_sin(p[PHI]), 0};
     zd_draw_disc(centre, k->R, up, ahead, p[THETA], points);
 }
 

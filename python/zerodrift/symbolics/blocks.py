@@ -77,7 +77,7 @@ class Blocks:
                 users[argument] |= users[number]
 
     def _join_sines(self, users: list[set[str]]) -> None:
-        """Sine and cosine of an angle go together: compilers compute both in one go."""
+        """Sine and cosine of an angle go together: both are computed in one go."""
         seen: dict[int, int] = {}
         for number, operation in enumerate(self.lowering.operations):
             if operation.code == "call" and operation.arguments[0].__name__ in ("sin", "cos") and users[number]:

@@ -95,8 +95,8 @@ def _note(source: str, command: list[str]) -> str:
     """The name of what the cache says of a source: whatever the library depends on is in it."""
     program = Path(command[0]).resolve()
     stamp = program.stat()
-    header = (Path(get_include()) / "zerodrift" / "system.h").read_text()
-    return cache.digest_of("library", source, header, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS,
+    headers = [path.read_text() for path in sorted((Path(get_include()) / "zerodrift").glob("*.h"))]
+    return cache.digest_of("library", source, headers, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS,
                            sys.platform, platform.machine())
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy
@@ -17,6 +17,7 @@ from .lowering import Operation
 
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
+TURNS = {sympy.sin: "sine", sympy.cos: "cosine"}    # what the core has functions of its own for, and its array of them
 
 PRINTERS = {"C": C99CodePrinter({"strict": False}), "Python": PythonCodePrinter({"strict": False})}
 
@@ -31,6 +32,7 @@ class Writer:
     def __init__(self, blocks: Blocks) -> None:
         self.blocks, self.operations = blocks, blocks.lowering.operations
         self.names: dict[int, str] = {}
+        self.turned: dict[int, str] = {}        # sines and cosines that are computed already, and what they are called
         self._uses = self._count_uses()
 
     def _count_uses(self) -> list[int]:
@@ -56,15 +58,20 @@ class Writer:
     def statements(self, numbers: list[int], name: Callable[[int], str], declare: str) -> list[str]:
         """Assignments of the operations of a block that are not written in place."""
         lines = []
-        for number in numbers:
-            text = self.expression(self.operations[number])
+        for number in self.ordered(numbers, lines):
+            text = self.turned.get(number) or self.expression(self.operations[number])
             stored = number in self.blocks.stored
-            if self._uses[number] == 1 and not stored and len(text) < LONGEST:
+            in_place = bool(declare) if number in self.turned else self._uses[number] == 1     # arrays end with their block
+            if in_place and not stored and len(text) < LONGEST:
                 self.names[number] = text
                 continue
             self.names[number] = name(number)
             lines.append(f"{'' if stored else declare}{self.names[number]} = {unwrapped(text)}{self.end}")
         return lines
+
+    def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
+        """The operations of a block in the order in which they are written; `lines` may be added to before each."""
+        return numbers
 
     def expression(self, operation: Operation) -> str:
         """An operation as an expression, in parentheses where these may be needed."""
@@ -119,11 +126,41 @@ def unwrapped(text: str) -> str:
 
 
 class CWriter(Writer):
-    """C99, one function in the core's interface."""
+    """C99, one function in the core's interface, with the core's own sines."""
 
     language, end = "C", ";"
     state, case = "{kind}{index}", "{condition} ? {value} : "
     words = {"and": "&&", "or": "||", "not": "!", "root": "sqrt", "power": "pow"}
+
+    def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
+        """Sines and cosines are put off until nothing else can be done without them, and are then computed side by side."""
+        while numbers:
+            turns, later, waiting = [], [], set()
+            for number in numbers:
+                operation = self.operations[number]
+                if not waiting.isdisjoint(self.blocks.lowering.operands(operation)):
+                    later.append(number)
+                    waiting.add(number)
+                elif operation.code == "call" and operation.arguments[0] in TURNS:
+                    turns.append(number)
+                    waiting.add(number)
+                else:
+                    yield number
+            if turns:
+                lines += self._turns(turns)
+            yield from turns
+            numbers = later
+
+    def _turns(self, numbers: list[int]) -> list[str]:
+        """Statements that put the sines and cosines of all angles into arrays."""
+        angles = list(dict.fromkeys(self.operations[number].arguments[1] for number in numbers))
+        first, count = numbers[0], len(angles)
+        for number in numbers:
+            function, angle = self.operations[number].arguments
+            self.turned[number] = f"{TURNS[function]}{first}[{angles.index(angle)}]"
+        values = ", ".join(unwrapped(self.value(angle)) for angle in angles)
+        return [f"const double angle{first}[{count}] = {{{values}}};", f"double sine{first}[{count}], cosine{first}[{count}];",
+                f"zd_sines({count}, angle{first}, sine{first}, cosine{first});"]
 
     def number(self, value: float) -> str:
         if not math.isfinite(value):
@@ -144,7 +181,7 @@ class CWriter(Writer):
         scratch = sum(number in places for block in blocks.kept for number in block.operations)
         text = "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
-            "#include <math.h>", "#include <string.h>", "#include <zerodrift/system.h>", "",
+            "#include <math.h>", "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
             "const int zd_interface_version = ZD_INTERFACE_VERSION;", "",
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
@@ -217,7 +254,7 @@ def comment(text: str) -> str:
 
 
 class PythonWriter(Writer):
-    """Python with floats, one function that fills arrays."""
+    """Python with floats, one function that fills arrays; its sines are those of `math`, which may differ in the last bit."""
 
     language, end = "Python", ""
     state, case = "{kind}[{index}]", "{value} if {condition} else "

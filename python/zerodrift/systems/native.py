@@ -26,11 +26,14 @@ KIND = "zd_kind_"       # what the name of a `zd_kind` begins with in a library
 def get_include() -> str:
     """The folder for the compiler's ``-I``, so that ``#include <zerodrift/system.h>`` finds the interface.
 
+    Beside it is ``zerodrift/sines.h``: the sines and cosines that built-in and symbolic systems use, with the same bits on every
+    machine.
+
     Examples
     --------
     >>> import os, zerodrift as zd
-    >>> os.listdir(os.path.join(zd.get_include(), "zerodrift"))
-    ['system.h']
+    >>> sorted(os.listdir(os.path.join(zd.get_include(), "zerodrift")))
+    ['sines.h', 'system.h']
     """
     here = Path(__file__).resolve()
     in_source_tree = here.parents[3] / "csrc" / "include"
