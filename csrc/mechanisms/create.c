@@ -1,6 +1,7 @@
 /* From tables to a mechanism: bodies are renumbered so that inner ones come first, and joints outside the tree become rows. */
 #include <stdio.h>
 
+#include "../include/zerodrift/sines.h"
 #include "../workspace.h"
 #include "check.h"
 #include "evaluate.h"
@@ -80,7 +81,7 @@ static zd_link hang_on(const zd_joint *joint, const zd_body *body, int is_second
     static const enum zd_hang hang[] = {[ZD_TURNS] = ZD_HANGS_TURNING, [ZD_SLIDES] = ZD_HANGS_SLIDING, [ZD_FIXED] = ZD_HANGS_FIXED};
     const zd_joint_kind *kind = zd_joint_kind_of(joint->kind);
     double angle = is_second ? joint->angle : -joint->angle, sign = is_second ? 1 : -1;
-    double cosine = cos(angle), sine = sin(angle);
+    double cosine = zd_cos(angle), sine = zd_sin(angle);
     zd_link link = {
         .hang = body->is_particle ? ZD_HANGS_PINNED : hang[kind->carrier],
         .near = vector_of(is_second ? joint->point1 : joint->point2),

@@ -2,13 +2,14 @@
  * Dynamics Algorithms, 2008, chapters 5 and 6), with absolute angles as coordinates. */
 #include "tree.h"
 
+#include "../include/zerodrift/sines.h"
+
 /* ---- outward ---- */
 
 static void turn_to(zd_pose *pose, double angle)
 {
     pose->angle = angle;
-    pose->cosine = cos(angle);
-    pose->sine = sin(angle);
+    zd_sines(1, &pose->angle, &pose->sine, &pose->cosine);
 }
 
 static void turn_with(zd_pose *pose, const zd_pose *inner, const zd_link *link)
