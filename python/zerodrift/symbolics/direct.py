@@ -13,8 +13,8 @@ from .elimination import Elimination
 from .lowering import Lowering
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
-HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <string.h>", "#include <zerodrift/system.h>",
-           "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
+HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <string.h>", "#include <zerodrift/sines.h>",
+           "#include <zerodrift/system.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 
 def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | None:
