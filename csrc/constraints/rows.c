@@ -6,6 +6,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "limits.h"
+#include "packed.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
@@ -68,13 +69,19 @@ ZD_INLINE int is_doubtful(const int n, zd_rank *self, const double *C)
     return 0;
 }
 
+static int are_doubtful(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    return point->layout ? zd_packed_rows_are_doubtful(point) : ZD_SIZED(is_doubtful, self->n, self, point->terms.C);
+}
+
 int zd_rows_find(zd_point *point)
 {
     zd_rank *self = point->rank;
     if (point->known & ZD_RANKED) return ZD_DONE;
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
-    if (self->most_rows < self->m || ZD_SIZED(is_doubtful, self->n, self, point->terms.C)) return reduce(point);
+    if (self->most_rows < self->m || are_doubtful(point)) return reduce(point);
     zd_rank_use_all(point);
     point->known |= ZD_RANKED;
     return ZD_DONE;

@@ -14,45 +14,20 @@
 #include <string.h>
 
 #include "../linalg/small.h"
+#include "../point/gram.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
 enum { MAX_REFINEMENTS = 4 };
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 
-static int count_touchers(const zd_structure *structure)
-{
-    return structure->groups ? structure->first[structure->groups] : 0;
-}
-
-/* For each block the groups that touch it, increasing. */
-static void fill_touchers(zd_coupling *self, const zd_structure *structure)
-{
-    int *at = self->toucher_at, count = count_touchers(structure);
-    for (int i = 0; i < count; i++) at[structure->block[i] + 1]++;
-    for (int b = 0; b < structure->blocks; b++) at[b + 1] += at[b];
-    for (int g = 0; g < structure->groups; g++)
-        for (int i = structure->first[g], offset = 0; i < structure->first[g + 1]; i++) {
-            int b = structure->block[i], place = at[b]++;
-            self->toucher[place] = g;
-            self->offset[place] = offset;
-            offset += structure->velocities[b];
-        }
-    for (int b = structure->blocks; b > 0; b--) at[b] = at[b - 1];
-    at[0] = 0;
-}
-
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 {
-    const zd_structure *structure = system->structure;
-    if (!structure) return NULL;
-    size_t n = (size_t)system->nv, m = (size_t)(system->mh + system->mn), touchers = (size_t)count_touchers(structure);
+    if (!system->structure) return NULL;
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_coupling self = {
         .n = (int)n,
         .m = (int)m,
-        .toucher_at = zd_take(arena, (size_t)(structure->blocks + 1) * sizeof(int)),
-        .toucher = zd_take(arena, touchers * sizeof(int)),
-        .offset = zd_take(arena, touchers * sizeof(int)),
         .L = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .D = zd_take_doubles(arena, n),
         .Y = zd_take_doubles(arena, (size_t)zd_size_of_C(system)),
@@ -63,7 +38,6 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
         .rest = zd_take_doubles(arena, m),
         .step = zd_take_doubles(arena, m),
     };
-    if (arena->base) fill_touchers(&self, structure);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -81,43 +55,17 @@ static void keep_diagonal(zd_coupling *self)
     }
 }
 
-/* The entries of this block in the first row of a group, of C or of Y. */
-static size_t place_of(const zd_coupling *self, int toucher)
-{
-    return (size_t)(self->layout->C_at[self->toucher[toucher]] + self->offset[toucher]);
-}
-
-/* Y <- C L^-T, in the columns of one block */
+/* Y <- C L^-T, in the columns of one block that a group touches */
 static void transform(zd_coupling *self, int b, int toucher)
 {
     const zd_layout *layout = self->layout;
-    const int g = self->toucher[toucher], n = block_size(layout, b), width = layout->width[g];
-    const double *c = self->C + place_of(self, toucher), *L = self->L + layout->M_at[b];
-    double *y = self->Y + place_of(self, toucher);
+    const int g = layout->toucher[toucher], n = block_size(layout, b), width = layout->width[g];
+    const int at = layout->C_at[g] + layout->toucher_offset[toucher];
+    const double *c = self->C + at, *L = self->L + layout->M_at[b];
+    double *y = self->Y + at;
     for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++, c += width, y += width)
-        if (layout->is_diagonal[b]) zd_copy(n, c, y);
+        if (layout->is_diagonal[b]) ZD_SIZED(zd_copy, n, c, y);
         else ZD_SIZED(zd_forward, n, L, c, y);
-}
-
-/* s (columns) += what the block makes of the product of one row y with those of another group, other (columns, n), `width` apart */
-ZD_INLINE void multiply_rows(const int n, const double *D, const double *y, int columns, const double *other, int width, double *s)
-{
-    for (int l = 0; l < columns; l++, other += width) {
-        double sum = 0;
-        for (int i = 0; i < n; i++) sum += D[i] * y[i] * other[i];
-        s[l] += sum;
-    }
-}
-
-/* S += Y D^-1 Y^T of two groups that touch the same block */
-static void couple(zd_coupling *self, int b, int one, int other)
-{
-    const zd_layout *layout = self->layout;
-    const int g = self->toucher[one], h = self->toucher[other], n = block_size(layout, b);
-    const double *y = self->Y + place_of(self, one), *D = self->D + layout->velocity_at[b];
-    for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++, y += layout->width[g])
-        ZD_SIZED(multiply_rows, n, D, y, layout->row_at[h + 1] - layout->row_at[h], self->Y + place_of(self, other), layout->width[h],
-                 self->S + k * self->m + layout->row_at[h]);
 }
 
 int zd_coupling_factor(zd_coupling *self, zd_point *point)
@@ -127,12 +75,9 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     point->failed_index = zd_mass_factor(point, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
     keep_diagonal(self);
-    memset(self->S, 0, (size_t)(self->m * self->m) * sizeof(double));
     for (int b = 0; b < layout->blocks; b++)
-        for (int one = self->toucher_at[b]; one < self->toucher_at[b + 1]; one++) {
-            transform(self, b, one);
-            for (int other = self->toucher_at[b]; other <= one; other++) couple(self, b, one, other);
-        }
+        for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) transform(self, b, i);
+    zd_gram(layout, self->Y, self->D, self->S);
     point->failed_index = ZD_SIZED(zd_cholesky, self->m, self->S, self->S);
     return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }

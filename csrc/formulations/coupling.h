@@ -6,8 +6,6 @@
 
 typedef struct zd_coupling {
     int n, m;
-    int *toucher_at;        /* (blocks + 1,): where in the next two the groups that touch a block begin */
-    int *toucher, *offset;  /* the groups, and where in their rows the entries for that block begin */
     double *L;              /* stored as M is: its Cholesky factors */
     double *D;              /* (n,): their diagonal, in reciprocals */
     double *Y;              /* stored as C is: C L^-T */

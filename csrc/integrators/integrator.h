@@ -20,4 +20,8 @@ typedef struct zd_integrator {
                  double *lambda_h);
 } zd_integrator;
 
+/* Implicit methods have dense matrices of the size of the state: a system with structure, which else has none, may be this large. */
+enum { ZD_MOST_IMPLICIT = 300 };    /* velocities */
+static inline int zd_is_too_large(const zd_system *system) { return system->structure && system->nv > ZD_MOST_IMPLICIT; }
+
 #endif

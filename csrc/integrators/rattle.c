@@ -55,7 +55,7 @@ typedef struct rattle {
 
 static int suits(const zd_system *system)
 {
-    return !system->mn && !(system->provides & ZD_A);
+    return !system->mn && !(system->provides & ZD_A) && !zd_is_too_large(system);
 }
 
 static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)

@@ -38,6 +38,11 @@ typedef struct trapezoidal {
     double defect, before;  /* among its terms, now and an iteration ago */
 } trapezoidal;
 
+static int suits(const zd_system *system)
+{
+    return !zd_is_too_large(system);
+}
+
 static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
@@ -200,6 +205,7 @@ const zd_integrator zd_trapezoidal = {
         .reference = "N. M. Newmark, A method of computation for structural dynamics, Journal of the Engineering Mechanics "
                      "Division 85 (1959) 67-94",
     },
+    .suits = suits,
     .take = take,
     .step = step,
 };

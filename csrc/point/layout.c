@@ -60,11 +60,6 @@ void zd_set_identity(const zd_system *system, double *M)
     }
 }
 
-static int *take_ints(zd_arena *arena, int count)
-{
-    return zd_take(arena, (size_t)count * sizeof(int));
-}
-
 static void fill_blocks(zd_layout *self, const zd_structure *structure)
 {
     for (int b = 0; b < self->blocks; b++) {
@@ -94,6 +89,28 @@ static void fill_groups(zd_layout *self, const zd_structure *structure)
     }
 }
 
+/* For each block the groups that touch it. */
+static void fill_touchers(zd_layout *self, const zd_structure *structure)
+{
+    int *at = self->toucher_at;
+    for (int i = 0; i < self->touched_at[self->groups]; i++) at[self->touched[i] + 1]++;
+    for (int b = 0; b < self->blocks; b++) at[b + 1] += at[b];
+    for (int g = 0; g < self->groups; g++)
+        for (int i = self->touched_at[g], offset = 0; i < self->touched_at[g + 1]; i++) {
+            int b = self->touched[i], place = at[b]++;
+            self->toucher[place] = g;
+            self->toucher_offset[place] = offset;
+            offset += structure->velocities[b];
+        }
+    for (int b = self->blocks; b > 0; b--) at[b] = at[b - 1];
+    at[0] = 0;
+}
+
+static int *take_ints(zd_arena *arena, int count)
+{
+    return zd_take(arena, (size_t)count * sizeof(int));
+}
+
 const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
@@ -115,12 +132,16 @@ const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
         .group_of = take_ints(arena, system->mh + system->mn),
         .touched_at = take_ints(arena, groups + 1),
         .touched = take_ints(arena, touched),
+        .toucher_at = take_ints(arena, blocks + 1),
+        .toucher = take_ints(arena, touched),
+        .toucher_offset = take_ints(arena, touched),
         .column_at = take_ints(arena, groups + 1),
         .column = take_ints(arena, columns),
     };
     if (arena->base) {
         fill_blocks(&self, structure);
         fill_groups(&self, structure);
+        fill_touchers(&self, structure);
     }
     return zd_take_filled(arena, &self, sizeof self);
 }

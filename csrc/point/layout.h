@@ -15,6 +15,8 @@ typedef struct zd_layout {
     int *width;             /* (groups,): how many entries are stored of each of its rows */
     int *group_of;          /* (m,): the group of each row */
     int *touched_at, *touched;  /* (groups + 1,), (touched_at[groups],): the blocks that each group touches, increasing */
+    int *toucher_at;        /* (blocks + 1,): where in the next two the groups that touch a block begin */
+    int *toucher, *toucher_offset;      /* these groups, increasing, and where in their rows the entries for that block begin */
     int *column_at, *column;    /* (groups + 1,), (column_at[groups],): the velocities that the entries of its rows belong to */
 } zd_layout;
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../constraints/rank.h"
+#include "../integrators/integrator.h"
 #include "../point/matrices.h"
 #include "blame.h"
 #include "status.h"
@@ -116,7 +117,10 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         describe_surplus(system, formulation, to, size);
         break;
     case ZD_UNSUITED_INTEGRATOR:
-        snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,
+        if (zd_is_too_large(system))
+            snprintf(to, size, "'%s' solves its steps with dense matrices: it takes systems that declare their structure up to %d velocities, "
+                     "and here there are %d", integrator, ZD_MOST_IMPLICIT, system->nv);
+        else snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,
                  system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;
     case ZD_TINY_STEP:

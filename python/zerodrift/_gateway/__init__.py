@@ -26,16 +26,18 @@ from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
 from .mechanisms import MechanismCore, element_kinds, joint_kinds
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
+from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
 from .runs import Record, Run, acceleration, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PAUSED", "ROW_VALUES", "TERMS",
-    "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore", "Parameter",
-    "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration", "address_of", "cards", "clash", "count_steps",
-    "default", "doubles", "element_kinds", "error_of", "find", "in_library", "is_length", "joint_kinds", "kind_at", "kinds",
-    "lacking", "load_data", "numba_signature", "perturbed", "probe", "project", "settings", "step", "terms_of",
+    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED", "PAUSED",
+    "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore",
+    "Packing", "Parameter", "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration", "address_of", "cards",
+    "clash", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library", "is_length",
+    "joint_kinds", "kind_at", "kinds", "lacking", "load_data", "numba_signature", "perturbed", "probe", "project", "settings",
+    "step", "terms_of",
 ]
 
 check_fingerprint()

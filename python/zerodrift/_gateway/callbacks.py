@@ -10,6 +10,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths, set_quaternions
+from .packing import Packing, declare
 from .systems import CoreSystem
 
 
@@ -29,12 +30,12 @@ class Evaluator:
         self._arrays = {"p": _read_only(self._p), "v": _read_only(self._v)}
         for name, term in TERMS.items():
             if core.provides & term.bit:
-                self._arrays[name] = array = np.zeros(term.shape(core.c))
+                self._arrays[name] = array = np.zeros(core.stored(name))
                 terms.append({"term": term.bit, "offset": term.offset, "size": array.nbytes,
                               "values": doubles(array, array.size)})
         self._memory = p, v, ffi.new("zd_python_term[]", terms)
         self.c = ffi.new("zd_python *", {"system": core.c, "p": p, "v": v, "terms": len(terms), "term": self._memory[-1]})
-        if "C" in self._arrays:
+        if "C" in self._arrays and core.packing is None:
             self._arrays["C_H"], self._arrays["C_NH"] = self._arrays["C"][: core.mh], self._arrays["C"][core.mh :]
 
     def write(self, want: int, t: float, moved: int) -> int:
@@ -130,11 +131,12 @@ class PythonCore(CoreSystem):
 
     ``write(want, t, arrays)`` fills the arrays of the terms whose bits are in `want`, from `arrays["p"]` and `arrays["v"]`;
     ``write.not_finite(name, t, value)`` is the error for a term that came out not finite. `timeless` says that no term depends
-    on t; unit quaternions begin in p at `quaternions`.
+    on t; unit quaternions begin in p at `quaternions`. With a `packing`, the arrays of A, M and C have what is stored of them.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
-                 variables: Iterable[Variable], *, timeless: bool = False, quaternions: Sequence[int] = ()) -> None:
+                 variables: Iterable[Variable], *, timeless: bool = False, quaternions: Sequence[int] = (),
+                 packing: Packing | None = None) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
@@ -142,7 +144,7 @@ class PythonCore(CoreSystem):
             system.provides |= TERMS[name].bit
         system.evaluate = lib.zd_evaluate_in_python
         system.lengths = self._lengths = lengths(variables)
-        self._quaternions = set_quaternions(system, quaternions)
+        self._declared = set_quaternions(system, quaternions), declare(system, packing)
         super().__init__(system, None)
         self.write, self.evaluator = write, None
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
+from .packing import Packing, declare
 from .systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION
@@ -23,12 +24,13 @@ class NativeCore(CoreSystem):
 
     Its sizes are (nq, nv, mh, mn), its terms those named, its coordinates and velocities `variables`; the function receives
     `data`, and memory for `scratch` doubles of its own. `keep` is whatever must live as long as the system. `timeless` says
-    that no term depends on t; unit quaternions begin in p at `quaternions`.
+    that no term depends on t; unit quaternions begin in p at `quaternions`. With a `packing` the function writes
+    A, M and C as that says.
     """
 
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], address: int, data: np.ndarray | None,
                  variables: Iterable[Variable], *, scratch: int = 0, keep: Any = None, timeless: bool = False,
-                 quaternions: Sequence[int] = ()) -> None:
+                 quaternions: Sequence[int] = (), packing: Packing | None = None) -> None:
         system = ffi.new("zd_system *")
         system.nq, system.nv, system.mh, system.mn = sizes
         system.provides = lib.ZD_TIMELESS if timeless else 0
@@ -39,7 +41,7 @@ class NativeCore(CoreSystem):
         memory = ffi.NULL if data is None else doubles(data, data.size)
         system.data = memory
         system.lengths = dimensions = lengths(variables)
-        super().__init__(system, (memory, dimensions, set_quaternions(system, quaternions), keep))
+        super().__init__(system, (memory, dimensions, set_quaternions(system, quaternions), declare(system, packing), keep))
 
     def with_data(self, data: np.ndarray) -> NativeCore:
         """The same system, whose function receives other data."""
@@ -62,7 +64,7 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
 
     It is to write the terms it is said to have, all of each, and nothing else.
     """
-    shapes = {name: term.shape(core.c) for name, term in TERMS.items()} | {"scratch": (core.c.scratch,)}
+    shapes = {name: core.stored(name) for name in TERMS} | {"scratch": (core.c.scratch,)}
     memory = {name: np.full(int(np.prod(shape)) + 2 * GUARD, UNWRITTEN) for name, shape in shapes.items()}
     terms = ffi.new("zd_terms *")
     for name, array in memory.items():

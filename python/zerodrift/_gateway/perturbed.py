@@ -40,8 +40,15 @@ def perturbed(inner: CoreSystem, size: float, seed: int) -> PerturbedCore:
     def draw(*shape: int) -> np.ndarray:
         return 1.0 + size * chance.choice([-2.0, -1.0, 1.0, 2.0], shape)
 
-    shapes = {name: TERMS[name].shape(inner.c) for name in NAMES if inner.provides & TERMS[name].bit}
+    shapes = {name: inner.stored(name) for name in NAMES if inner.provides & TERMS[name].bit}
     factors = {"t": draw(1), "p": draw(inner.nq), "v": draw(inner.nv), **{name: draw(*shape) for name, shape in shapes.items()}}
-    upper = np.triu(factors["M"])
-    factors["M"] = upper + np.triu(upper, 1).T
+    factors["M"] = _paired(inner, factors["M"])
     return PerturbedCore(inner, factors)
+
+
+def _paired(inner: CoreSystem, factors: np.ndarray) -> np.ndarray:
+    """Factors of M, those of the upper triangle for both."""
+    dense = inner.packing.expand("M", factors) if inner.packing else factors
+    upper = np.triu(dense)
+    paired = upper + np.triu(upper, 1).T
+    return inner.packing.pack("M", paired) if inner.packing else paired

@@ -8,6 +8,9 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
+from .packing import PACKED, Packing
+
+MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
 
 
 class Kind:
@@ -63,6 +66,7 @@ class CoreSystem:
         self.r = self.nv - self.m
         self.provides, self.timeless = system.provides & ~lib.ZD_TIMELESS, bool(system.provides & lib.ZD_TIMELESS)
         self.has_energy = bool(system.provides & lib.ZD_POTENTIAL)
+        self.packing = Packing.of(system.structure)
         self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
     error: BaseException | None = None      # what a system written in Python raised
@@ -80,8 +84,23 @@ class CoreSystem:
         """Whether that row of the table of formulations can take the system."""
         return bool(lib.zd_formulation_suits(self.c, formulation))
 
+    def stored(self, name: str) -> tuple[int, ...]:
+        """The shape of what is stored of a term."""
+        packed = self.packing and name in PACKED
+        return (self.packing.size(name),) if packed else TERMS[name].shape(self.c)
+
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """All terms the system has, at (t, p, v)."""
+        """All terms the system has, at (t, p, v), with matrices that are dense."""
+        largest = max(self.nq, self.nv, self.m)
+        if self.packing and largest > MOST_ROWS:
+            raise ValueError(f"evaluate() makes dense matrices of up to {MOST_ROWS} rows, and here these would have {largest}: "
+                             "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
+        arrays = self.evaluate_stored(t, p, v)
+        packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}
+        return arrays | packed
+
+    def evaluate_stored(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """All terms the system has, at (t, p, v), as they are stored."""
         core = self.for_run()
         terms = ffi.new("zd_terms *")
         scratch = ffi.new("double[]", max(1, self.c.scratch))
@@ -90,7 +109,7 @@ class CoreSystem:
         for name, term in TERMS.items():
             if not self.provides & term.bit:
                 continue
-            arrays[name] = array = np.zeros(term.shape(self.c))
+            arrays[name] = array = np.zeros(self.stored(name))
             setattr(terms, name, doubles(array, array.size, writable=True))
         status = core.c.evaluate(core.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
         if status:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Variable
+from .structure import Structure, of_core
 
 
 class Terms:
@@ -62,6 +63,13 @@ class BaseSystem:
     def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
         """The terms of the equations of motion at (t, p, v); p and v left out: the system's own start.
 
+        Matrices are dense, also those of a system that declares its structure.
+
+        Raises
+        ------
+        ValueError
+            If the structure is declared, and a dense matrix would have more than 1000 rows: `product` multiplies by it.
+
         Examples
         --------
         >>> import zerodrift as zd
@@ -70,6 +78,57 @@ class BaseSystem:
         """
         p, v = self._state_or_start(p, v, "p", "v")
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
+
+    def product(self, term: str, x: Any, p: Any = None, v: Any = None, t: float = 0.0, *, transposed: bool = False) -> np.ndarray:
+        """The product of "A", "M" or "C" at (t, p, v), or of its transpose, and a vector; of a system of any size.
+
+        Parameters
+        ----------
+        term : {"A", "M", "C"}
+        x : array_like
+            (nv,); of a transpose as many as the matrix has rows: (nq,), (nv,) or (m,).
+        p, v : array_like (nq,), (nv,), optional
+            Left out: the system's own start.
+        t : float
+            s
+        transposed : bool
+            Whether to multiply by the transpose.
+
+        Returns
+        -------
+        ndarray
+            (nq,), (nv,) or (m,); of a transpose (nv,).
+
+        Raises
+        ------
+        ValueError
+            If the system has no such term.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> zd.systems.oscillator(mass=2.0).product("M", [3.0])
+        array([6.])
+        """
+        _check.choice("term", term, [name for name in _gateway.PACKED if self._core.provides & _gateway.TERMS[name].bit])
+        p, v = self._state_or_start(p, v, "p", "v")
+        x = _check.vector("x", x, {"A": self.nq, "M": self.nv, "C": self.m}[term] if transposed else self.nv)
+        stored = self._core.evaluate_stored(_check.number("t", t), p, v)[term]
+        if self._core.packing:
+            return self._core.packing.times(term, stored, x, transposed=transposed)
+        return (stored.T if transposed else stored) @ x
+
+    @property
+    def structure(self) -> Structure | None:
+        """Of which bodies the system consists, and which constraints join which; None where that is not declared."""
+        return of_core(self._core)
+
+    def _sizes_in_words(self) -> str:
+        """For the repr."""
+        packing = self._core.packing
+        blocks = f", {len(packing.blocks)} blocks and {len(packing.groups)} groups of constraints" if packing else ""
+        return (f"{self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and {self.mn} nonholonomic "
+                f"constraints{blocks}")
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

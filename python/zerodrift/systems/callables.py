@@ -14,6 +14,8 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from . import jets as _jets
 from .base import BaseSystem, quaternion_places, with_units
+from .packed import PackedWriter
+from .structure import Structure, checked
 
 BIT = {name: term.bit for name, term in TERMS.items()}
 
@@ -57,6 +59,9 @@ class System(BaseSystem):
         V in J. Without it there are no energies.
     power : callable -> float
         Energy input rate of (28) in W: what the forces that V does not describe do, and dV/dt at fixed p.
+    structure : Structure
+        Of which bodies the system consists, and which constraints join which; see there. Callables return the same matrices as
+        without; the core stores and multiplies nothing else of them, and an entry that has no place there is an error.
     parameters : dict
         Values the callables may ask for by name, other than ``t``, ``p`` and ``v``: numbers, arrays, which are copied, or any
         objects but strings.
@@ -99,8 +104,9 @@ class System(BaseSystem):
     def __init__(
         self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
         jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None,
-        quaternions: Sequence[int | str] = (), potential: Any = None, power: Any = None, units: Sequence[str] | None = None,
-        parameters: dict[str, Any] | None = None, p0: Any = None, v0: Any = None, name: str | None = None,
+        quaternions: Sequence[int | str] = (), potential: Any = None, power: Any = None,
+        structure: Structure | None = None, units: Sequence[str] | None = None, parameters: dict[str, Any] | None = None,
+        p0: Any = None, v0: Any = None, name: str | None = None,
     ) -> None:
         parameters = {key: _parameter(key, value) for key, value in _check.parameters(parameters).items()}
         self._given = {key: _as_now(value) for key, value in locals().items() if key not in ("self", "__class__")}
@@ -112,12 +118,15 @@ class System(BaseSystem):
             raise ValueError("jacobian is given without constraints")
         places = quaternion_places(quaternions, names, kinematics is not None)
         sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
+        packing = checked(structure, sizes, kinematics is not None)
         writer = _Writer(functions, *sizes)
+        if packing:
+            writer = PackedWriter(writer, packing)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
         self.coordinates, self.velocities = with_units(names, rates, units, kinematics is None, places)
         timeless = not any("t" in function.state_arguments for function in functions.values())
         self._core = _gateway.PythonCore(sizes, writer.provides, writer, (*self.coordinates, *self.velocities),
-                                         timeless=timeless, quaternions=places)
+                                         timeless=timeless, quaternions=places, packing=packing)
         self._core.given_jacobian = "jacobian" in functions
         self.constraints = tuple(Variable(f"constraint{i}", "") for i in range(self.m))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
@@ -126,8 +135,7 @@ class System(BaseSystem):
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))
 
     def __repr__(self) -> str:
-        return (f"<zd.System {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
-                f"{self.mn} nonholonomic constraints>")
+        return f"<zd.System {self.name}: {self._sizes_in_words()}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuild, (type(self), self._given)

@@ -14,6 +14,7 @@ from .._gateway import TERMS, Variable
 from ..errors import ZerodriftError
 from .base import BaseSystem, quaternion_places, with_units
 from .builtin import SystemOfKind
+from .structure import Structure, checked
 
 BIT = namedtuple("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
@@ -49,8 +50,8 @@ def native(
     function: Any, coordinates: int | Sequence[str] | None = None, *, terms: Iterable[str] | None = None,
     symbol: str | None = None, version: int | None = None, velocities: int | Sequence[str] | None = None,
     constraints: int | Sequence[str] = 0, nonholonomic: int | Sequence[str] = 0, parameters: Mapping[str, float] | None = None,
-    quaternions: Sequence[int | str] = (), units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, scratch: int = 0,
-    name: str | None = None,
+    quaternions: Sequence[int | str] = (), structure: Structure | None = None, units: Sequence[str] | None = None, p0: Any = None,
+    v0: Any = None, scratch: int = 0, name: str | None = None,
 ) -> BaseSystem:
     """A system whose terms a compiled function evaluates, at the speed of the built-in ones.
 
@@ -82,6 +83,9 @@ def native(
         What the function is handed as ``data``: an array of doubles, in this order. Of a ``zd_kind``: its parameters.
     quaternions : sequence of int or str
         As of `zerodrift.System`: where unit quaternions begin in p. They need a kinematic matrix A.
+    structure : Structure
+        Of which bodies the system consists, and which constraints join which. The function then writes A, M and C packed, as
+        `zerodrift.Structure` says, whose `offsets` tell where each block and group begins.
     units : sequence of str
         As of `zerodrift.System`: the unit of each coordinate, and with a kinematic matrix of each velocity, too.
     p0, v0 : array_like (nq,), (nv,)
@@ -123,21 +127,21 @@ def native(
     """
     if coordinates is None:
         given = {"version": version, "terms": terms, "velocities": velocities, "constraints": constraints or None, "p0": p0,
-                 "nonholonomic": nonholonomic or None, "quaternions": quaternions or None, "units": units,
-                 "v0": v0, "scratch": scratch or None, "name": name}
+                 "nonholonomic": nonholonomic or None, "quaternions": quaternions or None, "structure": structure,
+                 "units": units, "v0": v0, "scratch": scratch or None, "name": name}
         return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
     if terms is None:
         raise TypeError("terms is needed with coordinates: the names of the terms that the function writes")
     return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
                   constraints=constraints, nonholonomic=nonholonomic, parameters=parameters, quaternions=quaternions,
-                  units=units, p0=p0, v0=v0, scratch=scratch, name=name)
+                  structure=structure, units=units, p0=p0, v0=v0, scratch=scratch, name=name)
 
 
 class Native(BaseSystem):
     """A system whose terms a compiled function evaluates."""
 
     def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: Any,
-                 nonholonomic: Any, parameters: Any, quaternions: Any, units: Any, p0: Any, v0: Any, scratch: int,
+                 nonholonomic: Any, parameters: Any, quaternions: Any, structure: Any, units: Any, p0: Any, v0: Any, scratch: int,
                  name: str | None) -> None:
         self._found = found
         names = _check.names("coordinates", coordinates, "p")
@@ -151,14 +155,18 @@ class Native(BaseSystem):
         places = quaternion_places(quaternions, names, "A" in terms)
         self.coordinates, self.velocities = with_units(names, rates, units, "A" not in terms, places)
         self.constraints = tuple(Variable(row, "") for row in rows)
+        packing = checked(structure, sizes, "A" in terms)
+        if packing and "D" in terms:
+            raise ValueError("terms cannot have D where the structure is declared")
         self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
-                                         keep=found.keep, scratch=_check.count("scratch", scratch, least=0), quaternions=places)
+                                         keep=found.keep, scratch=_check.count("scratch", scratch, least=0), quaternions=places,
+                                         packing=packing)
         self._core.given_jacobian = True
         self.name = name or "native system"
         self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, self.nq))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
         self._given = {"coordinates": names, "velocities": rates, "constraints": holonomic, "nonholonomic": rows[len(holonomic):],
-                       "terms": terms, "quaternions": places, "units": units,
+                       "terms": terms, "quaternions": places, "structure": structure, "units": units,
                        "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
         _check_at_start(self)
 
@@ -166,8 +174,7 @@ class Native(BaseSystem):
         return Native(self._found, **self._given, parameters=self.parameters | changed)
 
     def __repr__(self) -> str:
-        return (f"<zd.native {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
-                f"{self.mn} nonholonomic constraints>")
+        return f"<zd.native {self.name}: {self._sizes_in_words()}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._found.origin is None:
