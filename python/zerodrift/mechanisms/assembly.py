@@ -16,6 +16,7 @@ from ..errors import CorrectionFailed, InconsistentStart
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
 ATTEMPTS = 200          # damped steps from a sketch
+NEARER = 50             # steps towards the drawing
 TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
 NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
@@ -72,9 +73,12 @@ class Assembly:
         """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
         residual, _ = self._residual(p, held)
         if np.abs(residual).max(initial=0.0) > CLOSED:
-            p = self._close(p)
-            p = self._track(p, held)
+            p = self._nearest(p, self._track(self._close(p), held), held)
         return self._approach(p, held, wished) if wished else p
+
+    def led_to(self, p: np.ndarray) -> np.ndarray:
+        """From positions at another time to those to which drives lead."""
+        return self._track(p, ())
 
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
@@ -162,6 +166,23 @@ class Assembly:
             raise self._unmet(residual, held)
         return p
 
+    def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+        """From positions that are closed to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
+        distance = np.linalg.norm((p - drawn) / self.scale * self.weight)
+        for _ in range(NEARER):
+            residual, rows = self._residual(p, held)
+            step = (drawn - p) / self.scale
+            step = step - self._least_step(rows, rows @ step + residual)
+            step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
+            tried = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
+            if tried is None:
+                break
+            nearer = np.linalg.norm((tried - drawn) / self.scale * self.weight)
+            if not nearer < distance * (1 - 1e-6):
+                break
+            p, distance = tried, nearer
+        return p
+
     def _shifted(self, p: np.ndarray, held: Sequence[Target], shift: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         residual, rows = self._residual(p, held)
         return residual - shift, rows
@@ -229,14 +250,24 @@ class Assembly:
             free = _nullspace(rows[:count])
             step = free @ _least_along(rows[count:], free, -residual[count:])
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
-            moved = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
-            if moved is None:
+            nearer = self._nearer(p, step, held, wished)
+            if nearer is None:
                 break
-            error, before = (float(np.linalg.norm(self._residual(q, wished)[0][len(self.kept):])) for q in (moved, p))
-            if not error < before * (1 - 1e-9):
-                break
-            p = moved
+            p = nearer
         return p
+
+    def _nearer(self, p: np.ndarray, step: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray | None:
+        """Positions after the longest of ever shorter steps that come nearer to the wishes; None where none does."""
+        def error(p: np.ndarray) -> float:
+            return float(np.linalg.norm(self._residual(p, wished)[0][len(self.kept):]))
+
+        before = error(p)
+        for _ in range(20):
+            moved = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
+            if moved is not None and error(moved) < before * (1 - 1e-9):
+                return moved
+            step = step / 2
+        return None
 
     def _unmet(self, residual: np.ndarray, held: Sequence[Target]) -> Exception:
         """The error that names what is not met: what is held, and drives and couplings, with what remains of each."""

@@ -53,10 +53,13 @@ class Starting:
         return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
 
     def assembled(self, t: float) -> tuple[Assembly, np.ndarray]:
-        """The assembly at a time, and the positions that it found."""
+        """The assembly at a time, and the positions that it found.
+
+        Drives of constant speed count from t = 0, and so does then what is held: from there they lead to their places at t.
+        """
         tables = self._tables(self.drives)
         assembly = self._assembly(tables, t)
-        p = self._positions(tables, assembly)
+        p = assembly.led_to(self.assembled(0.0)[1]) if t and self.has_speeds else self._positions(tables, assembly)
         self._check_mass(tables, assembly, p)
         return assembly, p
 

@@ -1,0 +1,277 @@
+"""Assembly: from sketches to closed positions, with what is held and wished; what cannot be is named."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from mechanisms import known
+
+
+def linkage(lengths=(0.8, 2.2, 1.1), ground=2.0):
+    """A four-bar from a sketch: crank, coupler and rocker of these lengths, in all of one kilogram each."""
+    m = zd.Mechanism("linkage", gravity=(0, -9.81))
+    a = m.link("crank", (0, 0), (0.1, 0.9), mass=1.0, length=lengths[0])
+    b = m.link("coupler", (0.1, 0.9), (2.1, 1.2), mass=1.0, length=lengths[1])
+    c = m.link("rocker", (2.1, 1.2), (ground, 0), mass=1.0, length=lengths[2])
+    m.revolute("A", m.ground, a.start)
+    m.revolute("B", a.end, b.start)
+    m.revolute("C", b.end, c.start)
+    m.revolute("D", c.end, m.ground.point((ground, 0)))
+    return m
+
+
+def violation(system, t=0.0):
+    e = system.evaluate(*system.start_at(t), t)
+    phi_t = 0.0 if e.Phi_t is None else e.Phi_t
+    return np.abs(e.Phi).max(), np.abs(e.C @ system.start_at(t)[1] + phi_t).max()
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_lengths_win_over_the_drawing(layout):
+    system = linkage().system(layout)
+    assert max(violation(system)) < 1e-14
+
+
+def test_both_coordinates_start_from_the_same_state():
+    m = linkage()
+    m.start({"crank.angular_velocity": 1.0}, wish={"rocker.angle": 4.9})
+    poses = [system._core.poses(system.p0, system.v0) for system in (m.system("joint"), m.system("absolute"))]
+    np.testing.assert_allclose(poses[0], poses[1], atol=1e-13)
+
+
+def test_an_assembled_mechanism_is_not_moved():
+    m, again = linkage(), zd.Mechanism("again")
+    poses, _ = m.system()._core.poses(m.system().p0)
+    bodies = [again.body(f"b{i}", 1.0, 0.1, at=pose[:2], angle=pose[2]) for i, pose in enumerate(poses)]
+    again.revolute("A", again.ground, bodies[0].point(at=(0, 0)))
+    again.revolute("B", bodies[0].point((0.4, 0)), bodies[1].point((-1.1, 0)))
+    again.revolute("C", bodies[1].point((1.1, 0)), bodies[2].point((-0.55, 0)))
+    again.revolute("D", bodies[2].point((0.55, 0)), again.ground.point((2, 0)))
+    moved = again.system("absolute").p0.reshape(-1, 3) - poses
+    assert np.abs(moved).max() < 1e-14
+
+
+def test_the_closed_position_is_that_nearest_to_the_drawing():
+    """In the mass metric: no free direction leads nearer, to the order of the steps that were looked at."""
+    system = linkage().system("absolute")
+    start = system._start
+    assembly, p = start.assembled(0.0)
+    drawn = start.drawn(start._tables({})).ravel()
+    M, free = assembly.free_motions(p)
+    downhill = free.T @ M @ ((p - drawn) / assembly.scale)
+    assert np.abs(downhill).max() < 1e-2 * np.linalg.norm(M @ ((p - drawn) / assembly.scale))
+
+
+def test_a_loop_that_cannot_close_is_named_with_what_stays_open():
+    """Links of 1, 0.5 and 0.25 m between pins that are 2 m apart: 0.25 m are missing."""
+    with pytest.raises(zd.CorrectionFailed, match=r"the loop of ground, crank, coupler, rocker, through A, B, C, D, "
+                                                  r"cannot close: it stays open by 0.25 m at 'C'"):
+        _ = linkage((1.0, 0.5, 0.25)).system().p0
+    assert "it cannot start: the loop of ground, crank, coupler, rocker" in str(linkage((1.0, 0.5, 0.25)))
+
+
+def test_the_loop_that_is_named_is_the_one_that_is_open():
+    m = linkage()
+    a = m.link("left", (5, 0), (5, 1), mass=1.0)
+    b = m.link("right", (6, 0), (5, 1), mass=1.0, length=0.2, inertia=0.1)
+    m.revolute("P", m.ground, a.start)
+    m.revolute("Q", m.ground, b.start)
+    m.revolute("R", a.end, b.end)
+    m.rod("rod", m.ground.point((7, 0)), b.point((0, 0)), length=4.0)
+    with pytest.raises(zd.CorrectionFailed, match="the loop of ground, right, through Q, rod, cannot close"):
+        _ = m.system().p0
+
+
+# ---- what is held and wished ----
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.2, 2.5])
+def test_what_is_held_is_met(angle):
+    m = linkage()
+    m.start({"crank.angle": angle, "crank.angular_velocity": 2.0})
+    system = m.system()
+    assert max(violation(system)) < 1e-13
+    np.testing.assert_allclose((system.p0[0], system.v0[0]), (angle, 2.0), rtol=1e-13)
+
+
+def test_vectors_and_points_are_held_in_the_drawings_axes():
+    m = zd.Mechanism("free")
+    m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.start({"link.end.position": (3.0, 4.0), "link.end.velocity.x": 2.0, "link.angle": 0.5})
+    sol = zd.simulate(m, 0.1, step=0.1)
+    np.testing.assert_allclose(sol["link.end.position"][0], (3.0, 4.0), atol=1e-13)
+    np.testing.assert_allclose(sol["link.end.velocity"][0, 0], 2.0, atol=1e-13)
+
+
+def test_large_angles_are_reached_by_turning_and_count_turns():
+    m = zd.Mechanism("pendulum")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.start({pin.angle: 9.0})
+    assert m.system().p0[0] == pytest.approx(9.0, rel=1e-14)
+
+
+def test_what_cannot_be_held_is_named_with_what_remains():
+    m = linkage()
+    m.start({"coupler.end.position": (9.0, 0.0)})
+    with pytest.raises(zd.InconsistentStart, match=r"cannot be met together: 'coupler.end.position.x'.*what remains is"):
+        _ = m.system().p0
+
+
+def test_velocities_that_contradict_each_other_are_named():
+    m = linkage()
+    m.start({"crank.angular_velocity": 1.0, "rocker.angular_velocity": -3.0})
+    with pytest.raises(zd.InconsistentStart, match=r"start: the velocities of '(crank|rocker).angular_velocity' and "
+                                                   r"'(crank|rocker).angular_velocity' contradict each other"):
+        _ = m.system().p0
+
+
+def test_held_values_that_agree_are_accepted():
+    m = linkage()
+    m.start({"crank.angular_velocity": 1.0})
+    v = m.system().v0
+    m.start({"rocker.angular_velocity": v[2], "A.speed": 1.0})
+    np.testing.assert_allclose(m.system().v0, v, atol=1e-9)
+
+
+def test_a_start_against_a_drive_is_named():
+    m = linkage()
+    m.motor("drive", m["A"], angle=lambda t: 0.1 * np.sin(t))
+    m.start({"crank.angle": 3.0})
+    with pytest.raises(zd.InconsistentStart, match=r"'crank.angle'.*'drive'|'drive'.*'crank.angle'"):
+        _ = m.system().p0
+
+
+def test_wishes_are_met_as_nearly_as_possible():
+    m = linkage()
+    m.start(wish={"rocker.angle": 100.0})
+    far = m.system().p0[2]
+    for angle in (far - 1e-3, far + 1e-3):
+        m.start({"rocker.angle": angle}, wish={"rocker.angle": None})
+        if angle > far:
+            with pytest.raises(zd.InconsistentStart):
+                _ = m.system().p0
+        else:
+            assert max(violation(m.system())) < 1e-13
+    m.start({"rocker.angle": None}, wish={"crank.angular_velocity": 1.5})
+    assert m.system().v0[0] == pytest.approx(1.5, rel=1e-9)
+
+
+def test_assemble_takes_positions_and_velocities_of_a_mechanism():
+    m = linkage()
+    p, v = zd.assemble(m, {"crank.angle": 1.0, "crank.angular_velocity": 2.0}, wish={"rocker.angle": 4.0})
+    np.testing.assert_allclose((p[0], v[0]), (1.0, 2.0), rtol=1e-12)
+    with pytest.raises(TypeError, match="p of a mechanism must be a dict of values by measure"):
+        zd.assemble(m, [1.0, 2.0, 3.0])
+    with pytest.raises(TypeError, match="wish and nudge are for mechanisms, and four_bar is none"):
+        zd.assemble(zd.systems.four_bar(), zd.systems.four_bar().p0, nudge=True)
+    with pytest.raises(TypeError, match="a dict of values by measure is for mechanisms, and four_bar is none"):
+        zd.assemble(zd.systems.four_bar(), {"alpha1": 1.0})
+
+
+# ---- drives ----
+
+
+def test_a_drive_of_constant_speed_starts_where_the_start_has_it():
+    m = linkage()
+    m.motor("drive", m["A"], speed=2.0)
+    m.start({"crank.angle": 1.2})
+    np.testing.assert_allclose(m.system().start_at(0.5)[0][0], 1.2 + 2.0 * 0.5, rtol=1e-13)
+    sol = zd.simulate(m, (0.5, 1.0), step=0.01)
+    np.testing.assert_allclose(sol["crank.angle"], 1.2 + 2.0 * sol.t, rtol=1e-12)
+
+
+def test_a_law_of_the_angle_starts_at_its_own_time():
+    m = linkage()
+    m.motor("drive", m["A"], angle=lambda t: 0.3 * np.sin(2 * t))
+    sol = zd.simulate(m, (0.25, 0.75), step=0.01)
+    np.testing.assert_allclose(sol["A.angle"], 0.3 * np.sin(2 * sol.t), atol=1e-12)
+    np.testing.assert_allclose(sol["A.speed"], 0.6 * np.cos(2 * sol.t), atol=1e-12)
+
+
+def test_with_parameters_assembles_again():
+    system = linkage().with_parameters({"coupler.length": 2.2, "rocker.length": 1.3})
+    assert max(violation(system)) < 1e-14
+    sol = zd.simulate(system, 0.1, step=0.01)
+    np.testing.assert_allclose(np.hypot(*(sol["coupler.end.position"] - sol["coupler.start.position"]).T), 2.2, rtol=1e-12)
+
+
+# ---- what has no mass ----
+
+
+def test_massless_bodies_that_nothing_holds_are_named():
+    m = zd.Mechanism("loose")
+    a, b = m.link("a", (0, 0), (1, 0), mass=1.0), m.link("b", (1, 0), (2, 0))
+    m.revolute("A", m.ground, a.start)
+    m.revolute("B", a.end, b.start)
+    with pytest.raises(zd.SingularSystem, match="'b' can move without moving any mass: give it mass and inertia"):
+        _ = m.system().p0
+
+
+def test_massless_links_may_be_held_by_loops():
+    m = linkage()
+    system = m.with_parameters({"coupler.mass": 0.0, "coupler.inertia": 0.0})
+    sol = zd.simulate(system, 0.5, step=1e-3, formulation="augmented")
+    assert np.ptp(sol.kinetic_energy + sol.potential_energy) < 1e-8
+
+
+# ---- counting ----
+
+
+def parallelogram(arms=3):
+    m = zd.Mechanism("parallelogram")
+    bar = m.link("bar", (0, 1), (2, 1), mass=2.0)
+    for i in range(arms):
+        arm = m.link(f"arm{i}", (i, 0), (i, 1), mass=1.0)
+        m.revolute(f"P{i}", m.ground, arm.start)
+        m.revolute(f"Q{i}", arm.end, bar)
+    return m
+
+
+def test_what_print_says_of_the_papers_four_bar():
+    first, second, *rest = str(known.four_bar()).splitlines()
+    assert first == "<Mechanism four-bar: plane, 3 bodies, 4 joints; no forces but gravity (0, -9.81)>"
+    assert second == (" freedom 1 (Gruebler 1); joint coordinates 3, 2 rows closing 1 loop at C; absolute 9, 8 rows; "
+                      "no redundant rows")
+    assert rest == [" a simulation takes joint coordinates, of which there are fewer"]
+    assert repr(known.four_bar()) == first
+
+
+def test_what_print_says_of_drives():
+    text = str(known.slider_crank())
+    assert "freedom 0 (Gruebler 0)" in text
+    assert "driven: main by drive (speed)" in text
+
+
+def test_redundant_rows_are_named_by_joint():
+    text = str(parallelogram())
+    assert "freedom 1 (Gruebler 0)" in text
+    assert "1 of 12 rows follows from others: Q2.y" in text
+    assert "reactions not determined: P0.y, Q0.y, P1.y, Q1.y, P2.y, Q2.y" in text
+    assert "singular" not in text
+
+
+def test_a_drawing_that_is_singular_is_told_from_redundancy():
+    """A four-bar stretched along a line: one row follows from others there, and nowhere near."""
+    m = zd.Mechanism("flat", gravity=(0, -1))
+    a, b, c = m.link("a", (0, 0), (1, 0), 1.0), m.link("b", (1, 0), (3, 0), 1.0), m.link("c", (3, 0), (4, 0), 1.0)
+    for name, first, second in (("A", m.ground, a.start), ("B", a.end, b.start), ("C", b.end, c.start)):
+        m.revolute(name, first, second)
+    m.revolute("D", c.end, m.ground.point((4, 0)))
+    text = str(m)
+    assert "no redundant rows" in text
+    assert "a singular pose: D.x follows from others as drawn, and not nearby" in text
+
+
+def test_reactions_that_are_not_determined_are_not_unique():
+    m = parallelogram()
+    m.start({"arm0.angular_velocity": 1.0})
+    sols = [zd.simulate(m.system(layout), 0.3, step=0.01) for layout in ("joint", "absolute")]
+    for sol in sols:
+        assert not sol.unique("P0.force.y")
+        assert sol.unique("bar.position").all()
+        assert sol.unique("arm0.angle") is True
+        with pytest.raises(KeyError):
+            sol.unique("colour")
+    total = [sum(sol[f"P{i}.force"] for i in range(3)) for sol in sols]
+    np.testing.assert_allclose(*total, atol=1e-9)
