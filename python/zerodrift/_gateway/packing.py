@@ -60,6 +60,11 @@ class Packing:
         c = ffi.new("zd_structure *", {"blocks": len(self.blocks), "groups": len(self.groups), **kept})
         return c, (c, kept)
 
+    def places(self, name: str) -> list[int]:
+        """Where in the dense matrix, row by row, each stored entry stands."""
+        rows, columns = self._places[name]
+        return (rows * self.shapes[name][1] + columns).tolist()
+
     def size(self, name: str) -> int:
         """How many entries are stored of A, M or C."""
         return self.offsets[name][-1]

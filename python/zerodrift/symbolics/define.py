@@ -10,6 +10,7 @@ try:
 except ImportError as error:
     raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
+from ..systems.structure import Structure
 from . import cache, direct
 from .blocks import Blocks
 from .definition import Definition
@@ -17,6 +18,7 @@ from .derivation import Derivation
 from .emission import CWriter, PythonWriter
 from .fingerprint import fingerprint
 from .lowering import Lowering
+from .pattern import Pattern
 from .progress import Progress
 from .system import Code, SymbolicSystem
 
@@ -144,8 +146,10 @@ def _derive(definition: Definition, say: Progress) -> Code:
     definition.check_linearity(terms)
     say("eliminating common subexpressions")
     lowering = Lowering(reader.graph)
+    sizes = given.nq, given.nv, len(given.holonomic), len(given.nonholonomic)
     outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in terms.items()}
-    blocks = Blocks(lowering, outputs)
+    structure = Pattern(terms, sizes, lambda node: node is reader.graph.zero).structure()
+    blocks = Blocks(lowering, _stored(outputs, structure))
     say("writing C")
     c_source, constants, scratch = CWriter(blocks).source(definition.heading(), len(definition.values))
     drawing = definition.drawing(reader)
@@ -154,8 +158,16 @@ def _derive(definition: Definition, say: Progress) -> Code:
     return Code(
         coordinates=definition.coordinate_names, velocities=definition.velocity_names,
         constraints=definition.constraint_names, parameters=tuple(definition.values),
-        sizes=(given.nq, given.nv, len(given.holonomic), len(given.nonholonomic)), provides=tuple(terms),
+        sizes=sizes, structure=structure, provides=tuple(terms),
         timeless=all(operation.arguments[0] != "t" for operation in lowering.operations if operation.code == "leaf"),
         constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
         drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source(),
         program=direct.as_json(lowering, outputs))
+
+
+def _stored(outputs: dict[str, list[int]], structure: dict[str, Any] | None) -> dict[str, list[int]]:
+    """Of each term what is stored of it."""
+    if structure is None:
+        return outputs
+    places = {name: Structure(**structure).places(name) for name in ("A", "M", "C") if name in outputs}
+    return outputs | {name: [outputs[name][place] for place in of_term] for name, of_term in places.items()}

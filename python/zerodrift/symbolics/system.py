@@ -16,6 +16,7 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning
 from ..systems.base import BaseSystem, quaternion_places, with_units
+from ..systems.structure import Structure, checked
 from . import compiling
 from .direct_functions import DIRECT, DirectFunctions
 
@@ -29,6 +30,7 @@ class Code:
     constraints: tuple[str, ...]
     parameters: tuple[str, ...]
     sizes: tuple[int, int, int, int]    # nq, nv, mh, mn
+    structure: dict[str, Any] | None    # the arguments of `zerodrift.Structure`, where one pays
     provides: tuple[str, ...]
     timeless: bool                      # no term depends on t
     constants: int                      # that follow from the parameters
@@ -67,6 +69,7 @@ class SymbolicSystem(BaseSystem):
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
                                                        self._places)
         self.constraints = tuple(Variable(row, "") for row in code.constraints)
+        self._packing = checked(code.structure and Structure(**code.structure), code.sizes, "A" in code.provides)
         self._set_start(p0, v0)
         self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
         self._library = compiling.library(code.c_source, progress)
@@ -83,7 +86,8 @@ class SymbolicSystem(BaseSystem):
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
         return _gateway.NativeCore(code.sizes, code.provides, address, self._data(), (*self.coordinates, *self.velocities),
-                                   scratch=code.scratch, keep=self._library, timeless=code.timeless, quaternions=self._places)
+                                   scratch=code.scratch, keep=self._library, timeless=code.timeless, quaternions=self._places,
+                                   packing=self._packing)
 
     def _data(self) -> np.ndarray:
         """What the compiled function receives: the parameters, and the constants that follow from them."""
@@ -110,7 +114,7 @@ class SymbolicSystem(BaseSystem):
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())
         return _gateway.PythonCore(code.sizes, code.provides, written, (*self.coordinates, *self.velocities),
-                                   timeless=code.timeless, quaternions=self._places)
+                                   timeless=code.timeless, quaternions=self._places, packing=self._packing)
 
     @property
     def c_source(self) -> str:
@@ -158,8 +162,7 @@ class SymbolicSystem(BaseSystem):
 
     def __repr__(self) -> str:
         how = "" if self.compiled else ", evaluated in Python"
-        return (f"<zd.symbolic {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and "
-                f"{self.mn} nonholonomic constraints{how}>")
+        return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct)

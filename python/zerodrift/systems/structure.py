@@ -84,6 +84,10 @@ class Structure:
         """Where, of what is stored of "A", "M" or "C", the matrix of each block or group begins; and the end."""
         return self._packing.offsets[_check.choice("term", term, _gateway.PACKED)]
 
+    def places(self, term: str) -> list[int]:
+        """Where, in the dense matrix "A", "M" or "C" row by row, each stored entry stands."""
+        return self._packing.places(_check.choice("term", term, _gateway.PACKED))
+
     def expand(self, term: str, packed: Any) -> np.ndarray:
         """The dense matrix "A" (nq, nv), "M" (nv, nv) or "C" (m, nv) of what is stored of it."""
         return self._packing.expand(term, _check.vector("packed", packed, self.size(term)))
