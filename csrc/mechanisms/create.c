@@ -15,6 +15,7 @@ typedef struct parts {
     zd_planned_joint *planned;
     zd_gauge *gauge;
     zd_gauge_term *term;
+    double *coefficient;
     zd_relation *row;
     zd_row_owner *owner_of_row;
     zd_effort *effort;
@@ -39,6 +40,7 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     TAKE(planned, joints);
     TAKE(gauge, (size_t)tables->gauges + extra);
     TAKE(term, (size_t)tables->terms + extra);
+    TAKE(coefficient, (size_t)tables->terms + extra);
     TAKE(row, rows);
     TAKE(owner_of_row, rows);
     TAKE(effort, (size_t)tables->efforts);
@@ -156,7 +158,10 @@ static void copy_gauges(const zd_tables *tables, parts *to)
         to->gauge[i].first = to->number[tables->gauge[i].first];
         to->gauge[i].second = to->number[tables->gauge[i].second];
     }
-    for (int i = 0; i < tables->terms; i++) to->term[i] = tables->term[i];
+    for (int i = 0; i < tables->terms; i++) {
+        to->term[i] = tables->term[i];
+        to->coefficient[i] = tables->term[i].coefficient;
+    }
     to->gauges = tables->gauges;
     to->terms = tables->terms;
 }
@@ -177,6 +182,7 @@ static void add_term(const zd_joint *joint, int kind, enum zd_zero zero, double 
     to->gauge[to->gauges] = (zd_gauge){
         kind, joint->first, joint->second, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
         {joint->axis[0], joint->axis[1]}, zero_of(joint, zero)};
+    to->coefficient[to->terms] = coefficient;
     to->term[to->terms++] = (zd_gauge_term){to->gauges++, coefficient};
 }
 
@@ -267,6 +273,41 @@ static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tr
     return terms;
 }
 
+/* The size of what is drawn: how far apart points of the ground are, twice how far those of bodies are from their mass centres, and lengths
+ * of joints and gauges. Coordinates alone do not tell it, as a slider may start at 0. */
+typedef struct extent {
+    double largest;
+    zd_vector low, high;    /* corners of the ground's points */
+} extent;
+
+static void extend(extent *to, int body, const double *point)
+{
+    if (body) {
+        to->largest = fmax(to->largest, 2 * hypot(point[0], point[1]));
+        return;
+    }
+    to->low = (zd_vector){fmin(to->low.x, point[0]), fmin(to->low.y, point[1])};
+    to->high = (zd_vector){fmax(to->high.x, point[0]), fmax(to->high.y, point[1])};
+}
+
+static double length_of(const zd_tables *tables)
+{
+    extent all = {0, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (const zd_joint *joint = tables->joint; joint < tables->joint + tables->joints; joint++) {
+        extend(&all, joint->first, joint->point1);
+        extend(&all, joint->second, joint->point2);
+        all.largest = fmax(all.largest, fmax(fabs(joint->length), fmax(fabs(joint->along), fabs(joint->across))));
+    }
+    for (const zd_gauge *gauge = tables->gauge; gauge < tables->gauge + tables->gauges; gauge++) {
+        if (gauge->kind < ZD_GAUGE_ALONG) continue;     /* places are measured from the drawing's origin, which may be far away */
+        extend(&all, gauge->first, gauge->point1);
+        extend(&all, gauge->second, gauge->point2);
+        all.largest = fmax(all.largest, fabs(gauge->zero));
+    }
+    if (all.high.x >= all.low.x) all.largest = fmax(all.largest, hypot(all.high.x - all.low.x, all.high.y - all.low.y));
+    return all.largest > 0 ? all.largest : 1;
+}
+
 static int has_tree(const zd_tables *tables)
 {
     for (int i = 0; i < tables->bodies; i++)
@@ -285,6 +326,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .evaluate = zd_mechanism_evaluate,
         .data = self,
         .lengths = from->lengths,
+        .length = length_of(tables),
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
     };
@@ -304,7 +346,8 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
         .tree = {tables->bodies, coordinates, all->link},
         .joints = tables->joints, .relations = tables->relations, .efforts = tables->efforts, .mh = mh, .m = all->rows,
         .longest = longest_of(tables),
-        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term, .row = all->row,
+        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term,
+        .coefficient = all->coefficient, .row = all->row,
         .owner_of_row = all->owner_of_row, .row_of_relation = all->row_of_relation, .effort = all->effort, .observed = all->observed,
         .coordinate = all->coordinate,
         .law = tables->law, .owner = tables->owner,

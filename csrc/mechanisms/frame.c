@@ -20,7 +20,6 @@ static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
     to->row = next(scratch, &used, self->tree.nv, sizeof(double));
     to->x = next(scratch, &used, longest, sizeof(double));
     to->xdot = next(scratch, &used, longest, sizeof(double));
-    to->bias = next(scratch, &used, longest, sizeof(double));
     to->out = next(scratch, &used, longest + 3, sizeof(double));
     return used;
 }

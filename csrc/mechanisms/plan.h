@@ -22,6 +22,7 @@ struct zd_mechanism {
     const zd_planned_joint *planned;    /* (joints,) */
     const zd_gauge *gauge;          /* those given, then those of the joints' rows */
     const zd_gauge_term *term;
+    const double *coefficient;      /* those of the terms, one after another */
     const zd_relation *row;         /* (m,) of the joints and the relations given, holonomic ones first */
     const zd_row_owner *owner_of_row;           /* (m,) */
     const int *row_of_relation;     /* (relations,) */
@@ -43,7 +44,7 @@ typedef struct zd_frame {
     zd_composite *composite;
     zd_spin *spin;                  /* of measures alone */
     double *row;                    /* (nv,) of measures alone */
-    double *x, *xdot, *bias, *out;  /* of a row's gauges: (longest,), and (longest + 3,) */
+    double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
 } zd_frame;
 
 zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch);

@@ -4,52 +4,46 @@
 #include "gauge.h"
 
 typedef struct combined {
-    double value;           /* g */
+    double value;           /* g, but for the gauges' own part where the row has no law */
     double explicit_rate;   /* of (5): dg/dt, or a_0 */
     double second;          /* what (6) has besides the gauges' own second derivatives */
     const double *factors;  /* dg/dx_i, or a_i: (terms,) */
 } combined;
 
 /* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
-static combined combine_linearly(const zd_relation *row, const zd_frame *frame, double t)
+static combined combine_linearly(const zd_mechanism *self, const zd_relation *row, double t)
 {
     double target = row->constant + row->slope * t;
-    combined all = {.factors = frame->out};
-    if (row->nonholonomic) {
-        all.explicit_rate = -target;
-        all.second = -row->slope;
-    } else {
-        all.value = zd_dot(row->terms, frame->out, frame->x) - target;
-        all.explicit_rate = -row->slope;
-    }
-    return all;
+    return row->nonholonomic ? (combined){0, -target, -row->slope, self->coefficient + row->first}
+                             : (combined){-target, -row->slope, 0, self->coefficient + row->first};
 }
 
-/* Reads the gauges of a row, with their rates where they are needed, and combines them. */
-static int combine(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, int has_rates, double t, combined *all)
+/* Hands a law the gauges of its row, and takes what it says. */
+static int ask_law(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t, combined *all)
 {
-    const zd_gauge_term *term = self->term + row->first;
-    int k = row->terms, has_law = row->law >= 0;
+    int k = row->terms;
+    double *out = frame->out, bias;
     for (int i = 0; i < k; i++) {
-        const zd_gauge *gauge = self->gauge + term[i].gauge;
+        const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
         frame->x[i] = zd_gauge_read(gauge, frame->pose).value;
-        frame->out[i] = term[i].coefficient;
-        if (has_rates || has_law) frame->xdot[i] = zd_gauge_rate(gauge, frame->pose, frame->twist, frame->bias + i);
+        frame->xdot[i] = zd_gauge_rate(gauge, frame->pose, frame->twist, &bias);
     }
-    if (!has_law) {
-        *all = combine_linearly(row, frame, t);
-        return ZD_DONE;
-    }
-    const double *out = frame->out;
-    if (self->law(self->owner, row->law, t, frame->x, frame->xdot, frame->out)) return ZD_CALLBACK;
+    if (self->law(self->owner, row->law, t, frame->x, frame->xdot, out)) return ZD_CALLBACK;
     *all = (combined){out[0], out[k + 1], out[k + 2], out + 1};
+    return ZD_DONE;
+}
+
+static int combine(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t, combined *all)
+{
+    if (row->law >= 0) return ask_law(self, frame, row, t, all);
+    *all = combine_linearly(self, row, t);
     return ZD_DONE;
 }
 
 const double *zd_row_factors(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t)
 {
     combined all;
-    return combine(self, frame, row, 0, t, &all) ? NULL : all.factors;
+    return combine(self, frame, row, t, &all) ? NULL : all.factors;
 }
 
 void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double scale)
@@ -62,28 +56,46 @@ void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relati
     }
 }
 
-static void write_jacobian(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double *to)
+/* Returns the sum of factors x, and adds that of factors times the gauges' rows to `to` unless that is NULL. */
+static double add_readings(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double *to)
 {
-    memset(to, 0, (size_t)self->tree.nv * sizeof *to);
+    double sum = 0;
     for (int i = 0; i < row->terms; i++) {
         const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
+        sum += factors[i] * reading.value;
+        if (!to) continue;
         zd_tree_inward(&self->tree, frame->pose, gauge->first, factors[i], reading.first, to);
         zd_tree_inward(&self->tree, frame->pose, gauge->second, factors[i], reading.second, to);
     }
+    return sum;
+}
+
+static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors)
+{
+    double sum = 0, bias;
+    for (int i = 0; i < row->terms; i++) {
+        zd_gauge_rate(self->gauge + self->term[row->first + i].gauge, frame->pose, frame->twist, &bias);
+        sum += factors[i] * bias;
+    }
+    return sum;
 }
 
 int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, double t, const zd_terms *out)
 {
+    int nv = self->tree.nv;
+    if (want & ZD_C) memset(out->C, 0, (size_t)self->m * (size_t)nv * sizeof *out->C);
     for (int i = 0; i < self->m; i++) {
         const zd_relation *row = self->row + i;
         combined all;
-        int status = combine(self, frame, row, want & ZD_XI, t, &all);
+        int status = combine(self, frame, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->mh;
         if (status) return status;
-        if ((want & ZD_PHI) && i < self->mh) out->Phi[i] = all.value;                                   /* (3) */
-        if (want & ZD_C) write_jacobian(self, frame, row, all.factors, out->C + i * self->tree.nv);     /* (5) */
+        if (wants_Phi || want & ZD_C) {
+            double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + i * nv : NULL);     /* (5) */
+            if (wants_Phi) out->Phi[i] = row->law < 0 ? sum + all.value : all.value;                            /* (3) */
+        }
         if (want & ZD_PHI_T) out->Phi_t[i] = all.explicit_rate;
-        if (want & ZD_XI) out->xi[i] = -all.second - zd_dot(row->terms, all.factors, frame->bias);      /* (6) */
+        if (want & ZD_XI) out->xi[i] = -all.second - sum_of_biases(self, frame, row, all.factors);              /* (6) */
     }
     return ZD_DONE;
 }

@@ -34,7 +34,7 @@ static double lever(const zd_point *point, int k)
 static double length_of(const zd_point *point)
 {
     const zd_system *system = point->system;
-    double length = 0;
+    double length = system->length;
     for (int i = 0; i < system->nq; i++)
         if (is_length(system, i)) length = fmax(length, fabs(point->p[i]));
     for (int k = 0; k < zd_constraints(system); k++) length = fmax(length, lever(point, k));

@@ -54,7 +54,7 @@ def test_a_pendulum_pulls_at_its_pin(absolute, swapped):
 
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_bead_on_a_turning_arm(absolute, swapped):
-    """A drive at constant speed: rddot = w^2 r, across m 2 w rdot, and the drive's torque 2 m w r rdot, slides either way round."""
+    """A drive at constant speed: rddot = w^2 r, across m 2 w rdot, the drive's torque 2 m w r rdot; either way round."""
     m, r, rdot, w, angle = 1.5, 0.8, 0.6, 2.0, 0.3
     e, n = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
     slide = Joint(kind("prismatic"), 1, 2, along=0.1, angle=0.25)
@@ -133,7 +133,8 @@ def test_a_slot_and_a_rod(absolute):
     joints = [Joint(kind("slot"), 0, 1), Joint(kind("rod"), 0, 2, (x, height), length=height),
               Joint(kind("slot"), 0, 2, (x, 0.0), axis=(0, 1))]
     tables = Tables([Body(m, is_particle=True), Body(m, is_particle=True)], joints, gravity=(1.0, -9.81),
-                    measures=[FORCE, TORQUE, Observed("tension", "N", "joint tension", 1), Observed("rod", "N", "joint force", 1)])
+                    measures=[FORCE, TORQUE, Observed("tension", "N", "joint tension", 1),
+                              Observed("rod", "N", "joint force", 1)])
     scene = Scene(absolute, tables, [[0.3, 0, 0], [x, 0, 0]], [[v, 0, 0], [0, 0, 0]])
     scene.close(force=[0, m * 9.81], torque=0, tension=m * 9.81, rod=[0, m * 9.81])
 
@@ -182,7 +183,8 @@ def test_a_speed_that_is_a_function_of_time_and_of_measures(absolute):
 
     gauges = [Gauge("angle", 0, 1), Gauge("x", 0, 2)]
     tables = Tables([Body(1.0, J, carrier=0), Body(1.0, is_particle=True)], [Joint(kind("revolute"), 0, 1)],
-                    gauges, [Relation([0, 1], nonholonomic=True, law=0, joint=0)], measures=[TORQUE, Observed("drive", "N m", "drive", 0)])
+                    gauges, [Relation([0, 1], nonholonomic=True, law=0, joint=0)],
+                    measures=[TORQUE, Observed("drive", "N m", "drive", 0)])
     scene = Scene(absolute, tables, [[0, 0, 0.2], [x, 0, 0]], [[0, 0, 2 + np.sin(t) + 3 * x], [xdot, 0, 0]], law, t)
     torque = J * (np.cos(t) + 3 * xdot)
     scene.close(torque=torque, drive=torque)
@@ -207,8 +209,8 @@ def test_a_force_by_a_law_of_positions_velocities_and_time(absolute):
     measures = [FORCE, TORQUE, Observed("alpha", "", "accelerations", 2), Observed("push", "", "accelerations", 3, 2),
                 Observed("power", "W", "effort power", 0)]
     gauges += [Gauge("angle", 0, 1), Gauge("x", 0, 2), Gauge("y", 0, 2)]
-    tables = Tables([Body(1.0, 0.5, carrier=0), Body(2.0, is_particle=True)], [Joint(kind("revolute"), 0, 1)], gauges, (), efforts,
-                    measures)
+    bodies = [Body(1.0, 0.5, carrier=0), Body(2.0, is_particle=True)]
+    tables = Tables(bodies, [Joint(kind("revolute"), 0, 1)], gauges, (), efforts, measures)
     scene = Scene(absolute, tables, [[0, 0, angle], [1, 1, 0]], [[0, 0, rate], [0, 0, 0]], law, t)
     torque = 3 * angle - rate + t
     push = 5 * angle / 2 * np.array([-np.sin(angle), np.cos(angle)])

@@ -1,10 +1,23 @@
 """A mechanism is the same in joint and in absolute coordinates: the tree and its cuts against three coordinates a body."""
 
+import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from mechanism_tables import determined, in_absolute_coordinates, random_mechanism
+from mechanism_tables import (
+    Body,
+    Effort,
+    Gauge,
+    Joint,
+    Relation,
+    Tabled,
+    Tables,
+    determined,
+    in_absolute_coordinates,
+    kind,
+    random_mechanism,
+)
 from support import assert_close
 
 
@@ -58,3 +71,13 @@ def test_the_order_of_bodies_does_not_matter():
     for measure in tables.measures:
         assert_close(system.measured(measure.name, 0, system.p0, system.v0, *there), other.measured(measure.name, 0, p, v, *here),
                      tol.REACTION, scale=1, what=measure.name)
+
+
+def test_sliders_that_start_at_zero_have_the_size_of_their_mechanism():
+    """Their coordinates are rounding there, and no row has a lever: lengths are compared to those of the drawing."""
+    joints = [Joint(kind("prismatic"), 0, 1), Joint(kind("prismatic"), 0, 2, (1.0, 0.0))]
+    gauges = [Gauge("along", 0, 1), Gauge("along", 0, 2, (1.0, 0.0))]
+    tables = Tables([Body(1.0, 1.0, carrier=0), Body(1.0, 1.0, carrier=1)], joints, gauges, [Relation([0, 1], [1.0, -1.0])],
+                    [Effort("constant", 0, value=1.0)])
+    system = Tabled(tables, np.array([1e-16, 0.9e-16]), np.zeros(2))
+    assert zd.simulate(system, 0.1, step=0.01).p[-1] == pytest.approx(0.1**2 / 4, rel=tol.CONVERGED)

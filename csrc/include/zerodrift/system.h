@@ -239,6 +239,7 @@ typedef struct zd_system {
     const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
     const int *lengths;     /* (nq + nv,): which entries of p are lengths, and of v lengths per time; NULL: none, all are pure
                              * numbers such as angles */
+    double length;          /* m: it is at least so large, which lengths are compared to; 0: as its coordinates and rows tell at the start */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
