@@ -33,7 +33,7 @@ def test_every_public_name_is_documented(name):
 def test_the_code_of_the_readme_runs(capsys):
     matplotlib.use("Agg")
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     for block in blocks:
         exec(compile(block, "README.md", "exec"), {})
     printed = capsys.readouterr().out
