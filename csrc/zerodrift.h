@@ -141,7 +141,7 @@ typedef struct zd_statistics {
     int64_t unresolved;            /* looks at steps of fixed size that showed a part of the motion which they do not resolve */
     double unresolved_time;     /* s: of the first */
     double part_error;          /* what successive steps miss of the motion of one part: the most, in natural units */
-    int64_t part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is */
+    int64_t part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is; from nv on, a quaternion */
     double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */
 } zd_statistics;
 

@@ -6,7 +6,8 @@
  *     p1 - p0 = h (v0 + v1) / 2 - h^2 (vdot1 - vdot0) / 12 + O(h^5)
  *
  * holds; what is missing is the error of the step, as far as a method of order four can tell. With a kinematic matrix, the rates of p
- * are not v, and the velocities take the place of the coordinates: their own formula of this kind is the trapezoidal rule.
+ * are not v, and the velocities take the place of the coordinates: their own formula of this kind is the trapezoidal rule. Unit quaternions
+ * are looked at besides, each as one: turning.c.
  *
  * What one coordinate misses is added up over a thousand steps or so, in natural units: earlier steps are forgotten, as otherwise every
  * long run would be doubted. The sum is compared with the length of that coordinate's path, and is bounded by the range in which it moves: it
@@ -21,6 +22,7 @@
 static const double FORGET = 1.0 / 128;     /* of the sums at each look; most looks are eight steps apart */
 static const double SHARE = 1e-3;           /* of the path: steps with a smaller error are short enough */
 static const double UNRESOLVED = 0.03;      /* in natural units: the user is told of an error as large as this */
+static const double HALF_TURN = 3.141592653589793;
 static const double NOTED = 1e-3;           /* in natural units: the statistics do not have smaller ones */
 
 /* The error of a step by what Hermite's formula misses, which is better than some methods and worse than others. */
@@ -36,9 +38,10 @@ static double error_by_rate(int order)
     return order < 2 ? 1.0 / 2 : order < 4 ? 1.0 / 12 : order < 5 ? 1.0 / 20 : 1.0 / 50;
 }
 
-zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0)
+zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
+                                 const double *pdot0, const double *pdot1)
 {
-    size_t n = (size_t)motion->system.nv;
+    size_t n = (size_t)motion->system.nv, all = n + (size_t)motion->system.quaternions;
     int by_velocity = (motion->system.provides & ZD_A) != 0;
     return (zd_resolution){
         .motion = motion,
@@ -47,11 +50,12 @@ zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, 
         .by_velocity = by_velocity,
         .order = order,
         .weight = by_velocity ? error_by_rate(order) : error_by_defect(order),
-        .error = zd_take_doubles(arena, n),
-        .path = zd_take_doubles(arena, n),
+        .error = zd_take_doubles(arena, all),
+        .path = zd_take_doubles(arena, all),
         .place = zd_take_doubles(arena, n),
         .lowest = zd_take_doubles(arena, n),
         .highest = zd_take_doubles(arena, n),
+        .turning = zd_turning_take(arena, motion, last, vdot0, pdot0, pdot1),
     };
 }
 
@@ -97,8 +101,30 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
     }
 }
 
-void zd_resolution_look(zd_resolution *self, double h, int64_t step)
+/* An attitude cannot be off by more than half a turn. */
+static void add_up_turns(zd_resolution *self, double h, double steps)
+{
+    for (int k = 0; k < self->motion->system.quaternions; k++) {
+        const int i = self->motion->system.nv + k;
+        double missed, turned;
+        zd_turning_compare(&self->turning, k, h, &missed, &turned);
+        self->error[i] += steps * error_by_defect(self->order) * missed - FORGET * self->error[i];
+        self->path[i] += steps * turned - FORGET * self->path[i];
+        double error = fmin(self->error[i], HALF_TURN);
+        if (error > NOTED && error > SHARE * self->path[i]) note(self->motion, i, error);
+    }
+}
+
+int zd_resolution_look_at_turns(zd_resolution *self, double h, int64_t step, int parts)
+{
+    int status = self->motion->system.quaternions ? zd_turning_begin(&self->turning) : ZD_DONE;
+    if (!status) add_up_turns(self, h, (double)(step - self->step) * parts);
+    self->step = step;
+    return status;
+}
+
+int zd_resolution_look(zd_resolution *self, double h, int64_t step)
 {
     ZD_SIZED(add_up, self->motion->system.nv, self, h, (double)(step - self->step));
-    self->step = step;
+    return zd_resolution_look_at_turns(self, h, step, 1);
 }

@@ -8,7 +8,9 @@ void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion,
     self->crossing.rate0 = self->guard.pdot;
     self->crossing.rate1 = self->guard.rate;
     self->crossing.constraints_hold = self->guard.checks_branch;
-    if (settings->step > 0) self->resolution = zd_resolution_take(arena, motion, method->order, last, self->guard.vdot);
+    const zd_guard *guard = &self->guard;
+    if (settings->step > 0)
+        self->resolution = zd_resolution_take(arena, motion, method->order, last, guard->vdot, guard->pdot, guard->rate);
     self->consistency = zd_consistency_take(arena, motion, settings);
 }
 
@@ -22,12 +24,17 @@ int zd_safeguards_begin(zd_safeguards *self, int64_t step)
 static int look_closely(zd_safeguards *self, double moved, double h, int64_t step)
 {
     int status = zd_guard_watch(&self->guard, moved, h);
-    if (status) return status;
-    if (self->guard.checks_stability) zd_resolution_look(&self->resolution, h, step);
-    return zd_consistency_look(&self->consistency, step);
+    if (!status && self->guard.checks_stability) status = zd_resolution_look(&self->resolution, h, step);
+    return status ? status : zd_consistency_look(&self->consistency, step);
 }
 
-int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int is_part)
+static int look(zd_safeguards *self, double moved, double h, int64_t step, int parts)
+{
+    if (!parts) return look_closely(self, moved, h, step);
+    return self->guard.checks_stability ? zd_resolution_look_at_turns(&self->resolution, h, step, parts) : ZD_DONE;
+}
+
+int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int parts)
 {
     zd_detour found;
     if (!self->guard.has_begun) return ZD_DONE;
@@ -35,7 +42,7 @@ int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int is
     if (!status) status = zd_is_direct(self->guard.motion) ? zd_direct_compare(self->guard.motion, found.moved)
                                                            : zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
-    if (self->guard.watches_step && !is_part) status = look_closely(self, found.moved, h, next_step - 1);
+    if (self->guard.watches_step) status = look(self, found.moved, h, next_step - 1, parts);
     zd_guard_keep(&self->guard, found.speed, next_step);
     return status;
 }

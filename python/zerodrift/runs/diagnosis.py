@@ -97,7 +97,8 @@ def _unresolved_part(solution: Solution) -> str:
     """Which part of the motion the steps do not resolve."""
     stats, system = solution.stats, solution.system
     has_rates = core_of(system).provides & _gateway.TERMS["A"].bit     # then the core compares velocities, not coordinates
-    part = (system.velocities if has_rates else system.coordinates)[stats["part"]]
+    parts = [*(system.velocities if has_rates else system.coordinates), *(system.coordinates[q] for q in system.quaternions)]
+    part = parts[stats["part"]]
     unit = "of the mechanism's length" if _gateway.is_length(part) else "rad"
     return (f"the steps do not resolve the motion of {part.name!r}: errors of {stats['part_error']:.2g} {unit} add up in it, "
             f"noticed first at t = {stats['unresolved_time']:.6g}")

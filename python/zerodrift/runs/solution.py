@@ -54,8 +54,8 @@ class Solution:
         product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
         `largest_kinetic`, in J, are looked at every few steps; `energy_corrected`, in J, is the largest error of the energy
         balance that a single correction has taken out. `part_error` is what steps of fixed size, about a thousand in succession,
-        miss of the motion of one coordinate (or, where `kinematics` is given, velocity), estimated, in rad or parts of the
-        mechanism's length; `part` is the one where it is most. `unresolved` says how many looks found more of it than 0.03
+        miss of the motion of one coordinate (or, where `kinematics` is given, velocity or rotation), estimated, in rad or parts
+        of the mechanism's length; `part` is the one where it is most. `unresolved` says how many looks found more of it than 0.03
         and a thousandth of the way, `unresolved_time`, in s, when it was first. Of the constraints, `rank` are independent,
         `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while.
     status : int
