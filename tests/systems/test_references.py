@@ -9,7 +9,7 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
 from reference_files import ROUND_OFF, definition, end, falls_at_order_four, number, table
-from rotating_bodies import about_a_point, held_at_a_point
+from rotating_bodies import about_a_point, held_at_a_point, rolling_disc
 from support import assert_close
 
 # ---- knife edge ----
@@ -222,3 +222,15 @@ def test_heavy_top_with_unit_quaternions(coordinates, formulation):
     assert np.abs(sol.v - (rates if held else rates[:, 3:])).max() < 1e-10
     if held:
         assert_close(sol.multipliers, np.stack([reference[f"lam{i}"] for i in (1, 2, 3)], axis=1), 1e-10)
+
+
+def test_rolling_disc_with_a_unit_quaternion(formulation):
+    """Holonomic and nonholonomic constraints, and more coordinates than velocities."""
+    given, reference = definition("rolling_disc")["general"], table("rolling_disc")
+    p, v = (np.stack([reference[name] for name in names.split()], axis=1) for names in ("x y z e0 e1 e2 e3", "vx vy vz w1 w2 w3"))
+    disc = rolling_disc(given["m"], given["R"], given["I_axle"], given["I_t"], tuple(p[0]), tuple(v[0]))
+    sol = zd.simulate(disc, 5.0, step=2.5e-3, save_every=4, formulation=formulation, integrator="dop853")
+    assert_close(sol.t, reference["t"], 1e-12)
+    assert_close(sol.p, p, 1e-11)
+    assert_close(sol.v, v, 1e-11)
+    assert_close(sol.kinetic_energy + sol.potential_energy, reference["E"], 1e-12)
