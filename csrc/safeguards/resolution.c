@@ -117,7 +117,7 @@ static void add_up_turns(zd_resolution *self, double h, double steps)
 
 int zd_resolution_look_at_turns(zd_resolution *self, double h, int64_t step, int parts)
 {
-    int status = self->motion->system.quaternions ? zd_turning_begin(&self->turning) : ZD_DONE;
+    int status = self->motion->system.quaternions ? zd_turning_evaluate(&self->turning) : ZD_DONE;
     if (!status) add_up_turns(self, h, (double)(step - self->step) * parts);
     self->step = step;
     return status;

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "../linalg/small.h"
+#include "../point/matrices.h"
 
 enum { ENTRIES = 4 };
 
@@ -26,34 +27,41 @@ zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *la
         .pdot1 = pdot1,
         .A0 = zd_take_doubles(arena, (size_t)system->nq * (size_t)system->nv),
         .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+        .before = zd_take_doubles(arena, (size_t)system->nq),
+        .after = zd_take_doubles(arena, (size_t)system->nq),
     };
 }
 
-/* On its own memory: the point stays where it is. */
-int zd_turning_begin(zd_turning *self)
+/* Where the step began on its own memory: the point stays where it is. */
+int zd_turning_evaluate(zd_turning *self)
 {
     const zd_system *system = &self->motion->system;
-    zd_terms terms = self->motion->point->terms;
-    terms.A = self->A0;
-    terms.scratch = self->scratch;
+    zd_point *point = self->motion->point, there = *point;
+    there.terms.A = self->A0;
+    there.terms.scratch = self->scratch;
+    int status = zd_point_need(point, ZD_A);
+    if (status) return status;
     self->motion->statistics.evaluations++;
-    return system->evaluate(system->data, ZD_A | ZD_MOVED, self->last->t, self->last->p, self->last->v, &terms) ? ZD_CALLBACK : ZD_DONE;
+    if (system->evaluate(system->data, ZD_A | ZD_MOVED, self->last->t, self->last->p, self->last->v, &there.terms)) return ZD_CALLBACK;
+    zd_point_rate(&there, self->vdot0, self->before);
+    zd_point_rate(point, point->vdot, self->after);
+    return ZD_DONE;
 }
 
-/* qddot (4,) of the quaternion that begins at `first` */
-static void accelerate(int first, int nv, const double *A, const double *vdot, const double *p, const double *pdot, double *qddot)
+/* qddot (4,) of q, whose part of A vdot is Avdot */
+static void accelerate(const double *Avdot, const double *q, const double *qdot, double *qddot)
 {
-    double squared = zd_dot(ENTRIES, pdot + first, pdot + first);
-    for (int i = 0; i < ENTRIES; i++) qddot[i] = zd_dot(nv, A + (first + i) * nv, vdot) - squared * p[first + i];
+    double squared = zd_dot(ENTRIES, qdot, qdot);
+    for (int i = 0; i < ENTRIES; i++) qddot[i] = Avdot[i] - squared * q[i];
 }
 
 void zd_turning_compare(const zd_turning *self, int k, double h, double *missed, double *turned)
 {
     const zd_point *point = self->motion->point;
-    const int nv = self->motion->system.nv, first = self->motion->system.quaternion[k];
+    const int first = self->motion->system.quaternion[k];
     double before[ENTRIES], after[ENTRIES], squared = 0;
-    accelerate(first, nv, self->A0, self->vdot0, self->last->p, self->pdot0, before);
-    accelerate(first, nv, point->terms.A, point->vdot, point->p, self->pdot1, after);
+    accelerate(self->before + first, self->last->p + first, self->pdot0 + first, before);
+    accelerate(self->after + first, point->p + first, self->pdot1 + first, after);
     for (int i = 0; i < ENTRIES; i++) {
         const int at = first + i;
         double off = point->p[at] - self->last->p[at] - h / 2 * (self->pdot0[at] + self->pdot1[at]) + h * h / 12 * (after[i] - before[i]);
