@@ -5,11 +5,12 @@
 #include "../workspace.h"
 #include "check.h"
 #include "evaluate.h"
+#include "length.h"
 #include "measures.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
-    int *number, *row_of_relation;
+    int *number, *row_of_relation, *angle;
     zd_link *link;
     zd_joint *joint;
     zd_planned_joint *planned;
@@ -23,7 +24,7 @@ typedef struct parts {
     zd_measure *measure;
     zd_coordinate_owner *coordinate;
     int *lengths;
-    int gauges, terms, rows;        /* so many are there by now */
+    int gauges, terms, rows, angles;        /* so many are there by now */
 } parts;
 
 /* ---- memory ---- */
@@ -36,6 +37,7 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     TAKE(number, bodies + 1);
     TAKE(row_of_relation, (size_t)tables->relations);
     TAKE(link, bodies + 1);
+    TAKE(angle, bodies);
     TAKE(joint, joints);
     TAKE(planned, joints);
     TAKE(gauge, (size_t)tables->gauges + extra);
@@ -127,6 +129,10 @@ static int plan_tree(const zd_tables *tables, parts *to)
         name_coordinates(&link, body, to->coordinate + coordinates);
         coordinates += coordinates_of(link.hang);
         to->link[to->number[body]] = link;
+    }
+    for (int i = 1; i <= tables->bodies; i++) {
+        int hang = (int)to->link[i].hang, angle = to->link[i].coordinate + (hang == ZD_HANGS_FREE ? 2 : 0);
+        if (hang == ZD_HANGS_FREE || hang == ZD_HANGS_TURNING) to->angle[to->angles++] = angle;
     }
     for (int i = tables->bodies; i; i--) to->link[to->link[i].inner].carried += to->link[i].carried;
     for (int i = 0; i < coordinates; i++)
@@ -273,41 +279,6 @@ static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tr
     return terms;
 }
 
-/* The size of what is drawn: how far apart points of the ground are, twice how far those of bodies are from their mass centres, and lengths
- * of joints and gauges. Coordinates alone do not tell it, as a slider may start at 0. */
-typedef struct extent {
-    double largest;
-    zd_vector low, high;    /* corners of the ground's points */
-} extent;
-
-static void extend(extent *to, int body, const double *point)
-{
-    if (body) {
-        to->largest = fmax(to->largest, 2 * hypot(point[0], point[1]));
-        return;
-    }
-    to->low = (zd_vector){fmin(to->low.x, point[0]), fmin(to->low.y, point[1])};
-    to->high = (zd_vector){fmax(to->high.x, point[0]), fmax(to->high.y, point[1])};
-}
-
-static double length_of(const zd_tables *tables)
-{
-    extent all = {0, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (const zd_joint *joint = tables->joint; joint < tables->joint + tables->joints; joint++) {
-        extend(&all, joint->first, joint->point1);
-        extend(&all, joint->second, joint->point2);
-        all.largest = fmax(all.largest, fmax(fabs(joint->length), fmax(fabs(joint->along), fabs(joint->across))));
-    }
-    for (const zd_gauge *gauge = tables->gauge; gauge < tables->gauge + tables->gauges; gauge++) {
-        if (gauge->kind < ZD_GAUGE_ALONG) continue;     /* places are measured from the drawing's origin, which may be far away */
-        extend(&all, gauge->first, gauge->point1);
-        extend(&all, gauge->second, gauge->point2);
-        all.largest = fmax(all.largest, fabs(gauge->zero));
-    }
-    if (all.high.x >= all.low.x) all.largest = fmax(all.largest, hypot(all.high.x - all.low.x, all.high.y - all.low.y));
-    return all.largest > 0 ? all.largest : 1;
-}
-
 static int has_tree(const zd_tables *tables)
 {
     for (int i = 0; i < tables->bodies; i++)
@@ -326,7 +297,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .evaluate = zd_mechanism_evaluate,
         .data = self,
         .lengths = from->lengths,
-        .length = length_of(tables),
+        .length = zd_tables_length(tables),
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
     };
@@ -343,7 +314,7 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     plan_rows(tables, 1, all);
     *self = (zd_mechanism){
         .gravity = {tables->gravity[0], tables->gravity[1]},
-        .tree = {tables->bodies, coordinates, all->link},
+        .tree = {tables->bodies, coordinates, all->link, all->angles, all->angle},
         .joints = tables->joints, .relations = tables->relations, .efforts = tables->efforts, .mh = mh, .m = all->rows,
         .longest = longest_of(tables),
         .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term,

@@ -21,12 +21,23 @@ static int write_force(const zd_mechanism *self, const zd_frame *frame, double t
     return status;
 }
 
+/* What is added up, long before it is: the machine waits where it adds to what a wider store has just cleared. */
+static void clear(const zd_mechanism *self, int want, const zd_terms *out)
+{
+    size_t nv = (size_t)self->tree.nv;
+    if (want & ZD_M) memset(out->M, 0, nv * nv * sizeof *out->M);
+    if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
+    if (want & ZD_FORCE) memset(out->f, 0, nv * sizeof *out->f);
+    if (want & ZD_C) memset(out->C, 0, (size_t)self->m * nv * sizeof *out->C);
+}
+
 int zd_mechanism_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     const zd_mechanism *self = data;
     const zd_frame frame = zd_frame_of(self, out->scratch);
     int is_moving = want & (ZD_BIAS | ZD_XI | ZD_POWER) || self->has_velocity_forces || self->law;
-    if (want & ZD_MOVED) zd_tree_place(&self->tree, p, frame.pose);
+    clear(self, want, out);
+    if (want & ZD_MOVED) zd_tree_place(&self->tree, p, frame.sines, frame.pose);
     if (is_moving) zd_tree_move(&self->tree, frame.pose, v, frame.twist);
     if (want & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
     if (want & ZD_BIAS) write_bias(self, &frame, out->d);

@@ -17,6 +17,7 @@ static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
     to->wrench = (zd_wrench *)next(scratch, &used, bodies, sizeof(zd_wrench));
     to->composite = (zd_composite *)next(scratch, &used, bodies, sizeof(zd_composite));
     to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
+    to->sines = next(scratch, &used, 3 * bodies, sizeof(double));
     to->row = next(scratch, &used, self->tree.nv, sizeof(double));
     to->x = next(scratch, &used, longest, sizeof(double));
     to->xdot = next(scratch, &used, longest, sizeof(double));

@@ -43,6 +43,7 @@ typedef struct zd_frame {
     zd_wrench *wrench;
     zd_composite *composite;
     zd_spin *spin;                  /* of measures alone */
+    double *sines;                  /* 3 for each body, see zd_tree_place() */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
 } zd_frame;

@@ -84,7 +84,6 @@ static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, con
 int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, double t, const zd_terms *out)
 {
     int nv = self->tree.nv;
-    if (want & ZD_C) memset(out->C, 0, (size_t)self->m * (size_t)nv * sizeof *out->C);
     for (int i = 0; i < self->m; i++) {
         const zd_relation *row = self->row + i;
         combined all;

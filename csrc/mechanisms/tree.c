@@ -6,12 +6,6 @@
 
 /* ---- outward ---- */
 
-static void turn_to(zd_pose *pose, double angle)
-{
-    pose->angle = angle;
-    zd_sines(1, &pose->angle, &pose->sine, &pose->cosine);
-}
-
 static void turn_with(zd_pose *pose, const zd_pose *inner, const zd_link *link)
 {
     pose->angle = inner->angle + link->angle;
@@ -19,18 +13,14 @@ static void turn_with(zd_pose *pose, const zd_pose *inner, const zd_link *link)
     pose->sine = inner->sine * link->cosine + inner->cosine * link->sine;
 }
 
-static void place_free(const zd_link *link, const double *own, zd_pose *pose)
+static void place_free(const double *own, zd_pose *pose)
 {
-    turn_to(pose, link->hang == ZD_HANGS_FREE ? own[2] : 0);
     pose->at = (zd_vector){own[0], own[1]};
 }
 
 static void place_hanging(const zd_link *link, const double *own, const zd_pose *inner, zd_pose *pose)
 {
     pose->near = zd_rotated(inner->cosine, inner->sine, link->near);
-    if (link->hang == ZD_HANGS_TURNING) turn_to(pose, own[0]);
-    else if (link->hang == ZD_HANGS_PINNED) turn_to(pose, 0);
-    else turn_with(pose, inner, link);
     if (link->hang == ZD_HANGS_SLIDING) {
         pose->axis = zd_rotated(inner->cosine, inner->sine, link->axis);
         pose->near = zd_plus(pose->near, zd_times(own[0] + link->along, pose->axis));
@@ -39,13 +29,29 @@ static void place_hanging(const zd_link *link, const double *own, const zd_pose 
     pose->at = zd_plus(inner->at, zd_plus(pose->near, pose->far));
 }
 
-void zd_tree_place(const zd_tree *tree, const double *p, zd_pose *pose)
+static int has_angle(const zd_link *link) { return link->hang == ZD_HANGS_TURNING || link->hang == ZD_HANGS_FREE; }
+
+void zd_tree_place(const zd_tree *tree, const double *p, double *memory, zd_pose *pose)
 {
+    const int n = tree->angles;
+    double *angle = memory, *sine = angle + n, *cosine = sine + n;
+    for (int k = 0; k < n; k++) angle[k] = p[tree->angle[k]];
+    ZD_SIZED(zd_sines, n, angle, sine, cosine);
     pose[0] = (zd_pose){.cosine = 1};
-    for (int i = 1; i <= tree->bodies; i++) {
+    for (int i = 1, k = 0; i <= tree->bodies; i++) {
         const zd_link *link = tree->link + i;
         const double *own = p + link->coordinate;
-        if (link->hang <= ZD_HANGS_FREE_POINT) place_free(link, own, pose + i);
+        if (has_angle(link)) {
+            pose[i].angle = angle[k];
+            pose[i].sine = sine[k];
+            pose[i].cosine = cosine[k++];
+        } else if (link->hang == ZD_HANGS_SLIDING || link->hang == ZD_HANGS_FIXED) {
+            turn_with(pose + i, pose + link->inner, link);
+        } else {
+            pose[i].angle = pose[i].sine = 0;
+            pose[i].cosine = 1;
+        }
+        if (link->hang <= ZD_HANGS_FREE_POINT) place_free(own, pose + i);
         else place_hanging(link, own, pose + link->inner, pose + i);
     }
 }
@@ -139,7 +145,6 @@ void zd_tree_inward(const zd_tree *tree, const zd_pose *pose, int body, double s
 
 void zd_tree_gather(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench, double *to)
 {
-    memset(to, 0, (size_t)tree->nv * sizeof *to);
     for (int i = tree->bodies; i; i--)
         zd_add_wrench(wrench + tree->link[i].inner, 1, pass_inward(tree->link + i, pose + i, wrench[i], 1, to));
 }
@@ -195,7 +200,6 @@ static void mirror(int nv, double *M)
 void zd_tree_mass(const zd_tree *tree, const zd_pose *pose, zd_composite *composite, double *M)
 {
     int nv = tree->nv;
-    memset(M, 0, (size_t)nv * (size_t)nv * sizeof *M);
     for (int i = 0; i <= tree->bodies; i++) composite[i] = (zd_composite){.inertia = tree->link[i].inertia};
     for (int i = tree->bodies; i; i--) {
         const zd_link *link = tree->link + i;

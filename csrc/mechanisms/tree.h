@@ -35,6 +35,8 @@ typedef struct zd_tree {
     int bodies;             /* without the ground */
     int nv;
     const zd_link *link;    /* (bodies + 1,) the first one unused */
+    int angles;             /* how many bodies have an angle among the coordinates */
+    const int *angle;       /* (angles,) which coordinates these are, in the order of bodies */
 } zd_tree;
 
 typedef struct zd_pose {    /* of a mass centre */
@@ -59,15 +61,17 @@ typedef struct zd_composite {   /* a body with all that hangs on it, as it moves
     double inertia;         /* kg m^2 about the body's mass centre */
 } zd_composite;
 
-void zd_tree_place(const zd_tree *tree, const double *p, zd_pose *pose);
+/* `memory` is of 3 doubles for each angle: their sines and cosines are computed side by side. */
+void zd_tree_place(const zd_tree *tree, const double *p, double *memory, zd_pose *pose);
 void zd_tree_move(const zd_tree *tree, const zd_pose *pose, const double *v, zd_twist *twist);
 void zd_tree_accelerate(const zd_tree *tree, const zd_pose *pose, const zd_twist *twist, const double *vdot, zd_spin *spin);
 /* row += what `scale` times the wrench on one body does to the coordinates. */
 void zd_tree_inward(const zd_tree *tree, const zd_pose *pose, int body, double scale, zd_wrench what, double *row);
-/* to (nv,) <- what the wrenches on all bodies do to the coordinates; the wrenches are used up. */
+/* to (nv,) += what the wrenches on all bodies do to the coordinates; the wrenches are used up. */
 void zd_tree_gather(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench, double *to);
 /* wrench <- what has to come through each body's own joint, where it is what each body needs by itself. */
 void zd_tree_transmit(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench);
+/* M (nv, nv), which is zero before */
 void zd_tree_mass(const zd_tree *tree, const zd_pose *pose, zd_composite *composite, double *M);
 
 #endif
