@@ -19,7 +19,7 @@ def _instances():
     for name, kind in _gateway.kinds().items():
         yield name, getattr(zd.systems, name)()
         for parameter in (p for p in kind.parameters if p.rule == "choice"):
-            for word in parameter.text.split()[1:]:
+            for word in parameter.words[1:]:
                 yield f"{name}-{word}", getattr(zd.systems, name)(**{parameter.name: word})
 
 

@@ -1,0 +1,351 @@
+"""What it takes to add a row to each of the core's tables, and a term: done on a copy, which is built and tested, and counted.
+
+    python tests/stress/new_rows.py [FOLDER]        prints the table in README.md; some minutes
+
+A new row is a new file and one word in `registry.c`, a new term one line in `system.h`. The tests that run are those that nobody
+wrote for it: whatever is parametrized over the core's tables, picked by the new names. The rows are small, but each one that can
+have parameters has one.
+"""
+
+import difflib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
+REGISTRY, INTERFACE = "csrc/registry.c", "csrc/include/zerodrift/system.h"
+
+INTEGRATOR = r"""
+/* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */
+#include "integrator.h"
+
+typedef struct staged {
+    double theta;
+    int size;
+    double *k1, *k2, *stage;        /* (size,) each */
+} staged;
+
+static const zd_parameter parameters[] = {
+    {"theta", "", "Where the second stage is, as a part of the step.", 1, ZD_POSITIVE, (const double[]){2.0 / 3}},
+};
+
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+{
+    (void)table, (void)system;
+    size_t n = (size_t)size;
+    staged self = {*(const double *)given, size, zd_take_doubles(arena, n), zd_take_doubles(arena, n), zd_take_doubles(arena, n)};
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
+{
+    const staged *self = memory;
+    const double theta = self->theta, b = 1 / (2 * theta);
+    (void)statistics;
+    int status = rate->evaluate(rate->context, t, y, self->k1);
+    for (int i = 0; i < rate->size; i++) self->stage[i] = y[i] + theta * h * self->k1[i];
+    if (!status) status = rate->evaluate(rate->context, t + theta * h, self->stage, self->k2);
+    for (int i = 0; i < rate->size && !status; i++) y[i] += h * ((1 - b) * self->k1[i] + b * self->k2[i]);
+    return status;
+}
+
+const zd_integrator zd_ralston = {
+    .card = {
+        .name = "ralston",
+        .summary = "Explicit methods of two stages, among them that of the smallest error.",
+        .equations = "Ralston, 1962",
+        .order = 2, .stability = 2,
+        .description = "With theta = 2/3 the bound of the local error is least; theta = 1/2 is the midpoint rule, and theta = 1 "
+                       "the method of Heun.",
+        .reference = "A. Ralston, Runge-Kutta methods with minimum error bounds, Mathematics of Computation 16 (1962) 431-437",
+        .parameters = 1, .parameter = parameters,
+    },
+    .decay = 2,
+    .take = take,
+    .step = step,
+};
+"""
+
+FORMULATION = r"""
+/* (8) with iterative refinement: what the solution leaves of the equations is solved for again. */
+#include "dependent.h"
+
+#include "../point/matrices.h"
+
+extern const zd_formulation zd_augmented;
+
+typedef struct refined {
+    void *inner;
+    int n, rows, times;
+    double *M_memory, *C_memory;
+    const double *M, *C;
+    double *force, *rhs, *dx, *lambda, *dlambda;
+} refined;
+
+static const zd_parameter parameters[] = {
+    {"refinements", "", "How often the remainder is solved for.", 1, ZD_COUNT, (const double[]){1}},
+};
+
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    refined self = {
+        .inner = zd_augmented.take(arena, system, NULL), .n = (int)n, .times = (int)*(const double *)given,
+        .M_memory = zd_take_doubles(arena, n * n), .C_memory = zd_take_doubles(arena, m * n),
+        .force = zd_take_doubles(arena, n), .rhs = zd_take_doubles(arena, m), .dx = zd_take_doubles(arena, n),
+        .lambda = zd_take_doubles(arena, m), .dlambda = zd_take_doubles(arena, m),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int factor(void *memory, zd_point *point)
+{
+    refined *self = memory;
+    int status = zd_augmented.factor(self->inner, point);
+    self->M = zd_dense_M(point, self->M_memory);
+    self->C = zd_dense_C(point, self->C_memory);
+    self->rows = point->rows;
+    return status;
+}
+
+static void refine(refined *self, const double *force, const double *rhs, double *x)
+{
+    int n = self->n, rows = self->rows;
+    for (int i = 0; i < n; i++) {
+        self->force[i] = force ? force[i] : 0;
+        for (int j = 0; j < n; j++) self->force[i] -= self->M[i * n + j] * x[j];
+        for (int k = 0; k < rows; k++) self->force[i] -= self->C[k * n + i] * self->lambda[k];
+    }
+    for (int k = 0; k < rows; k++) {
+        self->rhs[k] = rhs[k];
+        for (int j = 0; j < n; j++) self->rhs[k] -= self->C[k * n + j] * x[j];
+    }
+    zd_augmented.solve(self->inner, self->force, self->rhs, self->dx, self->dlambda);
+    for (int i = 0; i < n; i++) x[i] += self->dx[i];
+    for (int k = 0; k < rows; k++) self->lambda[k] += self->dlambda[k];
+}
+
+static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
+{
+    refined *self = memory;
+    zd_augmented.solve(self->inner, force, rhs, x, self->lambda);
+    for (int i = 0; i < self->times; i++) refine(self, force, rhs, x);
+    for (int k = 0; lambda && k < self->rows; k++) lambda[k] = self->lambda[k];
+}
+
+const zd_formulation zd_refined = {
+    .card = {
+        .name = "refined",
+        .summary = "The matrix of (8), and its solution refined.",
+        .equations = "(8), (25)",
+        .description = "What the solution leaves of the equations is solved for with the same factors, as often as is asked for. "
+                       "It is for this count of files alone.",
+        .reference = "J. H. Wilkinson, Rounding Errors in Algebraic Processes, 1963",
+        .parameters = 1, .parameter = parameters,
+    },
+    ZD_DEPENDENT_STATE,
+    .take = take,
+    .factor = factor,
+    .solve = solve,
+};
+"""
+
+CORRECTION = r"""
+/* A part of the velocity violation is taken out after the step: v <- v - share solve(0, Psi), after (25b). */
+#include "../constraints/limits.h"
+#include "../motion/motion.h"
+#include "../point/matrices.h"
+
+typedef struct relaxation {
+    double share;
+    double *rhs, *v;        /* (m,), (nv,) */
+} relaxation;
+
+static const zd_parameter parameters[] = {
+    {"share", "", "Of the violation that a step leaves, how much is taken out.", 1, ZD_POSITIVE, (const double[]){0.5}},
+};
+
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
+{
+    relaxation self = {*(const double *)given, zd_take_doubles(arena, (size_t)zd_constraints(system)),
+                       zd_take_doubles(arena, (size_t)system->nv)};
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int after_step(void *memory, zd_motion *motion)
+{
+    relaxation *self = memory;
+    zd_point *point = motion->point;
+    int status = zd_constraints(&motion->system) && (motion->drifts_from & ZD_C) ? ZD_DONE : ZD_PAUSED;
+    if (status) return ZD_DONE;
+    status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
+    if (!status) status = zd_motion_factor(motion);
+    if (status) return status;
+    zd_point_velocity_violation(point, self->rhs);
+    for (int k = 0; k < zd_constraints(&motion->system); k++) self->rhs[k] *= self->share;
+    status = zd_limits_replace(point, ZD_LIMIT_PSI, self->rhs);
+    if (status) return status;
+    zd_motion_solve(motion, NULL, self->rhs, self->v, NULL);
+    for (int i = 0; i < motion->system.nv; i++) self->v[i] = point->v[i] - self->v[i];
+    zd_point_move_velocity(point, self->v);
+    return ZD_DONE;
+}
+
+const zd_correction zd_relaxation = {
+    .card = {
+        .name = "relaxation",
+        .summary = "A part of the velocity violation is taken out after the step.",
+        .equations = "(25)",
+        .description = "As the projection does it for velocities, but not all of it. It is for this count of files alone.",
+        .reference = "W. Blajer, 2002, section 3.1",
+        .parameters = 1, .parameter = parameters,
+    },
+    .take = take,
+    .after_step = after_step,
+};
+"""
+
+SYSTEM = r"""
+/* A point mass on a massless rod in space, in Cartesian coordinates. */
+#include <math.h>
+#include <string.h>
+
+#include "kind.h"
+
+enum { X, Y, Z, N };
+
+typedef struct given {
+    double L, m, g, angle, rate;
+} given;
+
+static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+{
+    (void)t;
+    const given *q = data;
+    if (want & ZD_M) memcpy(out->M, (double[]){q->m, 0, 0, 0, q->m, 0, 0, 0, q->m}, N * N * sizeof(double));
+    if (want & ZD_FORCE) memcpy(out->f, (double[]){0, 0, -q->m * q->g}, N * sizeof(double));
+    if (want & ZD_PHI) *out->Phi = (p[X] * p[X] + p[Y] * p[Y] + p[Z] * p[Z] - q->L * q->L) / (2 * q->L);
+    for (int i = 0; (want & ZD_C) && i < N; i++) out->C[i] = p[i] / q->L;
+    if (want & ZD_XI) *out->xi = -(v[X] * v[X] + v[Y] * v[Y] + v[Z] * v[Z]) / q->L;
+    if (want & ZD_POTENTIAL) *out->V = q->m * q->g * p[Z];
+    return ZD_DONE;
+}
+
+static const char *prepare(const double *parameters, double *to)
+{
+    memcpy(to, parameters, sizeof(given));
+    return NULL;
+}
+
+static void start(const double *parameters, double *p, double *v)
+{
+    const given *q = (const given *)parameters;
+    memcpy(p, (double[]){q->L * sin(q->angle), 0, -q->L * cos(q->angle)}, N * sizeof *p);
+    memcpy(v, (double[]){0, q->rate * p[X], 0}, N * sizeof *v);
+}
+
+static void draw(const double *data, const double *p, double *points)
+{
+    (void)data;
+    memcpy(points, (double[]){0, 0, 0, p[X], p[Y], p[Z]}, 6 * sizeof *points);
+}
+
+static const zd_parameter parameter[] = {
+    {"length", "m", "of the rod", 1, ZD_POSITIVE, (const double[]){1}},
+    {"mass", "kg", "", 1, ZD_POSITIVE, (const double[]){1}},
+    {"gravity", "m/s^2", "downwards, along -z", 1, ZD_ANY, (const double[]){9.81}},
+    {"angle", "rad", "at the start, from hanging straight down towards +x", 1, ZD_ANY, (const double[]){1}},
+    {"rate", "rad/s", "at which it goes round at the start", 1, ZD_ANY, (const double[]){2}},
+};
+
+static const zd_variable coordinate[] = {{"x", "m"}, {"y", "m"}, {"z", "m"}};
+static const zd_variable velocity[] = {{"x_dot", "m/s"}, {"y_dot", "m/s"}, {"z_dot", "m/s"}};
+static const zd_variable constraint[] = {{"rod", "m"}};
+
+const zd_kind zd_spherical_pendulum = {
+    .card = {
+        .name = "spherical_pendulum",
+        .summary = "Point mass on a massless rod in space, in Cartesian coordinates.",
+        .equations = "(3)",
+        .description = "The pendulum with one dimension more, and so with two degrees of freedom. It is for this count of "
+                       "files alone.",
+        .reference = "L. D. Landau, E. M. Lifshitz, Mechanics, section 14",
+    },
+    .system = {
+        .nq = N, .nv = N, .mh = 1,
+        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
+        .evaluate = evaluate,
+    },
+    ZD_PREPARED(given),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = 2, .dimension = 3, .draw = draw,
+};
+"""
+
+LINE_OF_TERM = '    TERM(ZD_HEAT, 0x1000, heat, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what friction turns into heat, in W") \\\n'
+
+# What is added: the file that it is in, its text, the file that is changed, where, and by what.
+ADDED = {
+    "an integrator": ("csrc/integrators/ralston.c", INTEGRATOR, REGISTRY, r"(X\(zd_rattle\))", r"\1 X(zd_ralston)"),
+    "a formulation": ("csrc/formulations/refined.c", FORMULATION, REGISTRY, r"(X\(zd_independent\))", r"\1 X(zd_refined)"),
+    "a correction with a setting": ("csrc/corrections/relaxation.c", CORRECTION, REGISTRY, r"(X\(zd_projection_row\))",
+                                    r"\1 X(zd_relaxation)"),
+    "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
+                 r"\1 X(zd_spherical_pendulum)"),
+    "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
+}
+NAMES = "ralston or refined or relaxation or spherical_pendulum or heat"      # by which tests are picked
+WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.py", "tests/point/test_terms.py",
+         "tests/test_structure_of_core.py"]
+
+
+def words(before, after):
+    """How many words two texts differ in."""
+    blocks = difflib.SequenceMatcher(None, before.split(), after.split(), autojunk=False).get_opcodes()
+    return sum(max(b - a, d - c) for tag, a, b, c, d in blocks if tag != "equal")
+
+
+def add(folder, file, text, changed, where, by):
+    """Adds one row; returns the files it is in, and how many files, words and lines were changed besides."""
+    if file:
+        (folder / file).write_text(text.lstrip())
+    path = folder / changed
+    before = path.read_text()
+    after, times = re.subn(where, by, before, count=1)
+    assert times == 1, f"{changed} has no {where}"
+    path.write_text(after)
+    lines = sum(line.startswith("+ ") for line in difflib.ndiff(before.splitlines(), after.splitlines()))
+    return 1 if file else 0, 1, words(before, after), lines
+
+
+def run(folder, *command):
+    """What a command prints; where it fails, that is the end."""
+    environment = os.environ | {"PYTHONPATH": str(folder / "python")}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout[-6000:]}\n{done.stderr[-3000:]}")
+    return done.stdout
+
+
+def main(folder):
+    shutil.copytree(ROOT, folder, ignore=KEPT, dirs_exist_ok=True)
+    print(f"{'':30}{'new files':>12}{'changed files':>16}{'words':>8}{'lines':>8}")
+    for what, how in ADDED.items():
+        new, changed, count, lines = add(folder, *how)
+        print(f"{what:30}{new:12}{changed:16}{count:8}{lines:8}")
+    run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
+    for picked in ([*WHOLE], ["tests", "-k", NAMES]):
+        print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        main(Path(sys.argv[1]))
+    else:
+        with tempfile.TemporaryDirectory() as temporary:
+            main(Path(temporary))
