@@ -26,9 +26,10 @@ def instance(name: str, value: Any, kinds: type | tuple[type, ...], allowed: str
 
 def number(name: str, value: Any, *, above: float | None = None, least: float | None = None) -> float:
     """A finite real number, more than `above` or at least `least`."""
-    if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
-        raise TypeError(f"{name} must be a real number, not {value!r}")
-    value = _double(value)
+    if type(value) is not float:        # as most are: the questions take longer than all else here
+        if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
+            raise TypeError(f"{name} must be a real number, not {value!r}")
+        value = _double(value)
     if not math.isfinite(value):
         raise ValueError(f"{name} must be finite, not {value}")
     if above is not None and not value > above:
@@ -47,7 +48,7 @@ def _double(value: Real) -> float:
 
 def count(name: str, value: Any, *, least: int = 1) -> int:
     """A whole number, at least `least`."""
-    if isinstance(value, bool | np.bool_) or not isinstance(value, Integral):
+    if type(value) is not int and (isinstance(value, bool | np.bool_) or not isinstance(value, Integral)):
         raise TypeError(f"{name} must be a whole number, not {value!r}")
     if not least <= value < 2**31:
         raise ValueError(f"{name} must be between {least} and {2**31 - 1}, not {value}")
@@ -56,7 +57,7 @@ def count(name: str, value: Any, *, least: int = 1) -> int:
 
 def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     """One of the allowed words."""
-    words = list(allowed)
+    words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
     raise ValueError(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")

@@ -20,7 +20,7 @@ from .base import (
     doubles,
     error_of,
     is_length,
-    lacking,
+    required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
@@ -32,12 +32,12 @@ from .runs import Record, Run, acceleration, count_steps, project, settings, ste
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED", "PAUSED",
-    "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore", "NativeCore",
-    "Packing", "Parameter", "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration", "address_of", "cards",
-    "clash", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library", "is_length",
-    "joint_kinds", "kind_at", "kinds", "lacking", "load_data", "numba_signature", "perturbed", "probe", "project", "settings",
-    "step", "terms_of",
+    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
+    "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore",
+    "NativeCore", "Packing", "Parameter", "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration",
+    "address_of", "cards", "clash", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library",
+    "is_length", "joint_kinds", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
+    "required", "settings", "step", "terms_of",
 ]
 
 check_fingerprint()

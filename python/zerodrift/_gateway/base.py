@@ -183,10 +183,9 @@ def clash(table: str, name: str, values: Sequence[float]) -> str:
     return text(message) if lib.zd_check_given(TABLES[table], row, given, message, MESSAGE_SIZE) else ""
 
 
-def lacking(correction: str, core: Any) -> list[str]:
-    """The terms that a correction requires and a system has not."""
-    requires = lib.zd_correction_requires(row_named("corrections", correction))
-    return [name for name, term in TERMS.items() if requires & term.bit & ~core.provides]
+def required(correction: str) -> int:
+    """The bits of the terms that a correction requires of a system."""
+    return lib.zd_correction_requires(row_named("corrections", correction))
 
 
 def error_of(status: int, message: str) -> Exception:

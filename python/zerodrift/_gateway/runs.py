@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import struct
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,14 +16,20 @@ from .callbacks import Watcher
 from .systems import CoreSystem
 
 
-def settings(options: dict[str, Any]) -> Any:
-    """A `zd_settings` from nested dictionaries; an array `t_eval` has to outlive it."""
-    t_eval, corrections = options.pop("t_eval", None), options.pop("correction", {})
-    for name in {"of_formulation", "of_integrator"} & set(options):
-        options[name] = {"given": 1, "value": options[name]}
-    made = ffi.new("zd_settings *", options)
-    for name, values in corrections.items():
-        made.correction[row_named("corrections", name)] = {"given": 1, "value": values}
+def settings(options: dict[str, Any], like: Any = None) -> Any:
+    """A `zd_settings` from its members, the others as in `like`; an array `t_eval` has to outlive it.
+
+    What is given of rows are their numbers, of corrections by their names.
+    """
+    made, t_eval = ffi.new("zd_settings *", like[0] if like else None), None
+    for name, value in options.items():
+        if name == "t_eval":
+            t_eval = value
+        elif name == "correction":
+            for correction, values in value.items():
+                made.correction[row_named("corrections", correction)] = {"given": 1, "value": values}
+        else:
+            setattr(made, name, {"given": 1, "value": value} if name in ("of_formulation", "of_integrator") else value)
     if t_eval is not None:
         made.t_eval, made.t_evals = doubles(t_eval, t_eval.size), t_eval.size
     return made
@@ -33,34 +41,46 @@ def count_steps(t0: float, t1: float, step: float) -> int:
 
 
 COUNTS = ("iterations", "energy_skipped")     # the integers of a row
-STATISTICS = tuple(name for name, _ in ffi.typeof("zd_statistics").fields)
+FIELDS = {name: field.type.cname for name, field in ffi.typeof("zd_statistics").fields}
+STATISTICS = tuple(FIELDS)
+_unpacked = struct.Struct("".join({"int64_t": "q", "double": "d"}[kind] for kind in FIELDS.values())).unpack
+
+
+@functools.lru_cache
+def _shapes(nq: int, nv: int, mh: int, m: int, has_energy: bool) -> dict[str, tuple[int, ...]]:
+    """The shapes of a row's numbers."""
+    energies = {"potential": (), "input": (), "energy_violation": ()} if has_energy else {}
+    return {"t": (), "p": (nq,), "v": (nv,), "multipliers": (m,), "position_violation": (mh,), "velocity_violation": (m,),
+            "kinetic": (), **energies}
 
 
 class Record:
     """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed."""
 
     def __init__(self, core: CoreSystem, capacity: int) -> None:
-        energies = {"potential": (), "input": (), "energy_violation": ()} if core.has_energy else {}
-        self._shapes = {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "position_violation": (core.mh,),
-                        "velocity_violation": (core.m,), "kinetic": (), **energies}
-        self._blocks: list[tuple[Any, dict[str, tuple[np.ndarray, Any]]]] = []
+        self._shapes = _shapes(core.nq, core.nv, core.mh, core.m, core.has_energy)
+        self._blocks: list[tuple[Any, dict[str, np.ndarray]]] = []
         self._add(capacity)
 
     def _add(self, capacity: int) -> None:
-        columns = {}
         try:
-            for name, shape in self._shapes.items():
-                array = np.empty((capacity, *shape))
-                columns[name] = array, ffi.from_buffer("double[]", array, require_writable=True)
+            columns = self._taken(capacity)
             counts = {name: np.empty(capacity, dtype=np.intc) for name in COUNTS}
         except (MemoryError, ValueError):
-            columns.clear()     # the traceback keeps this frame, but what it took is needed
+            columns = {}        # the traceback keeps this frame, but what it took is needed
             size = capacity * (sum(map(math.prod, self._shapes.values())) + 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
-        columns |= {name: (array, ffi.from_buffer("int[]", array, require_writable=True)) for name, array in counts.items()}
-        self.c = ffi.new("zd_record *", {name: memory for name, (_, memory) in columns.items()})
-        self.c.capacity = capacity
-        self._blocks.append((self.c, columns))
+        c = self.c = ffi.new("zd_record *")
+        c.capacity = capacity
+        for name, array in columns.items():
+            setattr(c, name, ffi.from_buffer("double[]", array, require_writable=True))
+        for name, array in counts.items():
+            setattr(c, name, ffi.from_buffer("int[]", array, require_writable=True))
+        self._blocks.append((c, columns | counts))
+
+    def _taken(self, capacity: int) -> dict[str, np.ndarray]:
+        """Arrays for so many rows."""
+        return {name: np.empty((capacity, *shape)) for name, shape in self._shapes.items()}
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
@@ -70,11 +90,11 @@ class Record:
         """The rows written so far. Several blocks are joined column by column and let go, as memory may be short."""
         if len(self._blocks) == 1:
             c, columns = self._blocks.pop()
-            return {name: array[: c.rows] for name, (array, _) in columns.items()}
+            return columns if c.rows == c.capacity else {name: array[: c.rows] for name, array in columns.items()}
         return {name: self._joined(name) for name in (*self._shapes, *COUNTS)}
 
     def _joined(self, name: str) -> np.ndarray:
-        parts = [columns[name][0][: c.rows] for c, columns in self._blocks]
+        parts = [columns[name][: c.rows] for c, columns in self._blocks]
         joined = np.concatenate(parts)
         for _, columns in self._blocks:
             del columns[name]
@@ -133,7 +153,7 @@ class Run:
     def statistics(self) -> dict[str, Any]:
         """Counts of what the run did, and its largest omega h."""
         c = lib.zd_run_statistics(self._run)
-        return {name: getattr(c, name) for name in STATISTICS} | {
+        return dict(zip(STATISTICS, _unpacked(ffi.buffer(c)), strict=True)) | {
             "omega_h": lib.zd_run_omega_h(self._run), "largest_kinetic": lib.zd_run_kinetic(self._run)}
 
     @property

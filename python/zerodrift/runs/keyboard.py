@@ -7,6 +7,9 @@ import threading
 from types import CodeType, FrameType
 from typing import Any
 
+# Python's own functions, without what makes members of enumerations of their results: that takes longer than a short run.
+_handler, _set_handler = (getattr(function, "__wrapped__", function) for function in (signal.getsignal, signal.signal))
+
 
 class Keyboard:
     """While this context lasts, Ctrl-C raises KeyboardInterrupt below the code in `breakable` only; elsewhere it sets `pressed`.
@@ -27,13 +30,13 @@ class Keyboard:
 
     def __enter__(self) -> Keyboard:
         if (threading.current_thread() is threading.main_thread()
-                and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
-            signal.signal(signal.SIGINT, self._press)
+                and _handler(signal.SIGINT) is signal.default_int_handler):
+            _set_handler(signal.SIGINT, self._press)
             self._handles_signal = True
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: Any) -> None:
         if self._handles_signal:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+            _set_handler(signal.SIGINT, signal.default_int_handler)
         if error is not None and self.pressed and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt from error

@@ -240,6 +240,9 @@ def name_of(table: str, value: Any) -> str:
     return _check.choice(table.removesuffix("s"), value, TABLES[table])
 
 
+NUMBERS = {table: {name: number for number, name in enumerate(cards)} for table, cards in TABLES.items()}
+
+
 def row_of(table: str, value: Any) -> int:
     """Its number in the core's table."""
-    return list(TABLES[table]).index(name_of(table, value))
+    return NUMBERS[table][name_of(table, value)]

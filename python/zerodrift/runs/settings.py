@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
+import operator
 from collections.abc import Sequence
 from typing import Any
 
@@ -94,6 +97,7 @@ def on_singular_row(value: Any) -> int:
 MAX_STEPS = 1_000_000     # where steps are chosen
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}     # where steps are chosen
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off
+RESOLVED = 16 * float(np.finfo(float).eps)      # of a time: no step is shorter
 
 
 def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
@@ -104,16 +108,17 @@ def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, 
     if direct is not None and direct is not False:
         raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
     return {**_steps(span, step, integrator, max_steps, tolerances),
-            **_methods(system, formulation, integrator, stabilization, energy, correction), **_saved(span, save_every, t_eval),
+            **_methods(system, formulation, integrator, stabilization, energy,
+                       tuple(correction) if isinstance(correction, list) else correction), **_saved(span, save_every, t_eval),
             "on_singular": on_singular, "direct": direct}
 
 
 def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
     """How steps are made: of a fixed size, or chosen by their error."""
-    integrator_row(integrator)
+    name_of("integrators", integrator)
     max_steps = None if max_steps is None else _check.count("max_steps", max_steps)
     latest = max(map(abs, span))
-    smallest = 16 * np.finfo(float).eps * latest
+    smallest = RESOLVED * latest
     if step is None:
         return {"step": None, **_tolerances(integrator, tolerances, smallest), "max_steps": max_steps}
     for name, value in tolerances.items():
@@ -139,26 +144,45 @@ def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict
     return found
 
 
-def _methods(system: BaseSystem, formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
-             given_correction: Any) -> dict[str, Any]:
+def _methods(system: BaseSystem, *given: Any) -> dict[str, Any]:
     """Equations, integrator and corrections."""
-    formulation_row(formulation)
+    found, corrections, requires = _remembered(_chosen_methods, *given)
+    if requires & ~core_of(system).provides:
+        _refuse_corrections(system, corrections)
+    return found
+
+
+def _remembered(function: Any, *given: Any) -> Any:
+    """What a function that has a cache says; without that where arguments cannot be remembered, as is wrong of most."""
+    with contextlib.suppress(TypeError):
+        return function(*given)
+    return function.__wrapped__(*given)
+
+
+# What follows from arguments that never change is found once: else it would take longer than a short run. 1 is not True here.
+@functools.lru_cache(typed=True)
+def _chosen_methods(formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
+                    given_correction: Any) -> tuple[dict[str, Any], list[RowSettings], int]:
+    """As settings of a run, with all corrections among them, and the bits of the terms that these require."""
+    name_of("formulations", formulation)
     found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
              "energy": energy(given_energy)}
     if more := correction(given_correction):
         found["correction"] = more
-    _check_corrections(system, corrections_of(found))
-    return found
-
-
-def _check_corrections(system: BaseSystem, given: Sequence[RowSettings]) -> None:
-    names = [each.card.name for each in given]
+    corrections = corrections_of(found)
+    names = [each.card.name for each in corrections]
     for name in names:
         if names.count(name) > 1:
             others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
             raise ValueError(f"the {name} correction is given more than once, by {others}correction")
-        for term in _gateway.lacking(name, core_of(system)):
-            raise ValueError(f"{name} correction needs {term} ({_gateway.TERMS[term].text}), and {system.name} declares none")
+    return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
+
+
+def _refuse_corrections(system: BaseSystem, corrections: list[RowSettings]) -> None:
+    for name in (each.card.name for each in corrections):
+        for term, row in _gateway.TERMS.items():
+            if row.bit & _gateway.required(name) & ~core_of(system).provides:
+                raise ValueError(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
 
 
 def _saved(span: tuple[float, float], save_every: Any, t_eval: Any) -> dict[str, Any]:
@@ -189,12 +213,18 @@ _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_steps", "sa
 
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
-    options = {"formulation": formulation_row(chosen["formulation"]),
-               "integrator": integrator_row(chosen["integrator"]), "t0": span[0], "t1": span[1],
-               "on_singular": on_singular_row(chosen.get("on_singular", "stop")),
-               "direct": chosen.get("direct") is None}
-    options |= {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
-    return _gateway.settings(options | given(chosen["formulation"], chosen["integrator"], *corrections_of(chosen)))
+    like = _core_methods(chosen["formulation"], chosen["integrator"], chosen.get("on_singular", "stop"),
+                         chosen.get("direct") is None, *corrections_of(chosen))
+    changed = {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
+    return _gateway.settings({"t0": span[0], "t1": span[1], **changed}, like)
+
+
+@functools.lru_cache(typed=True)
+def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: bool, *corrections: RowSettings) -> Any:
+    """The core's settings as far as they say by which methods a run is made."""
+    return _gateway.settings({
+        "formulation": formulation_row(formulation), "integrator": integrator_row(integrator),
+        "on_singular": on_singular_row(on_singular), "direct": direct, **given(formulation, integrator, *corrections)})
 
 
 def given(*chosen: Any) -> dict[str, Any]:

@@ -224,7 +224,7 @@ def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
     """Everything that a run left behind."""
     arrays = record.take()
     t_events, p_events, v_events = _events_found(watcher)
-    return Solution(
+    return Solution._with_all(
         t=arrays["t"], p=arrays["p"], v=arrays["v"], multipliers=arrays["multipliers"],
         position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
         kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),

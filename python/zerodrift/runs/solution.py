@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -101,10 +102,19 @@ class Solution:
     v_events: tuple[np.ndarray, ...] | None = None
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            for array in (value or ()) if name in EVENTS else (value,):
-                if isinstance(array, np.ndarray):
-                    array.flags.writeable = False
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or ()):
+            array.setflags(write=False)
+
+    @classmethod
+    def _with_all(cls, **values: Any) -> Solution:
+        """With all fields given. A frozen class sets them one by one otherwise, which takes longer than a short run."""
+        made = object.__new__(cls)
+        vars(made).update(values)
+        made.__post_init__()
+        return made
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles are made by __init__, so that their arrays are read-only, too.
