@@ -167,7 +167,7 @@ class Assembly:
         return p
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
-        """From positions that are closed to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
+        """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
         distance = np.linalg.norm((p - drawn) / self.scale * self.weight)
         for _ in range(NEARER):
             residual, rows = self._residual(p, held)

@@ -1,9 +1,9 @@
-"""A thousand random mechanisms against plain NumPy: motion and reactions. Writes tests/stress/mechanisms.md.
+"""A thousand random mechanisms against plain NumPy: motion and reactions. Writes planar_mechanisms.md beside this.
 
-    PYTHONPATH=python:tests python tests/stress/mechanisms.py [how many]
+    PYTHONPATH=python:tests python tests/stress/planar_mechanisms.py [how many]
 
-Each is simulated in joint or in absolute coordinates for 0.2 s. What fails is counted by how it fails: a run that stops with an error is
-not wrong in silence. What is wrong in silence would be a line in the last table.
+Each is simulated in joint or in absolute coordinates for 0.2 s. What fails is counted by how it fails: a run that stops with an error
+is not wrong in silence. What is wrong in silence would be a line in the last table.
 """
 
 import sys
@@ -37,10 +37,10 @@ def main():
     counts = Counter(word for word, _ in found)
     agreeing = [row for word, row in found if word.endswith("agrees")]
     lines = [f"# {many} random mechanisms against plain NumPy", "",
-             f"Written by `tests/stress/mechanisms.py`, zerodrift {zd.__version__}, {time.time() - begin:.0f} s.", "",
+             f"Written by `tests/stress/planar_mechanisms.py`, zerodrift {zd.__version__}, {time.time() - begin:.0f} s.", "",
              "| how it ended | how many |", "|---|---|", *(f"| {word} | {count} |" for word, count in sorted(counts.items())), "",
-             f"Largest difference in motion where they agree: {max(row[1] for row in agreeing):.2g} of the velocities' size; in reactions: "
-             f"{max(row[2] for row in agreeing):.2g} of the largest.", "", "| seed | what |", "|---|---|"]
+             f"Largest difference where they agree: in motion {max(row[1] for row in agreeing):.2g} of the velocities' size, in "
+             f"reactions {max(row[2] for row in agreeing):.2g} of the largest.", "", "| seed | what |", "|---|---|"]
     lines += [f"| {row[0]} | {row[1]} |" if len(row) == 2 else f"| {row[0]} | motion {row[1]:.2g}, reactions {row[2]:.2g} |"
               for word, row in found if not word.endswith("agrees")]
     TABLE.write_text("\n".join(lines) + "\n")
