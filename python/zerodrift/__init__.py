@@ -33,6 +33,7 @@ from .errors import (
     ZerodriftError,
 )
 from .mechanisms.mechanism import Mechanism
+from .runs.events import Event
 from .runs.operations import acceleration, assemble, project
 from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
 from .runs.simulate import simulate
@@ -44,8 +45,8 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "Diverged", "EnergyCorrection", "InconsistentStart", "InconsistentSystem", "Interrupted", "Mechanism",
-    "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart",
+    "InconsistentSystem", "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
     "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError",
     "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "inertia",
     "integrators", "load", "models", "native", "numba_signature", "plot", "project", "reference", "simulate", "stability_map",

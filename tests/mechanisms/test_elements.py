@@ -267,3 +267,55 @@ def test_what_a_callable_returns_is_a_number():
     m.torque("air", bodies[0], value=lambda: [1.0, 2.0])
     with pytest.raises(TypeError, match="what value of torque 'air' returns at t = 0 must be a real number"):
         zd.simulate(m, 1.0, step=0.1)
+
+
+# ---- events ----
+
+
+def pendulum():
+    m = zd.Mechanism("pendulum", gravity=(0, -9.81), parameters={"low": -0.5})
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    return m, link
+
+
+@pytest.mark.parametrize("event", [
+    lambda link: zd.Event(link.end.position.y, value=-0.5), lambda link: zd.Event("pin.angle", value=-np.pi / 6),
+    lambda link: zd.Event(lambda y, low: y - low, of={"y": link.end.position.y}),
+    lambda link: zd.Event(lambda t, p: p[0] + np.pi / 6 + 0 * t)])
+def test_events_are_measures_or_functions_of_them(layout, event):
+    """When the end is half a metre down: where it is then, and how fast, by the balance of energy."""
+    m, link = pendulum()
+    event = event(link)
+    if layout == "absolute" and callable(event.what) and event.of is None:
+        event = zd.Event(lambda p: p[2] + np.pi / 6)
+    sol = zd.simulate(m.system(layout), 1.0, step=0.01, events=[event, "link.angle"])
+    assert len(sol.t_events[0]) in (1, 2)       # the end is as low again on the other side
+    angle = sol.p_events[0][0][-1]
+    np.testing.assert_allclose(angle, -np.pi / 6, atol=1e-12)
+    np.testing.assert_allclose(sol.v_events[0][0][-1], -np.sqrt(3 * 9.81 * 0.5), rtol=1e-7)
+
+
+def test_a_terminal_event_ends_the_run_and_a_direction_counts():
+    m, link = pendulum()
+    sol = zd.simulate(m, 2.0, step=0.01, events=zd.Event(link.end.position.y, value=-0.5, direction=1, terminal=True))
+    assert sol.status == 4
+    np.testing.assert_allclose(sol["link.angle"][-1], -5 * np.pi / 6, atol=1e-12)
+
+
+@pytest.mark.parametrize(("event", "error"), [
+    (zd.Event("link.position"), "events must be a scalar measure of positions or velocities, and 'link.position' is none"),
+    (zd.Event("pin.force.x"), "events must be a scalar measure of positions or velocities, and 'pin.force.x' is none"),
+    (zd.Event("rod.angle"), "events must be one of "),
+    (zd.Event(3), "events must be a measure, the name of one, or a callable, not 3"),
+    (zd.Event(lambda x: x), "events asks for 'x'; there is t, p, v, low"), (3, "events must be a callable event")])
+def test_events_that_there_are_not(event, error):
+    with pytest.raises((TypeError, ValueError), match=error):
+        zd.simulate(pendulum()[0], 1.0, step=0.1, events=event)
+
+
+def test_events_of_other_systems_by_the_names_of_their_coordinates():
+    bar = zd.systems.four_bar()
+    sol = zd.simulate(bar, 1.0, step=0.01, events=[zd.Event("alpha1", value=2.0), "alpha2_dot"])
+    assert abs(sol.p_events[0][0][0] - 2.0) < 1e-12
+    assert abs(sol.v_events[1][0][1]) < 1e-12

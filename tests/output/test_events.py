@@ -341,9 +341,9 @@ def test_values_that_are_no_numbers(bar, value, error, shown):
 
 
 @pytest.mark.parametrize(("events", "error", "message"), [
-    (3.0, TypeError, r"events must be a callable or a list of callables, not 3\.0"),
-    ("position", TypeError, "events must be a callable or a list of callables, not 'position'"),
-    ([position, None], TypeError, r"events\[1\] must be a callable event\(t, p, v\), not None"),
+    (3.0, TypeError, r"events must be a callable event\(t, p, v\), a zd.Event or a measure, or a list of these, not 3\.0"),
+    ("position", ValueError, "events must be one of 'alpha1', .*, not 'position'"),
+    ([position, None], TypeError, r"events\[1\] must be a callable event\(t, p, v\), a zd.Event or .*, not None"),
     (event(position, "up"), TypeError, "events.direction must be a real number, not 'up'"),
     (event(position, np.nan), ValueError, "events.direction must be finite"),
     (event(position, 2), ValueError, "events.direction must be -1, 0 or 1, not 2"),

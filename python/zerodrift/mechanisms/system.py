@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..systems.base import BaseSystem
 from .drawing import Drawing
 from .numbers import Numbers
 from .outline import outline
+from .readings import reading
 from .start import targets
 from .starting import Starting
 from .tables import JOINTS, Tables
@@ -111,9 +113,13 @@ class MechanismSystem(BaseSystem):
         """Which components of a measure are the same whatever admissible multipliers there are."""
         return self._watching.unique(getattr(name, "name", name), self._core, solution)
 
-    def _measure_at(self, name: str, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """A measure of positions or velocities at one state, (size,)."""
-        return self._watching.at(name, self._core, t, p, v)
+    def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
+        if self._watching.find(name) is None:
+            return super()._reader(name, what)
+        read = reading(name, self._drawing.elements)
+        if read is None or len(read.gauges) != 1:
+            raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
+        return lambda t, p, v: float(self._watching.at(name, self._core, t, p, v))
 
     def _names_of_measures(self) -> list[str]:
         return list(self.measures)

@@ -73,7 +73,7 @@ def simulate(
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
         corrected.
-    events : callable or list of callables, optional
+    events : callable, Event or measure, or a list of these, optional
         Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
         the beginning of a step to its end. What is reported is corrected, also with corrections at every k-th step only, and
         there the function is zero to rounding; a function that leaps over zero is reported behind its leap. An attribute
@@ -170,7 +170,7 @@ def simulate(
         direct=direct)
     core = core_of(system) if direct is False else direct_core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    watched = _events.events(events)
+    watched = _events.events(events, system)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -214,6 +214,15 @@ class BaseSystem:
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """A measure at every row of a solution; None where nothing is measured by that name."""
         return None
+
+    def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
+        """A function of (t, p, v) that reads a coordinate or a velocity by its name, or whatever else a system measures."""
+        coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
+        if name in coordinates:
+            place = coordinates.index(name)
+            return lambda t, p, v: float(p[place])
+        place = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
+        return lambda t, p, v: float(v[place])
 
     def _names_of_measures(self) -> list[str]:
         """What is measured by names of its own."""
