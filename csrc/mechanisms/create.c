@@ -7,6 +7,7 @@
 #include "evaluate.h"
 #include "length.h"
 #include "measures.h"
+#include "structure.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
@@ -24,6 +25,7 @@ typedef struct parts {
     zd_measure *measure;
     zd_coordinate_owner *coordinate;
     int *lengths;
+    zd_packing *packing;
     int gauges, terms, rows, angles;        /* so many are there by now */
 } parts;
 
@@ -50,7 +52,10 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     TAKE(measure, (size_t)tables->measures);
     TAKE(coordinate, 3 * bodies);
     TAKE(lengths, 6 * bodies);
+    TAKE(packing, 1);
 #undef TAKE
+    zd_packing none = {.size_of_C = 0};
+    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows, (size_t)tables->terms + extra);
 }
 
 /* ---- the tree ---- */
@@ -300,6 +305,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .length = zd_tables_length(tables),
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
+        .structure = self->packing ? &self->packing->structure : NULL,
     };
     self->measures = zd_mechanism_measures(self, from->measure);
 }
@@ -325,6 +331,7 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
         .has_velocity_forces = forces_know_velocity(tables),
     };
     self->measures.count = tables->measures;
+    if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
     make_system(tables, all, coordinates, self);
 }
 

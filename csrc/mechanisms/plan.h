@@ -12,6 +12,8 @@ typedef struct zd_planned_joint {
     int row_count;
 } zd_planned_joint;
 
+struct zd_packing;
+
 /* Body numbers in all of these are those of the tree. */
 struct zd_mechanism {
     zd_vector gravity;
@@ -31,6 +33,7 @@ struct zd_mechanism {
     const zd_coordinate_owner *coordinate;      /* (nq,) */
     zd_law *law;
     void *owner;
+    const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
     int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */

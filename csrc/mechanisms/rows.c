@@ -2,6 +2,7 @@
 #include "rows.h"
 
 #include "gauge.h"
+#include "structure.h"
 
 typedef struct combined {
     double value;           /* g, but for the gauges' own part where the row has no law */
@@ -56,6 +57,24 @@ void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relati
     }
 }
 
+/* Adds what a wrench on a body does to a row, where its entries are stored from `at` on. */
+static void add_packed(const zd_mechanism *self, int body, int at, double scale, zd_wrench what, double *to)
+{
+    if (body) zd_tree_act_on_free(self->tree.link + body, scale, what, to + at);
+}
+
+static void add_to_row(const zd_mechanism *self, const zd_frame *frame, int term, double scale, const zd_reading *reading, double *to)
+{
+    const zd_gauge *gauge = self->gauge + self->term[term].gauge;
+    if (self->packing) {
+        add_packed(self, gauge->first, self->packing->near[term], scale, reading->first, to);
+        add_packed(self, gauge->second, self->packing->far[term], scale, reading->second, to);
+    } else {
+        zd_tree_inward(&self->tree, frame->pose, gauge->first, scale, reading->first, to);
+        zd_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading->second, to);
+    }
+}
+
 /* Returns the sum of factors x, and adds that of factors times the gauges' rows to `to` unless that is NULL. */
 static double add_readings(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double *to)
 {
@@ -64,9 +83,7 @@ static double add_readings(const zd_mechanism *self, const zd_frame *frame, cons
         const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         sum += factors[i] * reading.value;
-        if (!to) continue;
-        zd_tree_inward(&self->tree, frame->pose, gauge->first, factors[i], reading.first, to);
-        zd_tree_inward(&self->tree, frame->pose, gauge->second, factors[i], reading.second, to);
+        if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
     }
     return sum;
 }
@@ -90,7 +107,8 @@ int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, dou
         int status = combine(self, frame, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
-            double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + i * nv : NULL);     /* (5) */
+            int at = self->packing ? self->packing->row[i] : i * nv;
+            double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + at : NULL);         /* (5) */
             if (wants_Phi) out->Phi[i] = row->law < 0 ? sum + all.value : all.value;                            /* (3) */
         }
         if (want & ZD_PHI_T) out->Phi_t[i] = all.explicit_rate;

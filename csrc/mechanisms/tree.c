@@ -114,6 +114,13 @@ void zd_tree_accelerate(const zd_tree *tree, const zd_pose *pose, const zd_twist
 
 /* ---- inward ---- */
 
+void zd_tree_act_on_free(const zd_link *link, double scale, zd_wrench what, double *own)
+{
+    own[0] += scale * what.force.x;
+    own[1] += scale * what.force.y;
+    if (link->hang == ZD_HANGS_FREE) own[2] += scale * what.torque;
+}
+
 /* What a wrench on a body does to the body's own coordinates, and what of it goes on to the body that it hangs on. */
 static zd_wrench pass_inward(const zd_link *link, const zd_pose *pose, zd_wrench what, double scale, double *row)
 {
@@ -124,10 +131,8 @@ static zd_wrench pass_inward(const zd_link *link, const zd_pose *pose, zd_wrench
         torque = 0;
         break;
     case ZD_HANGS_FREE:
-        own[2] += scale * what.torque;      /* fall through */
     case ZD_HANGS_FREE_POINT:
-        own[0] += scale * what.force.x;
-        own[1] += scale * what.force.y;
+        zd_tree_act_on_free(link, scale, what, own);
         return (zd_wrench){.torque = 0};
     case ZD_HANGS_SLIDING:
         own[0] += scale * zd_inner(pose->axis, what.force);

@@ -67,6 +67,8 @@ void zd_tree_move(const zd_tree *tree, const zd_pose *pose, const double *v, zd_
 void zd_tree_accelerate(const zd_tree *tree, const zd_pose *pose, const zd_twist *twist, const double *vdot, zd_spin *spin);
 /* row += what `scale` times the wrench on one body does to the coordinates. */
 void zd_tree_inward(const zd_tree *tree, const zd_pose *pose, int body, double scale, zd_wrench what, double *row);
+/* own += what that does to the coordinates of a body that is free. */
+void zd_tree_act_on_free(const zd_link *link, double scale, zd_wrench what, double *own);
 /* to (nv,) += what the wrenches on all bodies do to the coordinates; the wrenches are used up. */
 void zd_tree_gather(const zd_tree *tree, const zd_pose *pose, zd_wrench *wrench, double *to);
 /* wrench <- what has to come through each body's own joint, where it is what each body needs by itself. */

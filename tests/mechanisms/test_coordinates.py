@@ -81,3 +81,19 @@ def test_sliders_that_start_at_zero_have_the_size_of_their_mechanism():
                     [Effort("constant", 0, value=1.0)])
     system = Tabled(tables, np.array([1e-16, 0.9e-16]), np.zeros(2))
     assert zd.simulate(system, 0.1, step=0.01).p[-1] == pytest.approx(0.1**2 / 4, rel=tol.CONVERGED)
+
+
+def test_absolute_coordinates_declare_bodies_and_joints():
+    """Blocks are bodies with a constant diagonal mass, groups the rows of each joint. With a tree there is none of it."""
+    joints = [Joint(kind("revolute"), 0, 1), Joint(kind("slot"), 2, 1), Joint(kind("rod"), 2, 3, length=1.0),
+              Joint(kind("knife_edge"), 1, 1)]
+    bodies = [Body(2.0, 3.0), Body(1.0, 1.0), Body(4.0, is_particle=True)]
+    tables = Tables(bodies, joints, [Gauge("angle", 0, 1), Gauge("x", 0, 0)], [Relation([0])])
+    structure = Tabled(tables)._core.c.structure
+    assert [structure.velocities[b] for b in range(structure.blocks)] == [3, 3, 2]
+    groups = [(structure.rows[g], [structure.block[i] for i in range(structure.first[g], structure.first[g + 1])])
+              for g in range(structure.groups)]
+    assert groups == [(2, [0]), (1, [0, 1]), (1, [1, 2]), (1, [0]), (1, [0])]
+    assert np.array_equal(np.diag(Tabled(tables).evaluate(np.ones(8), np.ones(8)).M), [2, 2, 3, 1, 1, 1, 4, 4])
+    assert not Tabled(tables._replace(bodies=[bodies[0]._replace(carrier=0), *bodies[1:]]))._core.c.structure
+    assert not Tabled(tables._replace(relations=[Relation([1])]))._core.c.structure
