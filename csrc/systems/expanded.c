@@ -31,6 +31,7 @@ zd_system zd_expanded(const zd_system *inner)
         .evaluate = evaluate,
         .data = inner,
         .lengths = inner->lengths,
+        .length = inner->length,
         .failure = inner->failure,
         .inputs = inner->inputs,
         .input = inner->input,
