@@ -1,6 +1,6 @@
 """What it takes to add a row to each of the core's tables, and a term: done on a copy, which is built and tested, and counted.
 
-    python tests/stress/new_rows.py [FOLDER]        prints the table in README.md; some minutes
+    python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
 A new row is a new file and one word in `registry.c`, a new term one line in `system.h`. The tests that run are those that nobody
 wrote for it: whatever is parametrized over the core's tables, picked by the new names. The rows are small, but each one that can
