@@ -45,12 +45,12 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart",
-    "InconsistentSystem", "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
-    "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "ZerodriftError",
-    "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include", "inertia",
-    "integrators", "load", "models", "native", "numba_signature", "plot", "project", "reference", "simulate", "stability_map",
-    "symbolic", "systems", "tune", "work_precision",
+    "CorrectionWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart", "InconsistentSystem", "Interrupted",
+    "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore",
+    "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator",
+    "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include",
+    "inertia", "integrators", "load", "models", "native", "numba_signature", "plot", "project", "reference", "simulate",
+    "stability_map", "symbolic", "systems", "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
     "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "native": "systems.native",
