@@ -41,3 +41,24 @@ void zd_release(void *memory)
 {
     free(memory);
 }
+
+void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of)
+{
+    zd_arena counting = {NULL, 0};
+    take(&counting, of);
+    unsigned char *block = zd_allocate(CACHE_LINE + counting.used);
+    if (!block) return NULL;
+    memcpy(block, &store->last, sizeof store->last);
+    store->last = block;
+    zd_arena arena = {block + CACHE_LINE, 0};
+    return take(&arena, of);
+}
+
+void zd_store_release(zd_store *store)
+{
+    while (store->last) {
+        void *block = store->last;
+        memcpy(&store->last, block, sizeof store->last);
+        zd_release(block);
+    }
+}

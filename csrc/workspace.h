@@ -17,4 +17,13 @@ void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes);
 void *zd_allocate(size_t bytes);    /* zeroed, aligned to a cache line; NULL if there is no memory */
 void zd_release(void *memory);
 
+/* What a run takes besides once something rare has happened, in blocks that are freed together. */
+typedef struct zd_store {
+    void *last;             /* block; each begins with where the one before it is */
+} zd_store;
+
+/* What `take` lays out for this, twice as ever; NULL if there is no memory. */
+void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of);
+void zd_store_release(zd_store *store);
+
 #endif

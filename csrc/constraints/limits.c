@@ -38,8 +38,9 @@ static const double SETTLED = 0x1p-36;  /* of an acceleration: one that changes 
 static const double FALLING = 0.99;     /* of the smallest change so far: a change that is larger is a stall */
 static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
 
-zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
+static void *take(zd_arena *arena, const void *of)
 {
+    const zd_system *system = of;
     size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_limits self = {
         .distance = zd_take_doubles(arena, m),
@@ -66,7 +67,7 @@ zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system)
 /* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
 static int add_ahead(zd_point *point, double s, double weight)
 {
-    zd_limits *self = point->rank->limits;
+    zd_limits *self = point->rank->selection->limits;
     const int m = point->rank->m;
     for (int i = 0; i < point->system->nq; i++) self->moved[i] = self->p[i] + s * self->pdot[i];
     zd_point_move(point, self->t + (self->is_at_rest ? 0 : s), self->moved, self->v);
@@ -80,7 +81,7 @@ static int add_ahead(zd_point *point, double s, double weight)
 /* Cdot, and the part of xidot that no acceleration makes; both for each unit of path. The point comes back to where it is. */
 static int differentiate(zd_point *point)
 {
-    zd_limits *self = point->rank->limits;
+    zd_limits *self = point->rank->selection->limits;
     const size_t nq = (size_t)point->system->nq, n = (size_t)point->rank->n, m = (size_t)point->rank->m;
     const int known = point->known;
     memcpy(self->p, point->p, nq * sizeof(double));
@@ -95,7 +96,7 @@ static int differentiate(zd_point *point)
     return status ? status : zd_point_need(point, known);
 }
 
-static double along_others(const zd_rank *self, const double *share, const double *y, int stride)
+static double along_others(const zd_selection *self, const double *share, const double *y, int stride)
 {
     double sum = 0;
     for (int a = 0; a < self->independent; a++) sum += share[a] * y[self->row[a] * stride];
@@ -103,7 +104,7 @@ static double along_others(const zd_rank *self, const double *share, const doubl
 }
 
 /* y_d - T y_r, of something that there is for every row */
-static double own_part(const zd_rank *self, int row, const double *y, int stride)
+static double own_part(const zd_selection *self, int row, const double *y, int stride)
 {
     return y[row * stride] - along_others(self, self->limits->T + row * self->m, y, stride);
 }
@@ -111,7 +112,7 @@ static double own_part(const zd_rank *self, int row, const double *y, int stride
 /* x <- what x, of this row and in natural units, has besides those that count; share (independent,) <- theirs in the rest of it */
 static void split(const zd_point *point, int row, double *x, double *share)
 {
-    const zd_rank *self = point->rank;
+    const zd_selection *self = point->rank->selection;
     int n = self->n, rank = self->independent;
     for (int a = 0; a < rank; a++) {
         share[a] = zd_dot(n, x, self->Q + a * n);
@@ -127,7 +128,7 @@ static void split(const zd_point *point, int row, double *x, double *share)
 /* w = C_d - T C_r and wdot - K C_r of all other holonomic rows, the latter also behind the basis */
 static void set_rates(const zd_point *point)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     const zd_limits *limits = self->limits;
     int n = self->n, m = self->m;
     zd_rank_set_basis(point);
@@ -149,7 +150,7 @@ static void set_rates(const zd_point *point)
 }
 
 /* Brings the row whose rate has most that the chosen ones do not have to the front of those not chosen; whether that is enough. */
-static int choose_next(zd_rank *self, int chosen)
+static int choose_next(zd_selection *self, int chosen)
 {
     int n = self->n, best = -1;
     double most = LEAST * LEAST;
@@ -173,7 +174,7 @@ static int choose_next(zd_rank *self, int chosen)
 
 /* How far along the path the bifurcation is away, for this lost row, from w = s wdot; infinite where w does not point like wdot, though
  * it is long enough to tell. */
-static double distance(const zd_rank *self, int row)
+static double distance(const zd_selection *self, int row)
 {
     const double *w = self->limits->w + row * self->n, *wdot = self->limits->wdot + row * self->n;
     double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), rate = zd_dot(self->n, wdot, wdot);
@@ -184,7 +185,7 @@ static double distance(const zd_rank *self, int row)
 
 static double limit(const zd_point *point, int row, int i)
 {
-    const zd_rank *self = point->rank;
+    const zd_selection *self = point->rank->selection;
     return self->limits->wdot[row * self->n + i] * point->inverse_unit[i] * point->size[row];
 }
 
@@ -198,7 +199,7 @@ static double of_limit(const zd_point *point, int row, const double *x)
 /* Puts the limits among the rows that count, behind the holonomic ones. */
 static void insert(zd_point *point, int wanted)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n, before = point->holonomic, behind = self->independent - before;
     memmove(self->C + (before + wanted) * n, self->C + before * n, (size_t)(behind * n) * sizeof(double));
     memmove(self->row_at + before + wanted, self->row_at + before, (size_t)behind * sizeof(int));
@@ -206,7 +207,7 @@ static void insert(zd_point *point, int wanted)
         int row = self->row_at[before + j] = self->row[self->independent + j];
         for (int i = 0; i < n; i++) self->C[(before + j) * n + i] = limit(point, row, i);
     }
-    self->lost = wanted;
+    self->rank->lost = wanted;
     point->rows += wanted;
     point->holonomic += wanted;
 }
@@ -214,7 +215,7 @@ static void insert(zd_point *point, int wanted)
 /* w and wdot along pdot, and so many rows chosen whose rates are independent; whether there are. */
 static int find_rates(zd_point *point, int wanted, int *found)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     *found = 0;
     self->limits->speed = zd_max_scaled(point->system->nq, self->limits->pdot, point->inverse_unit_p);
     if (!(self->limits->speed > 0 && self->limits->speed < INFINITY)) return ZD_DONE;
@@ -233,7 +234,7 @@ static int find_rates(zd_point *point, int wanted, int *found)
  * units, and M in units of its largest entry. */
 static int solve(zd_point *point, int wanted, const double *force, const double *rhs, double *x)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     const int n = self->n, rows = self->independent + wanted, size = n + rows;
     double *K = self->limits->K, *y = self->limits->y, largest = 0;
     memset(K, 0, (size_t)(size * size) * sizeof(double));
@@ -262,7 +263,7 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
 /* c of the limits with the acceleration e in place of a velocity, for each unit of path */
 static int find_curvature(zd_point *point, int wanted, const double *e, double *c)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int status = zd_point_need(point, ZD_XI), rank = self->independent;
     for (int j = 0; j < wanted; j++) c[j] = own_part(self, self->row[rank + j], point->terms.xi, 1);
     memcpy(self->limits->v, point->v, (size_t)self->n * sizeof(double));
@@ -278,7 +279,7 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
  * order, and again from there. */
 static int find_from_rest(zd_point *point, int wanted, int *found)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     double *e = self->limits->e, *x = self->limits->x, *rhs = self->rhs, *limits = rhs + self->independent;
     int n = self->n, status = zd_point_need(point, ZD_M | ZD_BIAS | ZD_FORCE | ZD_XI | ZD_PHI_T);
     *found = 0;
@@ -311,9 +312,11 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
 
 int zd_limits_find(zd_point *point)
 {
-    zd_rank *self = point->rank;
-    int wanted = self->most_rows - self->independent, found;
+    zd_selection *self = point->rank->selection;
+    int wanted = self->rank->most_rows - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
+    if (!self->limits) self->limits = zd_store_take(self->rank->store, take, point->system);
+    if (!self->limits) return ZD_NO_MEMORY;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->limits->pdot);
@@ -329,7 +332,7 @@ int zd_limits_find(zd_point *point)
 }
 
 /* (wdot - K C_r) x, from wdot x and from C_r x = rhs */
-static double besides_others(const zd_rank *self, int row, double product, const double *rhs)
+static double besides_others(const zd_selection *self, int row, double product, const double *rhs)
 {
     return product - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
 }
@@ -338,7 +341,7 @@ static double besides_others(const zd_rank *self, int row, double product, const
  * from c(v). */
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
-    const zd_rank *self = point->rank;
+    const zd_selection *self = point->rank->selection;
     if (fabs(self->limits->distance[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->limits->distance[j];
     if (what == ZD_LIMIT_PHI) return 0;
     return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
@@ -347,7 +350,7 @@ static double violation(const zd_point *point, int j, int row, enum zd_limit wha
 /* The limit times the velocity that satisfies it: the point's velocity, less its violation. rhs has -Phi_t. */
 static double enforced(const zd_point *point, int j, int row, const double *limit, const double *rhs)
 {
-    double *Psi = point->rank->lambda;
+    double *Psi = point->rank->selection->lambda;
     int n = point->rank->n;
     for (int k = 0; k < point->rank->m; k++) {
         zd_row_of_C own = zd_point_row(point, k);
@@ -358,9 +361,9 @@ static double enforced(const zd_point *point, int j, int row, const double *limi
 
 int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs)
 {
-    const zd_rank *self = point->rank;
-    int first = point->holonomic - self->lost, status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < self->lost && !status; j++) {
+    const zd_selection *self = point->rank->selection;
+    int first = point->holonomic - self->rank->lost, status = zd_point_need(point, ZD_XI);
+    for (int j = 0; j < self->rank->lost && !status; j++) {
         int row = self->row_at[first + j];
         rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->limits->xidot, 1) / 3, rhs)
                  : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)

@@ -18,8 +18,8 @@ struct zd_limits {
     int *order;                 /* (n + m,) */
 };
 
-zd_limits *zd_limits_take(zd_arena *arena, const zd_system *system);
-/* Puts limits for the rows that are lost at the point among those that count, if there are such limits. */
+/* Puts limits for the rows that are lost at the point among those that count, if there are such limits. Their memory is taken when they are
+ * first wanted. */
 int zd_limits_find(zd_point *point);
 
 /* What stands for the lost rows in a right side (m,) for all rows: of xi, of Phi, of Psi, or of -Phi_t. */

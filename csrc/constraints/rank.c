@@ -24,21 +24,31 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-static const double LEAST_PIVOT = 0x1p-44;      /* of the diagonal of M: smaller pivots make M^-1 no metric */
-
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
 {
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t m = (size_t)zd_constraints(system);
     zd_rank self = {
-        .n = (int)n,
+        .n = system->nv,
         .m = (int)m,
         .mh = system->mh,
         .most_rows = (int)m,
         .most_holonomic = system->mh,
+        .start_square = zd_take_doubles(arena, m),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static void *take_selection(zd_arena *arena, const void *of)
+{
+    const zd_system *system = of;
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    zd_selection self = {
+        .n = (int)n,
+        .m = (int)m,
+        .mh = system->mh,
         .redundant = zd_take(arena, m * sizeof(int)),
         .row = zd_take(arena, m * sizeof(int)),
         .row_at = zd_take(arena, m * sizeof(int)),
-        .start_square = zd_take_doubles(arena, m),
         .C = zd_take_doubles(arena, m * n),
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
@@ -54,12 +64,21 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+int zd_rank_need_selection(zd_rank *self, const zd_system *system)
+{
+    if (self->selection) return ZD_DONE;
+    self->selection = zd_store_take(self->store, take_selection, system);
+    if (!self->selection) return ZD_NO_MEMORY;
+    self->selection->rank = self;
+    return ZD_DONE;
+}
+
 /* ---- the choice of rows ---- */
 
 /* Q <- C, or C L^-T D^-1/2: then plain products are those of M^-1. */
 static void set_rows(const zd_point *point, const double *L)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n;
     for (int k = 0; k < self->m; k++) {
         double *q = self->Q + k * n;
@@ -69,13 +88,13 @@ static void set_rows(const zd_point *point, const double *L)
         for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
         self->square[k] = self->square_left[k] = zd_dot(n, q, q);
         double length = zd_dot(row.count, row.x, row.x);
-        if (!(length > self->tolerance * self->start_square[k])) self->square_left[k] = 0;
+        if (!(length > self->tolerance * self->rank->start_square[k])) self->square_left[k] = 0;
     }
 }
 
 /* The row among these of which the largest share is left, or -1. A later row is only preferred to an earlier one if twice as much of it
  * is left, so that rounding does not change the choice from point to point. */
-static int choose_row(const zd_rank *self, int begin, int end)
+static int choose_row(const zd_selection *self, int begin, int end)
 {
     int best = -1;
     double most = self->tolerance;
@@ -87,13 +106,13 @@ static int choose_row(const zd_rank *self, int begin, int end)
     return best;
 }
 
-static void take_out(zd_rank *self, int chosen, int rank)
+static void take_out(zd_selection *self, int chosen, int rank)
 {
     int n = self->n;
     double *q = self->Q + chosen * n, length = sqrt(zd_dot(n, q, q));
     for (int i = 0; i < n; i++) q[i] /= length;
     self->G[chosen * self->m + rank] = length;
-    self->was_ill_conditioned |= !(length * length > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * self->square[chosen]);
+    self->rank->was_ill_conditioned |= !(length * length > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * self->square[chosen]);
     self->square_left[chosen] = -1;
     for (int k = 0; k < self->m; k++) {
         double *other = self->Q + k * n;
@@ -106,14 +125,14 @@ static void take_out(zd_rank *self, int chosen, int rank)
 
 static int orthogonalize(const zd_point *point, const double *L)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int rank = 0, chosen;
     set_rows(point, L);
-    while (rank < self->most_rows && rank < self->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
+    while (rank < self->rank->most_rows && rank < self->rank->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
         take_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
-    while (rank < self->most_rows && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
+    while (rank < self->rank->most_rows && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
         take_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
@@ -122,7 +141,7 @@ static int orthogonalize(const zd_point *point, const double *L)
     return rank;
 }
 
-static void set_weights(zd_rank *self)
+static void set_weights(zd_selection *self)
 {
     for (int k = 0; k < self->m; k++) self->weight[k] = self->square_left[k] != 0 && self->square[k] > 0 ? 1 / self->square[k] : 0;
 }
@@ -130,18 +149,18 @@ static void set_weights(zd_rank *self)
 /* Whether M^-1 can serve as a metric: with a smaller pivot, rounding in that metric would be as large as the tolerance. */
 static int has_metric(const zd_point *point)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n;
     if (zd_cholesky(n, zd_dense_M(point, self->L), self->L) < n) return 0;
     for (int i = 0; i < n; i++)
-        if (!(1 > LEAST_PIVOT * zd_entry_of_M(point, i, i) * self->L[i * n + i])) return 0;
+        if (!(1 > ZD_LEAST_PIVOT * zd_entry_of_M(point, i, i) * self->L[i * n + i])) return 0;
     return 1;
 }
 
 /* The larger of the ranks in the two metrics. G has the products of all rows with those chosen. */
 static int rank_of(const zd_point *point)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int rank = orthogonalize(point, NULL);
     if (rank == self->m) return rank;
     set_rows(point, NULL);
@@ -154,7 +173,7 @@ static int rank_of(const zd_point *point)
 }
 
 /* T, in the rows of G that do not count: T G_r = G_d, where G_r is triangular in the order of choice. */
-static void express_others(zd_rank *self, int rank)
+static void express_others(zd_selection *self, int rank)
 {
     int m = self->m;
     for (int d = rank; d < m; d++) {
@@ -167,7 +186,7 @@ static void express_others(zd_rank *self, int rank)
 }
 
 /* B^T W B, factored */
-static void set_shares(zd_rank *self, int rank)
+static void set_shares(zd_selection *self, int rank)
 {
     for (int a = 0; a < rank; a++)
         for (int b = 0; b < rank; b++) {
@@ -191,7 +210,7 @@ void zd_rank_use_all(zd_point *point)
 
 static void use_chosen(zd_point *point, int rank)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n;
     express_others(self, rank);
     set_shares(self, rank);
@@ -201,7 +220,7 @@ static void use_chosen(zd_point *point, int rank)
         zd_row_expand(&row, n, self->C + a * n);
     }
     self->independent = point->rows = rank;
-    self->lost = 0;
+    self->rank->lost = 0;
     point->C = self->C;
     point->holonomic = 0;
     while (point->holonomic < rank && self->row[point->holonomic] < self->mh) point->holonomic++;
@@ -209,7 +228,7 @@ static void use_chosen(zd_point *point, int rank)
 
 void zd_rank_choose(zd_point *point, double tolerance)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     self->tolerance = tolerance;
     int rank = rank_of(point);
     if (rank < self->m) use_chosen(point, rank);
@@ -225,7 +244,7 @@ void zd_rank_scale(const zd_point *point, int row, double *x)
 
 void zd_rank_set_basis(const zd_point *point)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n, m = self->m;
     memset(self->R, 0, (size_t)(m * m) * sizeof(double));
     for (int a = 0; a < self->independent; a++) {
@@ -246,7 +265,7 @@ void zd_rank_set_basis(const zd_point *point)
 
 /* ---- multipliers of all rows ---- */
 
-void zd_rank_share_out(zd_rank *self, double *lambda)
+void zd_rank_share_out(zd_selection *self, double *lambda)
 {
     const int rank = self->independent;
     double *y = self->lambda;
@@ -260,17 +279,17 @@ void zd_rank_share_out(zd_rank *self, double *lambda)
 int zd_rank_redundant(const zd_rank *self, int *rows)
 {
     int count = 0;
-    for (int k = 0; k < self->m; k++)
-        if (self->redundant[k]) rows[count++] = k;
+    for (int k = 0; self->selection && k < self->m; k++)
+        if (self->selection->redundant[k]) rows[count++] = k;
     return count;
 }
 
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
 {
-    int first = point->rank->independent, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
+    int first = point->rank->selection->independent, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
     for (int d = first; d < end && (size_t)length < size; d++) {
         const char *before = d == first ? " " : d == end - 1 ? " and " : ", ";
-        length += snprintf(to + length, size - (size_t)length, "%s%d", before, point->rank->row[d]);
+        length += snprintf(to + length, size - (size_t)length, "%s%d", before, point->rank->selection->row[d]);
     }
     if ((size_t)length < size) snprintf(to + length, size - (size_t)length, end - first > 1 ? " follow" : " follows");
 }

@@ -8,21 +8,36 @@
 #include "../point/point.h"
 
 typedef struct zd_limits zd_limits;     /* limits.h */
+typedef struct zd_look zd_look;         /* look.h */
+typedef struct zd_selection zd_selection;
 
+/* What every run has. */
 struct zd_rank {
     int n, m, mh;
     int most_rows, most_holonomic;  /* that count anywhere, of all and of the holonomic: less than m, mh where some are redundant */
-    double tolerance;       /* squared: the share of a row's length below which it follows from the others */
     int may_be_deficient;   /* whether fewer than that may count at a point; else that is ZD_BIFURCATION */
     int is_started;         /* whether it is known which rows are redundant */
     int was_deficient;      /* whether fewer than that have counted at a point of this step */
     int was_doubtful;       /* whether rows had to be orthogonalized at a point of this step, as they might be dependent */
     int was_ill_conditioned;    /* whether so little of a row was left in this step that v = D u lost digits: see stepping/variables.c */
+    int was_turned;         /* whether rows may have come to lie reversed, as beyond a bifurcation, since this was last 0 */
+    int lost;               /* rows for which limits stand: the last of the holonomic ones in point->C */
+    double *start_square;   /* (m,): squared lengths of the rows at the start */
+    double *rhs;            /* (m,): for formulations that give the point its velocity; else NULL */
+    zd_look *look;          /* NULL where there are few rows, or the formulation's factorization tells that they are independent */
+    zd_store *store;        /* the run's, for what it takes once rows may be dependent: */
+    zd_selection *selection;    /* NULL until then */
+};
+
+/* An independent choice of rows, where some may follow from others. */
+struct zd_selection {
+    zd_rank *rank;
+    int n, m, mh;
+    double tolerance;       /* squared: the share of a row's length below which it follows from the others */
     int *redundant;         /* (m,): whether the row was redundant at the start */
     int independent;        /* how many rows are, at the point */
     int *row;               /* (m,): these rows, holonomic ones first, then those that follow from them */
     int *row_at;            /* (rows,): which of all rows stand where in point->C */
-    double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *C;              /* (rows, n): those that count */
     double *Q;              /* (m, n): rows being orthogonalized */
     double *G;              /* (m, m): products of the rows with those chosen; then, of rows not chosen, T in C_d = T C_r */
@@ -32,8 +47,7 @@ struct zd_rank {
     double *L;              /* (n, n): Cholesky factor of M */
     double *rhs, *lambda;   /* (rows,) */
     double *R;              /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
-    int lost;               /* rows for which limits stand: the last of the holonomic ones in point->C */
-    zd_limits *limits;      /* NULL where may_be_deficient is 0 */
+    zd_limits *limits;      /* NULL until rows are lost that limits may stand for */
 };
 
 /* A row counts as dependent where less than this share of its length is left once the others are taken out of it by orthogonalization,
@@ -48,7 +62,12 @@ struct zd_rank {
 /* Where less than this share of a row is left, it determines velocities with noticeably fewer digits: see stepping/variables.c. */
 #define ZD_ILL_CONDITIONED 0x1p-6
 
+/* Of the diagonal of M: smaller pivots make M^-1 no metric. */
+#define ZD_LEAST_PIVOT 0x1p-44
+
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
+/* Has the memory for a choice; ZD_NO_MEMORY if there is none. */
+int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Chooses the rows that count at the point, with so much of their length left; C and M are known there. */
 void zd_rank_choose(zd_point *point, double tolerance);
 /* All rows count at the point. */
@@ -61,14 +80,14 @@ static inline int zd_rank_is_full(const zd_point *point)
 /* Which of all rows stands at place k among those that count. */
 static inline int zd_rank_row(const zd_point *point, int k)
 {
-    return zd_rank_is_full(point) ? k : point->rank->row_at[k];
+    return zd_rank_is_full(point) ? k : point->rank->selection->row_at[k];
 }
 /* x, of this row, in natural units. */
 void zd_rank_scale(const zd_point *point, int row, double *x);
 /* Q <- an orthonormal basis of the independent rows in natural units. */
 void zd_rank_set_basis(const zd_point *point);
 /* lambda of all rows, the smallest, from those of the rows that count, which self->lambda has without those of limits */
-void zd_rank_share_out(zd_rank *self, double *lambda);
+void zd_rank_share_out(zd_selection *self, double *lambda);
 /* The rows that are redundant, increasing; their number. */
 int zd_rank_redundant(const zd_rank *self, int *rows);
 /* "row 2 follows", "rows 0 and 2 follow": those that do not count, at the point */

@@ -31,7 +31,7 @@ static void measure(const zd_point *point)
 /* v <- v0 and a random velocity that satisfies C v = 0 */
 static void vary(const zd_point *point, unsigned *seed, const double *v0, double *v)
 {
-    const zd_rank *self = point->rank;
+    const zd_selection *self = point->rank->selection;
     int n = self->n;
     double size = 1 + zd_max_scaled(n, v0, point->inverse_unit);
     for (int i = 0; i < n; i++) {
@@ -42,16 +42,16 @@ static void vary(const zd_point *point, unsigned *seed, const double *v0, double
     for (int i = 0; i < n; i++) v[i] = v0[i] + v[i] * point->unit[i];
 }
 
-static double unit_of(const zd_rank *self, int k)
+static double unit_of(const zd_selection *self, int k)
 {
-    return self->start_square[k] > 0 ? sqrt(self->start_square[k]) : 1;
+    return self->rank->start_square[k] > 0 ? sqrt(self->rank->start_square[k]) : 1;
 }
 
 /* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
  * they are redundant. In units of the rows; (m - rows,). Returns the first of which that is not so, or m. */
 static int curvature(const zd_point *point, double *w)
 {
-    const zd_rank *self = point->rank;
+    const zd_selection *self = point->rank->selection;
     const double *xi = point->terms.xi;
     double speed = zd_max_abs(self->n, point->v), largest = 0;
     int first = self->m;
@@ -75,7 +75,7 @@ static int curvature(const zd_point *point, double *w)
  * as soon as the system moves. Returns how many of the first `others` do; -1 if that could not be evaluated. */
 static int count_curved(zd_point *point, int others, double *sample)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int n = self->n, curved = 0, status = ZD_DONE;
     double *v0 = sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
@@ -101,7 +101,7 @@ static int count_curved(zd_point *point, int others, double *sample)
 
 static int tell_redundant(zd_point *point, double *sample)
 {
-    zd_rank *self = point->rank;
+    zd_selection *self = point->rank->selection;
     int status = zd_point_need(point, ZD_XI);
     if (status) return status;
     int first = curvature(point, sample);
@@ -110,8 +110,8 @@ static int tell_redundant(zd_point *point, double *sample)
     int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
     int curved = count_curved(point, others, sample), curved_holonomic = curved > 0 ? count_curved(point, holonomic, sample) : 0;
     if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
-    self->most_rows = point->rows + curved;
-    self->most_holonomic = point->holonomic + curved_holonomic;
+    self->rank->most_rows = point->rows + curved;
+    self->rank->most_holonomic = point->holonomic + curved_holonomic;
     if (curved) return ZD_DONE;
     for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
     return ZD_DONE;
@@ -127,15 +127,19 @@ static int tell_redundant_rows(zd_point *point)
     return status;
 }
 
+int zd_redundancy_prepare(zd_point *point)
+{
+    int status = zd_point_need(point, ZD_C | ZD_M);
+    if (status) return status;
+    point->rank->may_be_deficient = 1;
+    measure(point);
+    return ZD_DONE;
+}
+
 int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
 {
     zd_rank *self = point->rank;
-    if (!self->m) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C | ZD_M);
-    if (status) return status;
-    self->may_be_deficient = 1;
-    measure(point);
-    status = zd_rows_find(point);
+    int status = zd_rows_find(point);
     self->may_be_deficient = on_singular == ZD_CONTINUE;
     self->is_started = 1;
     if (status || point->rows == self->m) return status;

@@ -6,28 +6,23 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "limits.h"
+#include "look.h"
 #include "packed.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
-zd_rank *zd_rows_take(zd_arena *arena, const zd_system *system, int may_be_deficient)
-{
-    zd_limits *limits = may_be_deficient ? zd_limits_take(arena, system) : NULL;
-    zd_rank *self = zd_rank_take(arena, system);
-    if (self) self->limits = limits;
-    return self;
-}
-
 static int reduce(zd_point *point)
 {
     static const double region = ZD_LIMITS_REGION * ZD_LIMITS_REGION;
     zd_rank *self = point->rank;
-    self->was_doubtful = 1;
+    self->was_doubtful = self->was_turned = 1;
     int status = zd_point_need(point, ZD_M);
     if (status) return status;
     if (!zd_is_finite(zd_size_of_C(point->system), point->terms.C)) return ZD_NOT_FINITE;
-    int by_limits = self->is_started && self->limits;
+    status = zd_rank_need_selection(self, point->system);
+    if (status) return status;
+    int by_limits = self->is_started && self->may_be_deficient;
     zd_rank_choose(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->most_rows) {
         status = zd_limits_find(point);
@@ -40,39 +35,62 @@ static int reduce(zd_point *point)
     return status;
 }
 
-/* In the plain metric, and in the order of the rows: whether any might be one of those before it. */
-ZD_INLINE int is_doubtful(const int n, zd_rank *self, const double *C)
+/* In the plain metric: whether the second of at most two rows might be the first, or any might be nothing. */
+ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
 {
-    int m = self->m, is_ill = 0;
-    double *square = self->square, *left = self->square_left;
-    for (int k = 0; k < m; k++) {
+    double square[ZD_FEW_ROWS];
+    for (int k = 0; k < self->m; k++) {
         square[k] = zd_dot(n, C + k * n, C + k * n);
         if (!(square[k] > DOUBTFUL * self->start_square[k])) return self->was_ill_conditioned = 1;
-        is_ill |= !(square[k] > ILL * self->start_square[k]);
+        self->was_ill_conditioned |= !(square[k] > ILL * self->start_square[k]);
     }
-    self->was_ill_conditioned |= is_ill;
-    if (m < 2) return 0;
-    double along = zd_dot(n, C, C + n);
-    if (m == 2) {           /* without the divisions of what follows */
-        double both = square[0] * square[1];
-        self->was_ill_conditioned |= !((1 - ILL) * both > along * along);
-        return !((1 - DOUBTFUL) * both > along * along);
-    }
-    for (int k = 0; k < m; k++) {
-        double *q = self->Q + k * n;
-        zd_copy(n, C + k * n, q);
-        for (int j = 0; j < k; j++) zd_add_scaled(n, q, -zd_dot(n, self->Q + j * n, q) / left[j], self->Q + j * n);
-        left[k] = zd_dot(n, q, q);
-        if (!(left[k] > ILL * square[k])) self->was_ill_conditioned = 1;
-        if (!(left[k] > DOUBTFUL * square[k])) return 1;
-    }
-    return 0;
+    if (self->m < 2) return 0;
+    double along = zd_dot(n, C, C + n), both = square[0] * square[1];
+    self->was_ill_conditioned |= !((1 - ILL) * both > along * along);
+    return !((1 - DOUBTFUL) * both > along * along);
 }
 
-static int are_doubtful(zd_point *point)
+static void *take_look(zd_arena *arena, const void *system)
+{
+    return zd_look_take(arena, system, NULL, NULL);
+}
+
+/* Where the formulation's factorization should have told, memory for a look is taken only once it did not. */
+static int need_look(zd_rank *self, const zd_system *system)
+{
+    if (self->look || (self->m <= ZD_FEW_ROWS && !system->structure)) return ZD_DONE;
+    self->look = zd_store_take(self->store, take_look, system);
+    return self->look ? ZD_DONE : ZD_NO_MEMORY;
+}
+
+static int is_doubtful(zd_point *point)
 {
     zd_rank *self = point->rank;
-    return point->layout ? zd_packed_rows_are_doubtful(point) : ZD_SIZED(is_doubtful, self->n, self, point->terms.C);
+    if (point->layout) return zd_packed_rows_are_doubtful(point);
+    return self->m <= ZD_FEW_ROWS ? ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C) : zd_look_is_doubtful(self->look, point);
+}
+
+int zd_rows_are_long(const zd_point *point)
+{
+    const zd_rank *self = point->rank;
+    const int n = self->n;
+    int are_long = 1;
+    for (int k = 0; k < self->m; k++) {
+        const double *c = point->terms.C + k * n;
+        double squares[4] = {0, 0, 0, 0};
+        int i = 0;
+        for (; i + 4 <= n; i += 4)
+            for (int r = 0; r < 4; r++) squares[r] += c[i + r] * c[i + r];
+        for (; i < n; i++) squares[0] += c[i] * c[i];
+        are_long &= squares[0] + squares[1] + squares[2] + squares[3] > ILL * self->start_square[k];
+    }
+    return are_long;
+}
+
+void zd_rows_use_all(zd_point *point)
+{
+    zd_rank_use_all(point);
+    point->known |= ZD_RANKED;
 }
 
 int zd_rows_find(zd_point *point)
@@ -81,9 +99,11 @@ int zd_rows_find(zd_point *point)
     if (point->known & ZD_RANKED) return ZD_DONE;
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
-    if (self->most_rows < self->m || are_doubtful(point)) return reduce(point);
-    zd_rank_use_all(point);
-    point->known |= ZD_RANKED;
+    if (self->most_rows < self->m || self->m > self->n) return reduce(point);
+    status = need_look(self, point->system);
+    if (status) return status;
+    if (is_doubtful(point)) return reduce(point);
+    zd_rows_use_all(point);
     return ZD_DONE;
 }
 

@@ -43,6 +43,13 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+static void spare(void *memory, double **Q, double **G)
+{
+    const augmented *self = memory;
+    *Q = self->G;                       /* (n + m)^2 is at least m n + m^2 */
+    *G = self->G + self->m * self->n;
+}
+
 /* Powers of two, so that scaling rounds nothing. */
 static void set_scales(augmented *self, const double *M, const double *C)
 {
@@ -107,6 +114,7 @@ const zd_formulation zd_augmented = {
     },
     ZD_DEPENDENT_STATE,
     .take = take,
+    .spare = spare,
     .factor = factor,
     .solve = solve,
 };

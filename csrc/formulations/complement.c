@@ -34,6 +34,12 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
     };
 }
 
+void zd_complement_spare(const zd_complement *self, double **Q, double **G)
+{
+    *Q = self->work;
+    *G = self->K;
+}
+
 /* ---- by variable partitioning ---- */
 
 static int choose(zd_complement *self, zd_point *point)

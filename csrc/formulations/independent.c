@@ -85,6 +85,7 @@ const zd_formulation zd_independent = {
     .suits = suits,
     .state_size = state_size,
     .take = take,
+    .spare = zd_minimal_spare,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,
     .enter = enter,

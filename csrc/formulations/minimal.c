@@ -32,6 +32,12 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
     };
 }
 
+void zd_minimal_spare(void *memory, double **Q, double **G)
+{
+    zd_minimal *self = memory;
+    zd_complement_spare(&self->complement, Q, G);
+}
+
 int zd_minimal_factor(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
@@ -98,7 +104,7 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
         int status = i ? zd_rows_find_again(point) : ZD_DONE;
         if (!status) status = update_velocity(self, point, &change);
         if (status) return status;
-        const double speed = point->rank->limits->speed;
+        const double speed = point->rank->selection->limits->speed;
         if (change <= SETTLED * speed || (change <= NEARLY * speed && change >= before / 2)) return ZD_DONE;
     }
     return ZD_BIFURCATION;

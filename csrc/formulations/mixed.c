@@ -55,6 +55,7 @@ const zd_formulation zd_mixed = {
     .drifts_from = ZD_PHI,
     .state_size = state_size,
     .take = take,
+    .spare = zd_minimal_spare,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,
     .enter = enter,

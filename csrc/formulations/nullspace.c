@@ -40,6 +40,12 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+static void spare(void *memory, double **Q, double **G)
+{
+    nullspace *self = memory;
+    zd_complement_spare(&self->complement, Q, G);
+}
+
 /* Rows of different units are made comparable before pivots are. */
 static void scale_row(int n, double *row, double *scale)
 {
@@ -107,6 +113,7 @@ const zd_formulation zd_nullspace = {
     },
     ZD_DEPENDENT_STATE,
     .take = take,
+    .spare = spare,
     .factor = factor,
     .solve = solve,
 };

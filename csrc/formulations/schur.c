@@ -18,15 +18,18 @@
 #include "dependent.h"
 
 #include "../constraints/rows.h"
+#include "../linalg/orthogonal.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "coupling.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
+static const double TURNED = 0.25;      /* of the squared sines by which Q turns: with less, Q1 Q0^T + Q0 Q1^T is still positive definite */
 
 typedef struct schur {
     int n, m;
+    int most;           /* rows that there is memory for */
     zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count; else NULL */
     int is_coupled;             /* whether that was factored */
     double *dense_C;    /* (m, n): where the system's own is packed */
@@ -35,6 +38,7 @@ typedef struct schur {
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
     const double *C;    /* (m, n): the point's rows that count */
     double *b;      /* (m,) */
+    double *rows;   /* (4, n), of large systems: see orthogonal.h */
     double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
 } schur;
 
@@ -45,12 +49,14 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     schur self = {
         .n = (int)n,
         .m = (int)m,
+        .most = (int)m,
         .coupling = zd_coupling_take(arena, system),
         .dense_C = zd_take_dense(arena, system, m * n),
         .L = zd_take_doubles(arena, n * n),
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
         .b = zd_take_doubles(arena, m),
+        .rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n) : NULL,
         .rest = zd_take_doubles(arena, m),
         .correction = zd_take_doubles(arena, n),
     };
@@ -70,8 +76,6 @@ ZD_INLINE double orthogonalize(const int n, const int m, int k, const int again,
     return zd_metric_dot(n, self->L, q, q);
 }
 
-static int is_left_of(double rest, double square) { return rest > LEAST * LEAST * square && rest < INFINITY; }
-
 /* Returns m, or the row of which only rounding is left when those before it are taken out. */
 ZD_INLINE int factor_all(const int n, const int m, const schur *self)
 {
@@ -81,51 +85,55 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
         zd_forward(n, self->L, C + k * n, q);
         double square = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
         if (rest < 0.01 * square) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
-        if (!is_left_of(rest, square)) return k;
+        if (!(rest > LEAST * LEAST * square) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
 }
 
-/* Takes what they have along row k out of the rows behind it; how much that was goes to column k of G. */
-static void take_out(const schur *self, int k)
+ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(factor_all, n, self->m, self); }
+
+/* ---- large systems, whose rows tell by what is left of them whether all count ---- */
+
+static int finds_rows(const zd_system *system)
 {
-    const int n = self->n, m = self->m;
-    const double *q = self->Q + k * n, inverse = self->G[k * m + k];
-    double *weighted = self->correction, dots[4];   /* D^-1 q */
-    for (int i = 0; i < n; i++) weighted[i] = self->L[i * n + i] * q[i];
-    for (int i = k + 1, rows; i < m; i += rows) {
-        rows = i + 4 <= m ? 4 : 1;
-        if (rows == 4) zd_four_dots(n, self->Q + i * n, n, weighted, dots);
-        else dots[0] = zd_dot(n, weighted, self->Q + i * n);
-        for (int r = i; r < i + rows; r++) {
-            double along = self->G[r * m + k] = inverse * dots[r - i];
-            zd_add_scaled(n, self->Q + r * n, -along, q);
-        }
-    }
+    return system->nv > ZD_UNROLLED && zd_constraints(system) > ZD_FEW_ROWS && !system->structure;
 }
 
-/* The same of large systems, to the same bits: four rows at a time, each of which is ahead of what is taken out of it. */
-static int factor_many(const schur *self)
+static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const double *C)
 {
-    const int n = self->n, m = self->m;
-    double *square = self->b;
-    zd_forward_rows(n, m, self->L, self->C, self->Q);
-    for (int k = 0; k < m; k++) square[k] = zd_metric_dot(n, self->L, self->Q + k * n, self->Q + k * n);
-    for (int k = 0; k < m; k++) {
-        double *q = self->Q + k * n, rest = k ? zd_metric_dot(n, self->L, q, q) : square[k];
-        if (rest < 0.01 * square[k]) rest = orthogonalize(n, m, k, 1, self, q, self->G + k * m);
-        if (!is_left_of(rest, square[k])) return k;
-        self->G[k * m + k] = 1 / rest;
-        take_out(self, k);
-    }
-    return m;
+    self->m = rows;
+    self->C = C;
+    const zd_orthogonal it = {self->n, rows, C, self->L, self->Q, self->G, self->b, self->rows, self->correction};
+    zd_shares shares = zd_orthogonalize(&it, LEAST * LEAST);
+    point->rank->was_turned |= !(shares.turned < TURNED);
+    point->failed_index = shares.rows;
+    return shares;
 }
 
-ZD_INLINE int factor_rows(const int n, const schur *self)
+/* Whether M^-1 is a metric in which shares mean something. */
+static int has_metric(const schur *self, const double *M)
 {
-    if (n > ZD_UNROLLED) return factor_many(self);
-    return ZD_ROWS(factor_all, n, self->m, self);
+    int has = 1;
+    for (int i = 0; i < self->n; i++) has &= 1 > ZD_LEAST_PIVOT * M[i * self->n + i] * self->L[i * self->n + i];
+    return has;
+}
+
+static int factor_large(schur *self, zd_point *point)
+{
+    const zd_rank *rank = point->rank;
+    const int may_tell = !(point->known & ZD_RANKED) && rank->most_rows == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
+                       && !point->layout;
+    if (may_tell) {
+        zd_shares shares = orthogonalize_all(self, point, rank->m, point->terms.C);
+        const int tells = shares.rows == rank->m && shares.least > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
+        if (tells && has_metric(self, point->terms.M) && zd_rows_are_long(point)) zd_rows_use_all(point);
+    }
+    const int failed_index = point->failed_index, told = may_tell && (point->known & ZD_RANKED), status = zd_rows_find(point);
+    if (status || told) return status;
+    if (may_tell && zd_rank_is_full(point)) point->failed_index = failed_index;
+    else orthogonalize_all(self, point, point->rows, zd_dense_C(point, self->dense_C));
+    return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
 
 static int factor_packed(schur *self, zd_point *point)
@@ -144,6 +152,7 @@ static int factor(void *memory, zd_point *point)
     if (status || self->is_coupled) return status;
     point->failed_index = ZD_SIZED(zd_cholesky, self->n, point->layout ? self->L : point->terms.M, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
+    if (self->n > ZD_UNROLLED) return factor_large(self, point);
     status = zd_rows_find(point);
     if (status) return status;
     self->m = point->rows;
@@ -230,6 +239,7 @@ const zd_formulation zd_schur = {
     ZD_DEPENDENT_STATE,
     .inverts_mass = 1,
     .take = take,
+    .finds_rows = finds_rows,
     .factor = factor,
     .solve = solve,
 };

@@ -14,7 +14,7 @@ typedef struct runge_kutta {
     const zd_tableau *tableau;
     int size;
     int calls;      /* of the error estimate */
-    double *k;      /* (stages + 1, size) */
+    double *k;      /* (stages, size), and for an error estimate one more */
     double *stage;  /* (size,) */
     double *estimate;   /* (size,): of the error, for each unit of time */
 } runge_kutta;
@@ -24,12 +24,13 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *s
     (void)given;
     (void)system;
     const zd_tableau *tableau = table;
+    const size_t estimates = tableau->e != NULL;
     runge_kutta self = {
         .tableau = tableau,
         .size = size,
-        .k = zd_take_doubles(arena, ((size_t)tableau->stages + 1) * (size_t)size),
+        .k = zd_take_doubles(arena, ((size_t)tableau->stages + estimates) * (size_t)size),
         .stage = zd_take_doubles(arena, (size_t)size),
-        .estimate = zd_take_doubles(arena, (size_t)size),
+        .estimate = zd_take_doubles(arena, estimates * (size_t)size),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }

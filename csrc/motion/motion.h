@@ -69,12 +69,13 @@ struct zd_motion {
     int corrections_size;   /* of what corrections integrate along */
     zd_balance balance;
     zd_road road;
+    zd_store store;         /* what is taken once something rare has happened */
     int in_run;             /* whether steps begin where the constraints are known to hold */
 };
 
 /* take.c: lays out the motion in place. `independent` has the system's sizes with as many constraints as count. */
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular);
+                    const zd_formulation *formulation, const void *given);
 /* Adds a correction with its parameters. */
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Gives the motion the state (rate.size,), whose sizes are known once all corrections are. */
@@ -87,6 +88,8 @@ static inline int zd_motion_factor(zd_motion *motion)
 {
     return motion->point->known & ZD_FACTORED ? ZD_DONE : zd_motion_factor_anew(motion);
 }
+/* Which rows count at the point, also by factoring, where that tells. */
+int zd_motion_find_rows(zd_motion *motion);
 /* The formulation's solve, with right sides and multipliers of all rows, whichever of them count at the point. */
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,
                    double *x, double *lambda);

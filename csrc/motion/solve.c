@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "../constraints/rank.h"
+#include "../constraints/rows.h"
 #include "motion.h"
 
 int zd_motion_factor_anew(zd_motion *motion)
@@ -14,16 +14,27 @@ int zd_motion_factor_anew(zd_motion *motion)
     return status;
 }
 
+int zd_motion_find_rows(zd_motion *motion)
+{
+    zd_point *point = motion->point;
+    const zd_formulation *formulation = motion->formulation;
+    if (point->known & ZD_RANKED) return ZD_DONE;
+    const int may_tell = formulation->finds_rows && formulation->finds_rows(&motion->system);
+    /* One that fails tells nothing; and why is for those to say who need it. */
+    if (may_tell && zd_motion_factor(motion) == ZD_CALLBACK) return ZD_CALLBACK;
+    return zd_rows_find(point);
+}
+
 static void solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,
                           const double *rhs, double *x, double *lambda)
 {
-    zd_rank *rank = point->rank;
-    int holonomic = point->holonomic - rank->lost, others = rank->independent - holonomic;
-    for (int a = 0; a < point->rows; a++) rank->rhs[a] = rhs[rank->row_at[a]];
-    formulation->solve(solver, force, rank->rhs, x, lambda ? rank->lambda : NULL);
+    zd_selection *selection = point->rank->selection;
+    int holonomic = point->holonomic - point->rank->lost, others = selection->independent - holonomic;
+    for (int a = 0; a < point->rows; a++) selection->rhs[a] = rhs[selection->row_at[a]];
+    formulation->solve(solver, force, selection->rhs, x, lambda ? selection->lambda : NULL);
     if (!lambda) return;
-    memmove(rank->lambda + holonomic, rank->lambda + point->holonomic, (size_t)others * sizeof(double));
-    zd_rank_share_out(rank, lambda);
+    memmove(selection->lambda + holonomic, selection->lambda + point->holonomic, (size_t)others * sizeof(double));
+    zd_rank_share_out(selection, lambda);
 }
 
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,

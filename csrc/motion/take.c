@@ -1,9 +1,30 @@
 #include "motion.h"
 
+#include "../constraints/look.h"
 #include "../constraints/rows.h"
 
+/* Which rows count, and what is needed to see that all do. */
+static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
+{
+    const zd_formulation *formulation = motion->formulation;
+    const zd_system *system = &motion->system;
+    zd_rank *rank = zd_rank_take(arena, system);
+    zd_look *look = NULL;
+    double *rhs = formulation->settle ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
+    int has_spare = formulation->spare && zd_constraints(independent) == zd_constraints(system) && !system->structure;
+    double counted, *Q = has_spare ? &counted : NULL, *G = Q;
+    if (motion->solver && has_spare) formulation->spare(motion->solver, &Q, &G);
+    int is_told = !system->structure && (zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)));
+    if (!is_told) look = zd_look_take(arena, system, Q, G);
+    if (!rank) return NULL;
+    rank->look = look;
+    rank->rhs = rhs;
+    rank->store = &motion->store;
+    return rank;
+}
+
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
-                    const zd_formulation *formulation, const void *given, enum zd_on_singular on_singular)
+                    const zd_formulation *formulation, const void *given)
 {
     *motion = (zd_motion){
         .system = *system,
@@ -16,7 +37,7 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .solver = formulation->take(arena, independent, given),
     };
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
-    zd_rank *rank = zd_rows_take(arena, system, on_singular == ZD_CONTINUE);
+    zd_rank *rank = take_rank(motion, arena, independent);
     if (motion->point) motion->point->rank = rank;
     motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system)};
 }

@@ -29,14 +29,14 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     run->settings = *settings;
-    zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card),
-                   settings->on_singular);
+    zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
     if (settings->direct && !integrator->step_of_motion) zd_direct_take(motion, arena);
     motion->tally = &run->tally;
-    zd_variables dependent = zd_variables_take(arena, motion, integrator, independent);
-    zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent);
+    zd_variables dependent = zd_variables_of(motion, integrator, independent);
+    zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
+                    independent);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->course = (zd_course){
         .settings = &run->settings,
@@ -81,6 +81,14 @@ static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int
     return NULL;
 }
 
+static int find_rank(zd_motion *motion, enum zd_on_singular on_singular)
+{
+    if (!zd_constraints(&motion->system)) return ZD_DONE;
+    int status = zd_redundancy_prepare(motion->point);
+    if (!status) status = zd_motion_find_rows(motion);
+    return status == ZD_CALLBACK ? status : zd_redundancy_find(motion->point, on_singular);
+}
+
 /* Laid out as if all constraints counted; and where some turn out to be redundant, again for those that are not. */
 zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
                     char *message, int size)
@@ -94,7 +102,7 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         zd_point_move(run->motion.point, t, p, v);
         zd_point_normalise(run->motion.point);
         *status = zd_point_measure(run->motion.point);
-        if (!*status) *status = zd_redundancy_find(run->motion.point, settings->on_singular);
+        if (!*status) *status = find_rank(&run->motion, settings->on_singular);
         const zd_rank *rank = run->motion.point->rank;
         int laid = rows, laid_holonomic = holonomic;
         run->motion.statistics.rank = rows = smaller(rank->most_rows, system->nv);
@@ -106,6 +114,7 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
 
 void zd_run_free(zd_run *run)
 {
+    if (run) zd_store_release(&run->motion.store);
     zd_release(run);    /* it stands first in its own arena */
 }
 

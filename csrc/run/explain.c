@@ -147,7 +147,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     const zd_point *point = run->motion.point;
     const char *failure = run->watch.failed ? "the evaluation of an event failed" : run->motion.system.failure;
     char rows[64] = "";
-    if (point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
+    if (point->rank->selection && point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
     if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;
     switch (status) {
     case ZD_NOT_FINITE:

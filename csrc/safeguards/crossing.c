@@ -6,6 +6,9 @@
  * Introduction to Numerical Continuation Methods, section 8). It changes as well if the mechanism only comes near one and the step
  * leads straight on, where the motion would have turned away.
  *
+ * Where there are more than two rows, this is asked only where they have turned noticeably from one point of the step to the next: see what
+ * sets `was_turned` of a rank.
+ *
  * Shorter steps tell which of these it is, in stepping/passage.c: through a bifurcation the motion is continuous, so that one of them
  * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step however short these are.
  */
@@ -25,13 +28,11 @@ static const double LONG = 1;       /* in natural units: of a longer path, point
 static const double NEAR = 0.5;     /* in natural units: the distance between these points */
 static const double NEARBY = 1e-3;  /* in natural units: a larger violation says that nothing keeps the motion on the constraints */
 
-zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
+static void *take_memory(zd_arena *arena, const void *of)
 {
-    const zd_system *system = &motion->system;
+    const zd_system *system = of;
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
-    return (zd_crossing){
-        .motion = motion,
-        .last = last,
+    zd_crossing_memory self = {
         .C = zd_take_doubles(arena, stored),
         .previous = zd_take_doubles(arena, stored),
         .p = zd_take_doubles(arena, (size_t)system->nq),
@@ -39,7 +40,17 @@ zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *
         .v1 = zd_take_doubles(arena, n),
         .turn = zd_take_doubles(arena, m * m),
         .order = zd_take(arena, m * sizeof(int)),
+        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
     };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int are_few(const zd_system *system) { return zd_constraints(system) <= ZD_FEW_ROWS; }
+
+zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
+{
+    const zd_system *system = &motion->system;
+    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? take_memory(arena, system) : NULL};
 }
 
 int zd_crossing_is_at_one(const zd_point *point)
@@ -61,10 +72,40 @@ static void keep_packed_rows(const zd_point *point, double *C)
     }
 }
 
-static void keep(const zd_point *point, double *C)
+static void store_rows(const zd_point *point, double *C)
 {
     if (point->layout) keep_packed_rows(point, C);
     else ZD_SIZED(keep_rows, point->rank->n, point, C);
+}
+
+static int need_memory(zd_crossing *self)
+{
+    if (!self->memory) self->memory = zd_store_take(&self->motion->store, take_memory, &self->motion->system);
+    return self->memory ? ZD_DONE : ZD_NO_MEMORY;
+}
+
+/* C where the step began is evaluated again, on memory of its own. */
+static int evaluate_beginning(zd_crossing *self)
+{
+    zd_motion *motion = self->motion;
+    const zd_system *system = &motion->system;
+    const zd_last *last = self->last;
+    zd_point there = *motion->point;
+    there.terms.C = self->memory->previous;
+    there.terms.scratch = self->memory->scratch;
+    motion->statistics.evaluations++;
+    if (system->evaluate(system->data, ZD_C | ZD_MOVED, last->t, last->p, last->v, &there.terms)) return ZD_CALLBACK;
+    store_rows(&there, self->memory->C);
+    return ZD_DONE;
+}
+
+int zd_crossing_need_rows(zd_crossing *self)
+{
+    if (self->has_rows) return ZD_DONE;
+    int status = need_memory(self);
+    if (!status) status = evaluate_beginning(self);
+    self->has_rows = !status;
+    return status;
 }
 
 /* The sign of rows does not depend on their size. */
@@ -79,22 +120,25 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
 {
     const int n = point->rank->n, rows = point->rows;
     if (rows == 2 && !point->layout) return ZD_SIZED(turn_of_two, n, point, C0);
+    double *turn = self->memory->turn;
     for (int a = 0; a < rows; a++)
         for (int b = 0; b < rows; b++) {
             zd_row_of_C now = zd_counted_row(point, a), before = zd_row_in(point, C0, zd_rank_row(point, b));
-            self->turn[a * rows + b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[zd_rank_row(point, b)]
-                                     * zd_row_product(&now, &before);
+            turn[a * rows + b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[zd_rank_row(point, b)]
+                               * zd_row_product(&now, &before);
         }
-    if (rows == 1) return self->turn[0];
-    return zd_lu_factor(rows, self->turn, self->order) == rows ? zd_lu_determinant(rows, self->turn, self->order) : 0;
+    if (rows == 1) return turn[0];
+    int *order = self->memory->order;
+    return zd_lu_factor(rows, turn, order) == rows ? zd_lu_determinant(rows, turn, order) : 0;
 }
 
 /* p <- the cubic through the ends of the step with the rates there, at this share s of the step. */
 static void interpolate(const zd_crossing *self, double h, double s)
 {
+    const double *p1 = self->memory->p1;
     for (int i = 0; i < self->motion->system.nq; i++) {
-        double p0 = self->last->p[i], moved = self->p1[i] - p0, m0 = h * self->rate0[i] - moved, m1 = moved - h * self->rate1[i];
-        self->p[i] = p0 + s * (moved + (1 - s) * ((1 - s) * m0 + s * m1));
+        double p0 = self->last->p[i], moved = p1[i] - p0, m0 = h * self->rate0[i] - moved, m1 = moved - h * self->rate1[i];
+        self->memory->p[i] = p0 + s * (moved + (1 - s) * ((1 - s) * m0 + s * m1));
     }
 }
 
@@ -102,22 +146,23 @@ static void interpolate(const zd_crossing *self, double h, double s)
 static int follow(zd_crossing *self, double h, int points, int *is_kept)
 {
     zd_point *point = self->motion->point;
+    const zd_crossing_memory *memory = self->memory;
     const int n = point->rank->n;
     const double t1 = point->t;
-    memcpy(self->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
-    memcpy(self->v1, point->v, (size_t)n * sizeof(double));
-    memcpy(self->previous, self->C, (size_t)zd_size_of_C(point->system) * sizeof(double));
+    memcpy(memory->p1, point->p, (size_t)self->motion->system.nq * sizeof(double));
+    memcpy(memory->v1, point->v, (size_t)n * sizeof(double));
+    memcpy(memory->previous, memory->C, (size_t)zd_size_of_C(point->system) * sizeof(double));
     int status = ZD_DONE;
     *is_kept = 1;
     for (int i = 1; i <= points && *is_kept && !status; i++) {
         interpolate(self, h, (double)i / points);
-        zd_point_move(point, i == points ? t1 : t1 - h * (points - i) / points, i == points ? self->p1 : self->p, self->v1);
+        zd_point_move(point, i == points ? t1 : t1 - h * (points - i) / points, i == points ? memory->p1 : memory->p, memory->v1);
         status = zd_point_need(point, ZD_C);
         if (!status) status = zd_rows_find(point);
-        *is_kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, self->previous) > 0;
-        keep(point, self->previous);
+        *is_kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, memory->previous) > 0;
+        store_rows(point, memory->previous);
     }
-    zd_point_move(point, t1, self->p1, self->v1);
+    zd_point_move(point, t1, memory->p1, memory->v1);
     return status == ZD_BIFURCATION ? ZD_DONE : status;
 }
 
@@ -132,35 +177,53 @@ static int judge(const zd_crossing *self)
 
 int zd_crossing_begin(zd_crossing *self)
 {
-    self->has_rows = 0;
+    self->has_begun = 0;
     return zd_crossing_step(self, 0, 0);
 }
 
 double zd_crossing_orientation(const zd_crossing *self)
 {
-    return determinant(self, self->motion->point, self->C);
+    return determinant(self, self->motion->point, self->memory->C);
+}
+
+/* Whether the rows at both ends of the step have the same orientation. */
+static int compare(zd_crossing *self, double h, double moved, int *is_kept)
+{
+    const zd_point *point = self->motion->point;
+    int status = zd_crossing_need_rows(self);
+    if (status) return status;
+    if (moved > LONG * LONG) return follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), is_kept);
+    *is_kept = determinant(self, point, self->memory->C) > 0;
+    return ZD_DONE;
+}
+
+/* The end of the step is where the next begins. */
+static void keep(zd_crossing *self)
+{
+    const zd_point *point = self->motion->point;
+    self->has_begun = 1;
+    self->has_rows = self->memory != NULL;
+    if (self->has_rows) store_rows(point, self->memory->C);
+    point->rank->was_turned = !(point->known & ZD_RANKED);     /* it is not where a long path was followed */
 }
 
 int zd_crossing_step(zd_crossing *self, double h, double moved)
 {
-    zd_point *point = self->motion->point;
+    zd_motion *motion = self->motion;
+    zd_point *point = motion->point;
     if (!point->rank->m) return ZD_DONE;
     int is_kept = 1;
     /* What the next step begins with is evaluated at once. */
-    int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, self->motion->acceleration_needs);
-    if (!status && !(point->known & ZD_RANKED)) status = zd_rows_find(point);
+    int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, motion->acceleration_needs);
+    if (!status && !(point->known & ZD_RANKED)) status = zd_motion_find_rows(motion);
     if (status) return status;
     if (zd_crossing_is_at_one(point)) {
-        self->has_rows = 0;
+        self->has_begun = self->has_rows = 0;
         return ZD_DONE;
     }
-    if (self->has_rows && !self->may_pass) {
-        if (moved <= LONG * LONG) is_kept = determinant(self, point, self->C) > 0;
-        else status = follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), &is_kept);
-    }
+    const int may_differ = point->rank->was_turned || moved > LONG * LONG || are_few(&motion->system);
+    if (self->has_begun && !self->may_pass && may_differ) status = compare(self, h, moved, &is_kept);
     if (!status && !is_kept) status = judge(self);
-    if (status) return status;
-    keep(point, self->C);
-    self->has_rows = 1;
-    return ZD_DONE;
+    if (!status) keep(self);
+    return status;
 }

@@ -31,7 +31,8 @@ enum {
     LOOK_EVERY = 8,
 };
 
-zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last)
+zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
+                       zd_crossing *crossing)
 {
     const zd_system *system = &motion->system;
     const zd_hold *hold = &motion->hold;
@@ -41,6 +42,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
     return (zd_guard){
         .motion = motion,
         .last = last,
+        .crossing = crossing,
         .checks_branch = system->mh && holds,
         .checks_stability = settings->step > 0,
         .astray = 0.5 * pow(ASTRAY * fmax(1, hold->every), 2),
@@ -48,9 +50,6 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .limit = pow(stability > 0 ? stability : RESOLVED, 4),
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
-        .p = zd_take_doubles(arena, (size_t)system->nq),
-        .v = zd_take_doubles(arena, (size_t)system->nv),
-        .C = zd_take_doubles(arena, (size_t)zd_size_of_C(system)),
         .vdot = zd_take_doubles(arena, (size_t)system->nv),
     };
 }
@@ -83,33 +82,27 @@ static double least_detour(const zd_guard *guard, double h)
     return rest - 2 * s * along + s * s * turn;
 }
 
-/* Whether this row of C, in natural units, differs in direction by more than 60 degrees or so from what it is at the end of the step. */
-static int is_turned(const zd_guard *guard, const zd_point *point, int k)
+/* Whether this row of C, in natural units, differs in direction by more than 60 degrees or so from what it is where the step began. */
+static int is_turned(const zd_point *point, const double *C0, int k)
 {
-    zd_row_of_C at_start = zd_point_row(point, k), at_end = zd_row_in(point, guard->C, k);
+    zd_row_of_C at_end = zd_point_row(point, k), at_start = zd_row_in(point, C0, k);
     double turned = 0, before = 0, after = 0;
-    for (int j = 0; j < at_start.count; j++) {
-        double unit = point->unit[zd_column(&at_start, j)], a = at_start.x[j] * unit, b = at_end.x[j] * unit;
+    for (int j = 0; j < at_end.count; j++) {
+        const int i = zd_column(&at_end, j);
+        double a = at_start.x[j] * point->inverse_unit[i], b = at_end.x[j] * point->unit[i];
         turned += (b - a) * (b - a), before += a * a, after += b * b;
     }
     return !(turned <= fmax(before, after));
 }
 
-/* Whether any row of C has turned by so much in the step. It moves the point there and back, so that only long steps are asked. */
+/* Whether any row of C has turned by so much in the step; asked only of long ones. */
 static int is_unresolved(zd_guard *guard, int *status)
 {
     zd_point *point = guard->motion->point;
-    int nq = point->system->nq, nv = point->system->nv, unresolved = 0;
-    const double t = point->t;
-    memcpy(guard->p, point->p, (size_t)nq * sizeof(double));
-    memcpy(guard->v, point->v, (size_t)nv * sizeof(double));
+    int unresolved = 0;
     *status = zd_point_need(point, ZD_C);
-    if (*status) return 0;
-    memcpy(guard->C, point->terms.C, (size_t)zd_size_of_C(point->system) * sizeof(double));
-    zd_point_move(point, guard->last->t, guard->last->p, guard->last->v);
-    *status = zd_point_need(point, ZD_C);
-    for (int k = 0; !*status && k < point->system->mh; k++) unresolved |= is_turned(guard, point, k);
-    zd_point_move(point, t, guard->p, guard->v);
+    if (!*status) *status = zd_crossing_need_rows(guard->crossing);
+    for (int k = 0; !*status && k < point->system->mh; k++) unresolved |= is_turned(point, guard->crossing->memory->C, k);
     return unresolved;
 }
 
@@ -185,8 +178,7 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
     if (sum.moved <= LONG * LONG) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
-    if (status || unresolved) return status ? status : ZD_BRANCH;
-    return evaluate_end(guard, next_step);
+    return status ? status : unresolved ? ZD_BRANCH : ZD_DONE;
 }
 
 int zd_guard_watch(zd_guard *guard, double moved, double h)

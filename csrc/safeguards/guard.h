@@ -2,20 +2,19 @@
 #ifndef ZD_GUARD_H
 #define ZD_GUARD_H
 
-#include "../motion/motion.h"
-#include "../motion/place.h"
+#include "crossing.h"
 
 /* Where a step began, with which its end is compared. */
 typedef struct zd_guard {
     zd_motion *motion;
     const zd_last *last;    /* the step */
+    zd_crossing *crossing;  /* which knows C where the step began */
     int has_begun;          /* whether there is anything to compare with */
     int checks_branch, checks_stability;    /* which of the two comparisons are made */
     int watches_step;       /* whether the step is one that is looked at closely */
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
     double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
-    double *p, *v, *C;      /* (nq,), (nv,), as the point's: at the end, while the point is elsewhere */
     double speed;           /* |pdot|^2 where the step began, in natural units */
     int streak;             /* steps in succession that were longer than the method is stable for */
     double largest_fourth;  /* the largest (omega h)^4 of all steps */
@@ -27,7 +26,8 @@ typedef struct zd_detour {  /* sums of squares, in natural units */
 } zd_detour;
 
 /* `stability`: the largest omega h at which the method is stable; 0: there is none. */
-zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last);
+zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
+                       zd_crossing *crossing);
 /* Keeps where the motion is; `step` is the one that begins there. */
 int zd_guard_begin(zd_guard *guard, int64_t step);
 /* Compares where a step of size h has led with where its velocities lead; ZD_BRANCH if these differ. */

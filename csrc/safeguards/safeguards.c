@@ -3,7 +3,7 @@
 void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
                         const zd_last *last)
 {
-    self->guard = zd_guard_take(arena, motion, settings, method->stability, last);
+    self->guard = zd_guard_take(arena, motion, settings, method->stability, last, &self->crossing);
     self->crossing = zd_crossing_take(arena, motion, last);
     self->crossing.rate0 = self->guard.pdot;
     self->crossing.rate1 = self->guard.rate;

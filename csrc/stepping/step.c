@@ -10,7 +10,7 @@
 #include "../point/units.h"
 
 void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
-                     zd_variables dependent)
+                     zd_variables dependent, const zd_system *independent)
 {
     const zd_system *system = &motion->system;
     int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
@@ -19,6 +19,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .motion = motion,
         .chosen = {motion->formulation, motion->solver, own},
         .dependent = dependent,
+        .independent = *independent,
         .capacity = (int)size,
         .integrator = integrator,
         .memory = integrator->take(arena, integrator->table, system, (int)size, given),

@@ -16,7 +16,8 @@ typedef struct zd_variables {
 typedef struct zd_stepper {
     zd_motion *motion;
     zd_variables chosen;    /* those of the settings */
-    zd_variables dependent; /* (p, v), where those lose digits; without a formulation where none can: see variables.c */
+    zd_variables dependent; /* (p, v), where those lose digits; without a formulation where none can, without a solver until then: see variables.c */
+    zd_system independent;  /* the sizes that its solver is laid out for */
     int capacity;           /* the largest size of the state */
     const zd_integrator *integrator;
     void *memory;           /* the integrator's */
@@ -27,7 +28,7 @@ typedef struct zd_stepper {
 
 /* Lays out the stepper in place, with the integrator's parameters, and gives the motion its state. */
 void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
-                     zd_variables dependent);
+                     zd_variables dependent, const zd_system *independent);
 /* From t to t + h as the integrator does it, and no more. */
 int zd_stepper_make(zd_stepper *self, double h);
 /* y from t to t + h, where the step began being remembered. */

@@ -19,12 +19,11 @@ static int is_held(const zd_hold *hold)
     return hold->every == 1 && hold->positions && hold->velocities;
 }
 
-zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const zd_integrator *integrator,
-                               const zd_system *independent)
+zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent)
 {
     int loses = motion->formulation->settle && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&motion->hold)) return (zd_variables){NULL, NULL, 0};
-    return (zd_variables){&zd_augmented, zd_augmented.take(arena, independent, NULL), zd_augmented.state_size(independent)};
+    return (zd_variables){&zd_augmented, NULL, zd_augmented.state_size(independent)};
 }
 
 /* In place of the others; of the state, what is integrated along. */
@@ -42,14 +41,22 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
     zd_motion_attach(motion, stepper->y);
 }
 
+static void *take_solver(zd_arena *arena, const void *independent)
+{
+    return zd_augmented.take(arena, independent, NULL);
+}
+
 int zd_variables_use_dependent(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
+    zd_variables *dependent = &stepper->dependent;
+    if (!dependent->solver) dependent->solver = zd_store_take(&motion->store, take_solver, &stepper->independent);
+    if (!dependent->solver) return ZD_NO_MEMORY;
     motion->statistics.repartitions++;
     stepper->t = last->t;
     zd_point_move(motion->point, last->t, last->p, last->v);
-    use(stepper, &stepper->dependent, last->y + motion->formulation_size);
+    use(stepper, dependent, last->y + motion->formulation_size);
     /* So near to a bifurcation, the constraints can be satisfied far better than is asked for, and have to be. */
     int status = zd_motion_correct(motion, 0, 1);
     return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);

@@ -6,8 +6,7 @@
 #include "step.h"
 
 /* (p, v), where it may have to take the place of the motion's variables; else without a formulation. */
-zd_variables zd_variables_take(zd_arena *arena, const zd_motion *motion, const zd_integrator *integrator,
-                               const zd_system *independent);
+zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent);
 /* Whether the step just tried, with this status, has to be made in (p, v). */
 static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status)
 {

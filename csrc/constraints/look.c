@@ -1,0 +1,110 @@
+/* Whether all rows count, from how little they have changed since it was last looked at closely.
+ *
+ * The closer look orthogonalizes the rows: C0 = R Q. As long as |R^-1 (C - C0)| < 1, C = R (Q + R^-1 (C - C0)) has as many independent
+ * rows; and with w_k the length of column k of R^-1, which is 1 / what is left of row k once all others are taken out of it,
+ *
+ *     |R^-1 (C - C0)|  <=  sum_k w_k |C_k - C0_k|.
+ *
+ * Below NEAR, shares are at most so much smaller than they were, and any two such C have rows that span spaces less than a right angle apart,
+ * as 2 NEAR + NEAR^2 < 1. So the sum also tells that no bifurcation lies between them, see safeguards/crossing.c. C0 is kept in single
+ * precision, whose rounding is nothing beside that.
+ */
+#include "look.h"
+
+#include <math.h>
+
+#include "../linalg/small.h"
+
+static const double NEAR = 0.4;             /* of the sum: nothing needs to be looked at */
+static const double FAR = 0.9;              /* of the sum: beyond, rows may have come to lie reversed */
+static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
+static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* the share, squared, from which rows may change by NEAR */
+
+zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows are looked at */
+    zd_look self = {
+        .C = zd_take(arena, m * dense * sizeof(float)),
+        .weight = zd_take_doubles(arena, m),
+        .close = {
+            .n = (int)n,
+            .m = (int)m,
+            .Q = Q ? Q : zd_take_doubles(arena, m * dense),
+            .G = G ? G : zd_take_doubles(arena, m * m),
+            .square = zd_take_doubles(arena, m),
+            .rows = zd_take_doubles(arena, 4 * dense),
+            .weighted = zd_take_doubles(arena, dense > m ? dense : m),
+        },
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* The sum, or infinity where nothing is known. */
+static double find_change(const zd_look *self, const double *C)
+{
+    const int n = self->close.n;
+    double sum = 0;
+    for (int k = 0; k < self->close.m; k++) {
+        double squares[4] = {0, 0, 0, 0};
+        const double *c = C + k * n;
+        const float *c0 = self->C + k * n;
+        int i = 0;
+        for (; i + 4 <= n; i += 4)
+            for (int r = 0; r < 4; r++) squares[r] += (c[i + r] - (double)c0[i + r]) * (c[i + r] - (double)c0[i + r]);
+        for (; i < n; i++) squares[0] += (c[i] - (double)c0[i]) * (c[i] - (double)c0[i]);
+        sum += self->weight[k] * sqrt(squares[0] + squares[1] + squares[2] + squares[3]);
+    }
+    return self->is_known ? sum : INFINITY;
+}
+
+/* weight <- lengths of the columns of R^-1, from G, in place of which comes its inverse */
+static void find_weights(zd_look *self)
+{
+    const int m = self->close.m;
+    double *G = self->close.G, *g = self->close.weighted;
+    for (int k = 0; k < m; k++) self->weight[k] = 0;
+    for (int i = 0; i < m; i++) {
+        double *x = G + i * m, inverse_square = x[i];
+        for (int j = 0; j < i; j++) g[j] = x[j], x[j] = 0;
+        for (int j = 0; j < i; j++) {
+            for (int k = 0; k < j; k++) x[k] -= g[j] * G[j * m + k];
+            x[j] -= g[j];
+        }
+        for (int k = 0; k < i; k++) self->weight[k] += inverse_square * x[k] * x[k];
+        self->weight[i] += inverse_square;
+    }
+    for (int k = 0; k < m; k++) self->weight[k] = sqrt(self->weight[k]);
+}
+
+/* Keeps rows whose shares are known, if these are ample. */
+static void keep(zd_look *self, const double *C, const double *start_square)
+{
+    const int n = self->close.n, m = self->close.m;
+    const double *square = self->close.square;
+    find_weights(self);
+    self->is_known = 1;
+    for (int k = 0; k < m; k++)
+        self->is_known &= 1 > AMPLE * square[k] * self->weight[k] * self->weight[k] && square[k] > AMPLE * start_square[k];
+    for (int i = 0; i < m * n; i++) self->C[i] = (float)C[i];
+}
+
+int zd_look_is_doubtful(zd_look *self, zd_point *point)
+{
+    zd_rank *rank = point->rank;
+    const double *C = self->close.C = point->terms.C;
+    const double change = find_change(self, C);
+    if (change < NEAR) return 0;
+    const zd_shares shares = zd_orthogonalize(&self->close, DOUBTFUL);
+    rank->was_turned |= !(change < FAR);
+    self->is_known = 0;
+    int is_short = 0, is_ill = shares.rows < self->close.m || !(shares.least > ILL);
+    for (int k = 0; k < shares.rows; k++) {
+        is_short |= !(self->close.square[k] > DOUBTFUL * rank->start_square[k]);
+        is_ill |= !(self->close.square[k] > ILL * rank->start_square[k]);
+    }
+    rank->was_ill_conditioned |= is_ill;
+    if (is_short || shares.rows < self->close.m) return 1;
+    if (!is_ill) keep(self, C, rank->start_square);
+    return 0;
+}

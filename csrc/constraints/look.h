@@ -1,0 +1,20 @@
+/* Whether all rows count, from how little they have changed since it was last looked at closely. */
+#ifndef ZD_LOOK_H
+#define ZD_LOOK_H
+
+#include "../linalg/orthogonal.h"
+#include "rank.h"
+
+struct zd_look {
+    int is_known;           /* whether rows are kept, far enough from dependent ones */
+    float *C;               /* (m, n): the rows then */
+    double *weight;         /* (m,): 1 / the length that was left of each once all others were taken out */
+    zd_orthogonal close;    /* the closer look, in memory that may serve others between */
+};
+
+/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. */
+zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G);
+/* Whether any row at the point might follow from those before it; C is known there. */
+int zd_look_is_doubtful(zd_look *self, zd_point *point);
+
+#endif

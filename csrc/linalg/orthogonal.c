@@ -1,0 +1,99 @@
+/* Gram and Schmidt's method, modified: from each row those before it are taken out one by one, once more where little is left.
+ *
+ * Four rows go through that together, as each of them has to wait for its own sums only. In the metric of D^-1, with C L^-T = G Q, the
+ * rows of Q are those of G E G^T = C M^-1 C^T, see formulations/schur.c. Each is compared with what it was when last called: it changes
+ * its direction abruptly where a row comes to depend on those before it and goes on, and turns slowly elsewhere.
+ */
+#include "orthogonal.h"
+
+#include "small.h"
+
+enum { TOGETHER = 4 };
+static const double LITTLE = 0.01;      /* of a row's square: with less left it is done twice, which is enough */
+
+/* to <- D^-1 q */
+static void weigh(const zd_orthogonal *self, const double *q, double *to)
+{
+    const int n = self->n;
+    if (self->L)
+        for (int i = 0; i < n; i++) to[i] = self->L[i * n + i] * q[i];
+    else zd_copy(n, q, to);
+}
+
+static double square_of(const zd_orthogonal *self, const double *q)
+{
+    return self->L ? zd_metric_dot(self->n, self->L, q, q) : zd_dot(self->n, q, q);
+}
+
+/* Takes row j of Q out of `count` rows from k on. */
+static void take_out(const zd_orthogonal *self, int j, int k, int count, double *rows)
+{
+    const int n = self->n, m = self->m;
+    const double *q = self->Q + j * n;
+    double *weighted = self->weighted, dots[TOGETHER];
+    weigh(self, q, weighted);
+    if (count == TOGETHER) zd_four_dots(n, rows, n, weighted, dots);
+    else
+        for (int r = 0; r < count; r++) dots[r] = zd_dot(n, weighted, rows + r * n);
+    for (int r = 0; r < count; r++) {
+        double along = self->G[(k + r) * m + j] = self->G[j * m + j] * dots[r];
+        zd_add_scaled(n, rows + r * n, -along, q);
+    }
+}
+
+static double take_out_again(const zd_orthogonal *self, int k, double *row)
+{
+    const int n = self->n, m = self->m;
+    double *weighted = self->weighted;
+    for (int j = 0; j < k; j++) {
+        weigh(self, self->Q + j * n, weighted);
+        double along = self->G[j * m + j] * zd_dot(n, weighted, row);
+        self->G[k * m + j] += along;
+        zd_add_scaled(n, row, -along, self->Q + j * n);
+    }
+    return square_of(self, row);
+}
+
+/* The squared sine between a row of Q as it was and as it is, of which this is the square; infinite beyond a right angle. */
+static double turn(const zd_orthogonal *self, const double *was, const double *is, double square)
+{
+    double *weighted = self->weighted;
+    weigh(self, is, weighted);
+    double along = zd_dot(self->n, weighted, was), product = square * square_of(self, was);
+    return along > 0 && product < INFINITY ? 1 - along * along / product : INFINITY;
+}
+
+/* Row k, from which those before it in other fours have been taken out; returns whether enough of it is left. */
+static int finish(const zd_orthogonal *self, int k, double *row, double enough, zd_shares *shares)
+{
+    const int n = self->n, m = self->m;
+    const double square = self->square[k];
+    for (int j = k - k % TOGETHER; j < k; j++) take_out(self, j, k, 1, row);
+    double rest = k ? square_of(self, row) : square;
+    if (rest < LITTLE * square) rest = take_out_again(self, k, row);
+    if (!(rest > enough * square) || !(rest < INFINITY)) return 0;
+    self->G[k * m + k] = 1 / rest;
+    shares->least = fmin(shares->least, rest / square);
+    shares->turned += turn(self, self->Q + k * n, row, rest);
+    zd_copy(n, row, self->Q + k * n);
+    return 1;
+}
+
+zd_shares zd_orthogonalize(const zd_orthogonal *self, double enough)
+{
+    const int n = self->n, m = self->m;
+    zd_shares shares = {m, 1, 0};
+    for (int k = 0; k < m; k += TOGETHER) {
+        const int count = k + TOGETHER <= m ? TOGETHER : m - k;
+        if (self->L) zd_forward_rows(n, count, self->L, self->C + k * n, self->rows);
+        else zd_copy(count * n, self->C + k * n, self->rows);
+        for (int r = 0; r < count; r++) self->square[k + r] = square_of(self, self->rows + r * n);
+        for (int j = 0; j < k; j++) take_out(self, j, k, count, self->rows);
+        for (int r = 0; r < count; r++) {
+            if (finish(self, k + r, self->rows + r * n, enough, &shares)) continue;
+            shares.rows = k + r;
+            return shares;
+        }
+    }
+    return shares;
+}
