@@ -52,7 +52,7 @@ zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, 
         .weight = by_velocity ? error_by_rate(order) : error_by_defect(order),
         .error = zd_take_doubles(arena, all),
         .path = zd_take_doubles(arena, all),
-        .place = zd_take_doubles(arena, n),
+        .place = zd_take_doubles(arena, by_velocity ? n : 0),
         .lowest = zd_take_doubles(arena, n),
         .highest = zd_take_doubles(arena, n),
         .turning = zd_turning_take(arena, motion, last, vdot0, pdot0, pdot1),
@@ -93,7 +93,7 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
         double led = steps * h / 2 * (self->last->v[i] + point->v[i]) * inverse_unit[i], at = locate(self, i, led);
         self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - FORGET * self->error[i];
         self->path[i] += fabs(led) - FORGET * self->path[i];
-        self->place[i] = at;
+        if (self->by_velocity) self->place[i] = at;
         self->lowest[i] = first || at < self->lowest[i] ? at : self->lowest[i];
         self->highest[i] = first || at > self->highest[i] ? at : self->highest[i];
         double range = self->highest[i] - self->lowest[i], error = self->error[i] < range ? self->error[i] : range;
