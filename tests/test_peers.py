@@ -17,6 +17,9 @@ SETTINGS = {    # module: package, of each kind of method one setting that is no
     "exudyn": ("exudyn", [("trapezoidal, index 2", 32), ("generalized alpha", 32)]),
     "pinocchio": ("pinocchio", [("rk4", 8), ("DOP853", 1e-6)]),
     "mujoco": ("mujoco", [("RK4", 2, 64)]),
+    "heyoka": ("heyoka", [("two velocities eliminated", 1e-9), ("multipliers eliminated", 1e-9)]),
+    "numba": ("numba", [("SciPy DOP853", 1e-8), ("DOP853 by hand", 1e-8)]),
+    "numbalsoda": ("numbalsoda", [("LSODA", 1e-9), ("DOP853", 1e-8)]),
 }
 CLOSE = 1e-2        # rad: what is wrong in a model or its start, is so by more within seconds
 
@@ -41,6 +44,18 @@ def test_accelerations_are_those_of_the_system(chain):
     for kind in ours.kinds(chain):
         found = zd.acceleration(ours.system_of(chain, kind), p, v)[0]
         np.testing.assert_allclose(found, expected, rtol=0, atol=tol.STEPPED * np.abs(expected).max())
+
+
+def test_equations_that_are_written_out_are_those_of_the_system(chain):
+    problems, equations = importlib.import_module("problems"), importlib.import_module("equations")
+    ours = importlib.import_module("with_zerodrift")
+    p, v = zd.assemble(ours.python_system(chain), chain.p0, chain.v0 + 0.3)
+    expected, pair = problems.accelerations(chain)(p, v), equations.least_parallel(p, np.sin)
+    free = [i for i in range(chain.n) if i not in pair]
+    close = {"rtol": 0, "atol": tol.STEPPED * np.abs(expected).max()}
+    np.testing.assert_allclose(equations.with_multipliers(chain, p, v, np.sin, np.cos), expected, **close)
+    np.testing.assert_allclose(equations.reduced(chain, p, v, pair, np.sin, np.cos), expected, **close)
+    np.testing.assert_allclose(equations.reduced(chain, p, None, pair, np.sin, np.cos)(v[free]), v, **close)
 
 
 def test_the_four_bar_is_the_paper_s():

@@ -3,13 +3,12 @@
 Run it with ``python tests/bench/bench_four_bar.py``; it needs a C compiler, and writes ``results/four_bar.csv``.
 """
 
+import ctypes
 import functools
-import itertools
 import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -20,28 +19,51 @@ from measuring import least, record, timed
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.insert(0, str(ROOT / "python"))
-FLOOR_FLAGS = ("-O3", "-std=c11", "-ffp-contract=off")
+FLOOR_FLAGS = ["-O3", "-std=c11", "-ffp-contract=off"]
+FLOORS = {"with_sines_of_libm": FLOOR_FLAGS, "with_polynomials": [*FLOOR_FLAGS, "-DPOLYNOMIAL_SINES"],
+          "of_this_machine": ["-O3", "-std=c11", "-ffp-contract=fast", "-march=native", "-DPOLYNOMIAL_SINES"]}
+
+
+def dop853_table():
+    """The coefficients of DOP853 as a C header, from SciPy's."""
+    from scipy.integrate._ivp import dop853_coefficients as table
+
+    stages = table.N_STAGES
+    arrays = {"A": table.A[:stages, :stages], "B": table.B[:stages], "E5": table.E5[:stages], "E3": table.E3[:stages]}
+    return "".join(f"static const double DOP853_{name}[] = {{{', '.join(map(repr, array.ravel().tolist()))}}};\n"
+                   for name, array in arrays.items())
+
+
+def compiled_floor(folder, name, *flags):
+    """An object or library of the floor, called `floor_NAME`; as a yardstick, each has always the same flags."""
+    (folder / "dop853_table.h").write_text(dop853_table())
+    target = folder / f"{name}{'.so' if '-shared' in flags else '.o'}"
+    renamed = [f"-D{function}=floor_{name}{function.removeprefix('four_bar_floor')}"
+               for function in ("four_bar_floor", "four_bar_floor_dop853")]
+    subprocess.run([os.environ.get("CC", "cc"), *FLOORS[name], *flags, *renamed, "-I", folder, "-o", target,
+                    HERE / "four_bar_floor.c", *(["-lm"] if "-shared" in flags else [])], check=True)
+    return target
 
 
 def compiled(folder):
-    """Floor and core in one program: the core with the product's flags, the floor, as a yardstick, always with the same."""
+    """Floors and core in one program: the core with the product's flags."""
     from build_core import FLAGS
 
-    compiler, floor, program = os.environ.get("CC", "cc"), Path(folder) / "floor.o", Path(folder) / "compare"
-    subprocess.run([compiler, *FLOOR_FLAGS, "-c", "-o", floor, HERE / "four_bar_floor.c"], check=True)
-    subprocess.run([compiler, *FLAGS, "-fPIC", "-I", ROOT / "csrc", "-o", program, HERE / "compare.c", floor,
+    objects, program = [compiled_floor(folder, name, "-c") for name in FLOORS], folder / "compare"
+    subprocess.run([os.environ.get("CC", "cc"), *FLAGS, "-fPIC", "-I", ROOT / "csrc", "-o", program, HERE / "compare.c", *objects,
                     *sorted((ROOT / "csrc").rglob("*.c")), "-lm"], check=True)
     return program
 
 
 def steps():
-    """Nanoseconds per step of floor and formulations, and that all of them go to the same place."""
+    """Nanoseconds per step of floors and formulations, and that all of them go to the same place."""
     with tempfile.TemporaryDirectory() as folder:
-        output = subprocess.run([compiled(folder)], check=True, capture_output=True, text=True).stdout
+        output = subprocess.run([compiled(Path(folder))], check=True, capture_output=True, text=True).stdout
     lines = [line.split() for line in output.splitlines()]
-    angles = [float(angle) for _, _, angle in lines]
-    spread = max(angles) - min(angles)
-    assert spread < 1e-4, f"alpha_1(8 s) differs by {spread:g} rad"     # by truncation only
+    angles = {name: float(angle) for name, _, angle in lines}
+    apart = {name: abs(angle - angles["schur"]) for name, angle in angles.items()}
+    assert max(apart[name] for name in ("libm", "polynomials", "machine")) < 1e-8, apart    # the same equations
+    assert max(apart.values()) < 1e-2, apart        # other states are integrated, by a method that errs as much at this step
     return {name: float(ns) for name, ns, _ in lines}
 
 
@@ -52,22 +74,51 @@ def simulate_beyond_its_steps(rounds=200):
     return short - 160 * (long - short) / 1440
 
 
-def cheapest(errors, span=8.0, rounds=40):
-    """Seconds and settings of the fastest `simulate`, energy uncorrected, whose alpha_1 errs by no more than each error."""
+def floor_runs(name, folder, span, p, v):
+    """A function of rtol: a floor's run by DOP853 as a function that gives the times and alpha_1 at its steps."""
+    library = ctypes.CDLL(compiled_floor(Path(folder), name, "-shared", "-fPIC"))
+    run, pointer = getattr(library, f"floor_{name}_dop853"), np.ctypeslib.ndpointer(float, flags="C")
+    run.argtypes = [pointer, pointer, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_int, pointer, pointer]
+    t, alpha = np.empty(100_000), np.empty(100_000)
+
+    def of(rtol):
+        def call():
+            steps = run(p, v, span, rtol, 1e-12, len(t), t, alpha)
+            return t[:steps], alpha[:steps]
+        return call
+    return of
+
+
+def cheapest(errors, contestants, exact, rounds=20):
+    """Seconds and rtol, by contestant and error, of the fastest run whose alpha_1 errs by no more at its steps."""
+    found = {(name, error): (np.inf, np.nan) for name in contestants for error in errors}
+    for rtol in 10.0 ** np.arange(-5, -13.1, -0.1):
+        calls = {name: of(rtol) for name, of in contestants.items()}
+        best = dict(zip(calls, least(rounds, *map(timed, calls.values())), strict=True))
+        for name, call in calls.items():
+            t, alpha = call()
+            wrong = np.abs(alpha - exact(t)[0][:, 0]).max()
+            for error in errors:
+                if wrong <= error:
+                    found[name, error] = min(found[name, error], (best[name], rtol))
+    return found
+
+
+def costs_of_errors(errors, span=8.0):
+    """Of calls of `simulate`, energy uncorrected and every row saved, and of the floors."""
     bar = zd.systems.four_bar()
     exact = zd.reference(bar, span, error=None).solution
-    found = dict.fromkeys(errors, (np.inf, ""))
-    for integrator, rtol in itertools.product(("dormand_prince", "dop853"), 10.0 ** np.arange(-5, -12.6, -0.1)):
-        best, options = np.inf, {"integrator": integrator, "rtol": rtol, "atol": rtol}
-        for _ in range(rounds):
-            start = time.perf_counter()
-            sol = zd.simulate(bar, span, **options)
-            best = min(best, time.perf_counter() - start)
-        wrong = abs(sol.p[:, 0] - exact(sol.t)[0][:, 0]).max()
-        for error in errors:
-            if wrong <= error:
-                found[error] = min(found[error], (best, f"{integrator}, rtol = {rtol:.2g}"))
-    return found
+
+    def simulated(integrator, rtol):
+        def call():
+            sol = zd.simulate(bar, span, integrator=integrator, rtol=rtol, atol=rtol)
+            return sol.t, sol.p[:, 0]
+        return call
+
+    with tempfile.TemporaryDirectory() as folder:
+        ours = {integrator: functools.partial(simulated, integrator) for integrator in ("dormand_prince", "dop853")}
+        floors = {name: floor_runs(name, folder, span, bar.p0.copy(), bar.v0.copy()) for name in FLOORS}
+        return cheapest(errors, ours | floors, exact)
 
 
 def import_beyond_numpy_and_cffi(rounds=10):
@@ -82,19 +133,27 @@ def import_beyond_numpy_and_cffi(rounds=10):
 def measured():
     """Rows (what, value, unit, limit)."""
     ns = steps()
-    yield "floor, a step", ns["floor"], "ns", None
+    for name, sines in (("libm", "sines of the C library"), ("polynomials", "polynomials"),
+                        ("machine", "polynomials, all that this machine has")):
+        yield f"floor, a step: {sines}", ns[name], "ns", None
     for name in zd.formulations():
         yield f"{name}, a step", ns[name], "ns", None
     default = "schur"
-    yield f"{default} to floor", ns[default] / ns["floor"], "", 2
-    yield f"{default} with every row saved to floor", ns[f"{default}+rows"] / ns["floor"], "", None
+    yield f"{default} to floor with polynomials", ns[default] / ns["polynomials"], "", None
+    yield f"{default} with every row saved to floor with polynomials", ns[f"{default}+rows"] / ns["polynomials"], "", None
     limits = {"nullspace": 2, "mixed": 2, "independent": 3}
     for name in zd.formulations():
         if name != default:
             yield f"{name} to {default}", ns[name] / ns[default], "", limits.get(name)
-    limits = {1e-6: 1400, 1e-9: 2800}
-    for error, (seconds, how) in cheapest(limits).items():
-        yield f"error of {error:g} over 8 s ({how}), in floor's steps", 1e9 * seconds / ns["floor"], "", limits[error]
+    errors = (1e-3, 1e-6, 1e-9)
+    costs = costs_of_errors(errors)
+    for error in errors:
+        (seconds, rtol), how = min((costs[name, error], name) for name in ("dormand_prince", "dop853"))
+        yield f"error of {error:g} over 8 s ({how}, rtol = {rtol:.2g})", 1e6 * seconds, "us", None
+        for name in FLOORS:
+            floor, rtol = costs[name, error]
+            yield f"floor {name.replace('_', ' ')}, dop853, rtol = {rtol:.2g}", 1e6 * floor, "us", None
+            yield f"error of {error:g}, simulate to that floor", seconds / floor, "", None
     yield "simulate of 160 steps beyond its steps", 1e6 * simulate_beyond_its_steps(), "us", 150
     yield "import beyond NumPy and CFFI", 1e3 * import_beyond_numpy_and_cffi(), "ms", 50
 

@@ -1,16 +1,22 @@
-/* The core through its public interface and the hand-written floor, alternately in one process: the best of many rounds each.
- * Prints "<name> <ns per step> <alpha_1 at 8 s>" for the floor, then for each formulation, every row saved or the last one only.
+/* The core through its public interface and the hand-written floors, alternately in one process: the best of many rounds each.
+ * Prints "<name> <ns per step> <alpha_1 at 8 s>" for each floor, then for each formulation, every row saved or the last one only.
+ *
+ * The floors are one source, compiled by bench_four_bar.py with different sines and vector units, and renamed.
  */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-#include "four_bar_floor.h"
 #include "zerodrift.h"
 
-enum { STEPS = 800, ROUNDS = 300, SIZE = 64, CONTESTANTS = 32 };
+enum { STEPS = 800, ROUNDS = 300, SIZE = 64, CONTESTANTS = 32, FLOORS = 3 };
 static const double STEP = 0.01, TOLERANCE = 1e-12;
+
+typedef double floor_function(const double *start, const double *rates, double h, int steps, double tolerance);
+floor_function floor_with_sines_of_libm, floor_with_polynomials, floor_of_this_machine;
+static floor_function *const floors[FLOORS] = {floor_with_sines_of_libm, floor_with_polynomials, floor_of_this_machine};
+static const char *const floor_names[FLOORS] = {"libm", "polynomials", "machine"};
 
 static double now(void)
 {
@@ -33,9 +39,8 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
         .step = STEP,
         .save_every = save_every,
     };
-    int projection = zd_row_named(ZD_CORRECTIONS, "projection"), energy = zd_row_named(ZD_CORRECTIONS, "energy");
+    int projection = zd_row_named(ZD_CORRECTIONS, "projection");
     settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    settings.correction[energy] = zd_initial(zd_row(ZD_CORRECTIONS, energy));
     *zd_value_named(&settings.correction[projection], zd_row(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
     int status;
     char message[512];
@@ -52,7 +57,7 @@ int main(void)
 {
     const zd_kind *kind = zd_kind_of(zd_row_named(ZD_SYSTEMS, "four_bar"));
     double parameters[SIZE], constants[SIZE], p[3], v[3], best[CONTESTANTS], end[CONTESTANTS];
-    int formulations = zd_rows(ZD_FORMULATIONS), contestants = 1 + 2 * formulations, n = 0;
+    int formulations = zd_rows(ZD_FORMULATIONS), contestants = FLOORS + 2 * formulations, n = 0;
     for (int i = 0; i < kind->parameters; i++)
         for (int j = 0; j < kind->parameter[i].size; j++)
             parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : NAN;
@@ -63,17 +68,17 @@ int main(void)
     for (int round = 0; round < ROUNDS; round++)
         for (int i = 0; i < contestants; i++) {
             double start = now(), seconds = 0;
-            if (i == 0) {
-                end[i] = four_bar_floor(p, v, STEP, STEPS, TOLERANCE);
+            if (i < FLOORS) {
+                end[i] = floors[i](p, v, STEP, STEPS, TOLERANCE);
                 seconds = now() - start;
             } else {
-                end[i] = core_run(&system, (i - 1) / 2, i % 2 ? STEPS : 1, p, v, &seconds);
+                end[i] = core_run(&system, (i - FLOORS) / 2, (i - FLOORS) % 2 ? 1 : STEPS, p, v, &seconds);
             }
             if (round == 0 || seconds < best[i]) best[i] = seconds;
         }
     for (int i = 0; i < contestants; i++) {
-        const char *name = i ? zd_row(ZD_FORMULATIONS, (i - 1) / 2)->name : "floor";
-        printf("%s%s %.1f %.10f\n", name, i && i % 2 == 0 ? "+rows" : "", 1e9 * best[i] / STEPS, end[i]);
+        const char *name = i < FLOORS ? floor_names[i] : zd_row(ZD_FORMULATIONS, (i - FLOORS) / 2)->name;
+        printf("%s%s %.1f %.10f\n", name, i >= FLOORS && (i - FLOORS) % 2 ? "+rows" : "", 1e9 * best[i] / STEPS, end[i]);
     }
     return 0;
 }

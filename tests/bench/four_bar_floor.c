@@ -1,175 +1,198 @@
-/* What a corrected step of the paper's four-bar costs in code that can do nothing else: n = 3 and m = 2 written out, no tables,
- * no memory. RK4 on (13), then (27a) to the tolerance, (27b), (29a). All follows from three solves with M = L L^T:
+/* What a corrected step of the paper's four-bar costs where its constraints are eliminated by hand: a yardstick for the core, not a design.
  *
- *     W = M^-1 C^T  (3 x 2),    S = C W  (2 x 2),    x = M^-1 g - W S^-1 (C M^-1 g - r)    solves    M x + C^T lambda = g,  C x = r
+ * With three angles and two rows, the one free direction has a closed form, D = [1, D2, D3] of (14). Everything follows from it, without any
+ * factorization: accelerations by (15) and D^T times (2), and both corrections (25) ... (27) in the metric of M.
+ *
+ * By default sines are the C library's; with -DPOLYNOMIAL_SINES they are polynomials for small angles, one beside the other. The coefficients
+ * of DOP853 are in dop853_table.h, which bench_four_bar.py writes from SciPy's.
  */
 #include "four_bar_floor.h"
 
 #include <math.h>
+#include <string.h>
 
-#define EACH(i) for (int i = 0; i < 3; i++)
+#include "dop853_table.h"
 
-typedef struct bar {    /* constants of the mechanism */
-    double length[3], ground;
-    double inertia[3], product[3];      /* M_ii; M_12, M_13, M_23 before their cosines */
-    double moment[3];                   /* gravity times arm */
-} bar;
+enum { N = 3, STATE = 2 * N, LINK1 = 0, LINK2, LINK3, ITERATIONS = 10 };
+#define INLINE static inline __attribute__((always_inline))
 
-typedef struct pose {   /* what depends on the angles */
-    double s[3], c[3];
+#define G 9.81
+static const double l[N] = {0.3, 1.0, 0.6}, l0 = 1.0, m[N] = {1.5, 5.0, 3.0};
+
+/* M and f of section 4.1 without their sines: diagonal, coefficients of cos(alpha_j - alpha_i), moments of the weights. The compiler
+ * computes them. */
+#define DIAGONAL1 (m[0] * l[0] * l[0] / 3 + (m[1] + m[2]) * l[0] * l[0])
+#define DIAGONAL2 (m[1] * l[1] * l[1] / 3 + m[2] * l[1] * l[1])
+#define DIAGONAL3 (m[2] * l[2] * l[2] / 3)
+#define COUPLING12 ((m[1] / 2 + m[2]) * l[0] * l[1])
+#define COUPLING13 (m[2] / 2 * l[0] * l[2])
+#define COUPLING23 (m[2] / 2 * l[1] * l[2])
+#define MOMENT1 ((m[0] / 2 + m[1] + m[2]) * l[0] * G)
+#define MOMENT2 ((m[1] / 2 + m[2]) * l[1] * G)
+#define MOMENT3 (m[2] / 2 * l[2] * G)
+
+#ifdef POLYNOMIAL_SINES
+/* In |r| <= pi/4, by Remez' algorithm; the quadrant is chosen without a branch. */
+INLINE void turn(double angle, double *sine, double *cosine)
+{
+    double k = (angle * 0x1.45f306dc9c883p-1 + 0x1.8p52) - 0x1.8p52;
+    double r = (angle - k * 0x1.921fb544p+0) - k * 0x1.0b4611a626331p-34, z = r * r;
+    double S = ((-0x1.5555555555549p-3 + z * 0x1.111111110f87ap-7) + z * z * (-0x1.a01a019c11978p-13 + z * 0x1.71de3577b56b1p-19))
+               + z * z * (z * z) * (-0x1.ae5e6639d428fp-26 + z * 0x1.5d9300cf18812p-33);
+    double C = ((0x1.555555555554cp-5 + z * -0x1.6c16c16c1517ep-10) + z * z * (0x1.a01a019cb1bebp-16 + z * -0x1.27e4f809f15ecp-22))
+               + z * z * (z * z) * (0x1.1ee9ebe9aae80p-29 + z * -0x1.8fae9cb4449ffp-37);
+    double s = r + r * z * S, c = (1 - 0.5 * z) + z * z * C;
+    long quadrant = (long)k;
+    double a = quadrant & 1 ? c : s, b = quadrant & 1 ? s : c;
+    *sine = quadrant & 2 ? -a : a;
+    *cosine = (quadrant + 1) & 2 ? -b : b;
+}
+#else
+INLINE void turn(double angle, double *sine, double *cosine)
+{
+    *sine = sin(angle);
+    *cosine = cos(angle);
+}
+#endif
+
+/* What depends on the angles alone. Differences such as s21 = sin(alpha_2 - alpha_1) are of the angles in brackets. */
+typedef struct placed {
+    double s[N], c[N];
+    double s21, c21, s31, c31, s32, c32;
+    double one_by_s32;
+    double D2, D3;          /* (14), where D1 = 1 */
     double M12, M13, M23;
-    double l21, l31, l32, e1, e2, e3;   /* L, and one over its diagonal */
-    double W[2][3];
-    double g21, i1, i2;                 /* Cholesky factor of S in the same form */
-} pose;
+    double g1, g2, g3;      /* M D */
+    double mass;            /* D^T M D */
+} placed;
 
-static bar paper(void)
+INLINE placed place(const double *alpha)
 {
-    const double m1 = 1.5, m2 = 5, m3 = 3, l1 = 0.3, l2 = 1, l3 = 0.6, g = 9.81;
-    return (bar){
-        .length = {l1, l2, l3},
-        .ground = 1,
-        .inertia = {(m1 / 3 + m2 + m3) * l1 * l1, (m2 / 3 + m3) * l2 * l2, m3 / 3 * l3 * l3},
-        .product = {(m2 / 2 + m3) * l1 * l2, m3 / 2 * l1 * l3, m3 / 2 * l2 * l3},
-        .moment = {g * l1 * (m1 / 2 + m2 + m3), g * l2 * (m2 / 2 + m3), g * l3 * m3 / 2},
-    };
+    placed a;
+    for (int i = 0; i < N; i++) turn(alpha[i], a.s + i, a.c + i);
+    const double *s = a.s, *c = a.c;
+    a.s21 = s[1] * c[0] - c[1] * s[0], a.c21 = c[1] * c[0] + s[1] * s[0];
+    a.s31 = s[2] * c[0] - c[2] * s[0], a.c31 = c[2] * c[0] + s[2] * s[0];
+    a.s32 = s[2] * c[1] - c[2] * s[1], a.c32 = c[2] * c[1] + s[2] * s[1];
+    a.one_by_s32 = 1 / a.s32;
+    a.D2 = -(l[0] / l[1]) * a.s31 * a.one_by_s32;       /* (14): C D = 0 */
+    a.D3 = l[0] / l[2] * a.s21 * a.one_by_s32;          /* (14) */
+    a.M12 = COUPLING12 * a.c21, a.M13 = COUPLING13 * a.c31, a.M23 = COUPLING23 * a.c32;
+    a.g1 = DIAGONAL1 + a.M12 * a.D2 + a.M13 * a.D3;
+    a.g2 = a.M12 + DIAGONAL2 * a.D2 + a.M23 * a.D3;
+    a.g3 = a.M13 + a.M23 * a.D2 + DIAGONAL3 * a.D3;
+    a.mass = a.g1 + a.D2 * a.g2 + a.D3 * a.g3;
+    return a;
 }
 
-static inline void turn(pose *at, const double *angle)
+/* y = [alpha, v], rate = [v, vdot] */
+INLINE void differentiate(const double *restrict y, double *restrict rate)
 {
-    EACH(i) {
-        at->s[i] = sin(angle[i]);
-        at->c[i] = cos(angle[i]);
-    }
+    const double *v = y + N;
+    placed a = place(y);
+    double w1 = v[0] * v[0], w2 = v[1] * v[1], w3 = v[2] * v[2];
+    double f1 = -MOMENT1 * a.c[0] + COUPLING12 * w2 * a.s21 + COUPLING13 * w3 * a.s31;      /* f - d of (2) */
+    double f2 = -MOMENT2 * a.c[1] - COUPLING12 * w1 * a.s21 + COUPLING23 * w3 * a.s32;
+    double f3 = -MOMENT3 * a.c[2] - COUPLING13 * w1 * a.s31 - COUPLING23 * w2 * a.s32;
+    double gamma2 = (l[0] * w1 * a.c31 + l[1] * w2 * a.c32 + l[2] * w3) * (a.one_by_s32 / l[1]);    /* C gamma = xi, gamma1 = 0 */
+    double gamma3 = -(l[0] * w1 * a.c21 + l[1] * w2 + l[2] * w3 * a.c32) * (a.one_by_s32 / l[2]);
+    double udot = (f1 + a.D2 * f2 + a.D3 * f3 - a.g2 * gamma2 - a.g3 * gamma3) / a.mass;            /* D^T (2) */
+    for (int i = 0; i < N; i++) rate[i] = v[i];
+    rate[N + 0] = udot;
+    rate[N + 1] = a.D2 * udot + gamma2;         /* (15) */
+    rate[N + 2] = a.D3 * udot + gamma3;
 }
 
-static inline void solve_mass(const pose *at, double g1, double g2, double g3, double *x)
+/* Any x with C x = Phi, less its part along D, is the step of (25) ... (27) in the metric of M. */
+INLINE void correct(double *y, double tolerance)
 {
-    double z1 = g1 * at->e1, z2 = (g2 - at->l21 * z1) * at->e2, z3 = (g3 - at->l31 * z1 - at->l32 * z2) * at->e3;
-    x[2] = z3 * at->e3;
-    x[1] = (z2 - at->l32 * x[2]) * at->e2;
-    x[0] = (z1 - at->l21 * x[1] - at->l31 * x[2]) * at->e1;
-}
-
-/* C times x: rows -length sin, length cos */
-static inline double row_x(const bar *b, const pose *at, const double *x)
-{
-    return -(b->length[0] * at->s[0] * x[0] + b->length[1] * at->s[1] * x[1] + b->length[2] * at->s[2] * x[2]);
-}
-
-static inline double row_y(const bar *b, const pose *at, const double *x)
-{
-    return b->length[0] * at->c[0] * x[0] + b->length[1] * at->c[1] * x[1] + b->length[2] * at->c[2] * x[2];
-}
-
-static inline void decompose(const bar *b, pose *at)
-{
-    const double *s = at->s, *c = at->c, *l = b->length;
-    at->M12 = b->product[0] * (c[0] * c[1] + s[0] * s[1]);
-    at->M13 = b->product[1] * (c[0] * c[2] + s[0] * s[2]);
-    at->M23 = b->product[2] * (c[1] * c[2] + s[1] * s[2]);
-    at->e1 = 1 / sqrt(b->inertia[0]);
-    at->l21 = at->M12 * at->e1;
-    at->l31 = at->M13 * at->e1;
-    at->e2 = 1 / sqrt(b->inertia[1] - at->l21 * at->l21);
-    at->l32 = (at->M23 - at->l31 * at->l21) * at->e2;
-    at->e3 = 1 / sqrt(b->inertia[2] - at->l31 * at->l31 - at->l32 * at->l32);
-    solve_mass(at, -l[0] * s[0], -l[1] * s[1], -l[2] * s[2], at->W[0]);
-    solve_mass(at, l[0] * c[0], l[1] * c[1], l[2] * c[2], at->W[1]);
-    double xx = row_x(b, at, at->W[0]), xy = row_x(b, at, at->W[1]), yy = row_y(b, at, at->W[1]);
-    at->i1 = 1 / sqrt(xx);
-    at->g21 = xy * at->i1;
-    at->i2 = 1 / sqrt(yy - at->g21 * at->g21);
-}
-
-/* x -= W S^-1 r */
-static inline void remove_along(const pose *at, double r1, double r2, double *x)
-{
-    double z1 = r1 * at->i1, b = (r2 - at->g21 * z1) * at->i2 * at->i2, a = (z1 - at->g21 * b) * at->i1;
-    EACH(i) x[i] -= at->W[0][i] * a + at->W[1][i] * b;
-}
-
-static void accelerate(const bar *b, const double *angle, const double *rate, double *to)
-{
-    pose at;
-    turn(&at, angle);
-    decompose(b, &at);
-    const double *s = at.s, *c = at.c, *l = b->length;
-    double w1 = rate[0] * rate[0], w2 = rate[1] * rate[1], w3 = rate[2] * rate[2];
-    double q12 = b->product[0] * (s[0] * c[1] - c[0] * s[1]), q13 = b->product[1] * (s[0] * c[2] - c[0] * s[2]);
-    double q23 = b->product[2] * (s[1] * c[2] - c[1] * s[2]);
-    solve_mass(&at, -b->moment[0] * c[0] - q12 * w2 - q13 * w3, -b->moment[1] * c[1] + q12 * w1 - q23 * w3,
-               -b->moment[2] * c[2] + q13 * w1 + q23 * w2, to);
-    remove_along(&at, row_x(b, &at, to) - (l[0] * c[0] * w1 + l[1] * c[1] * w2 + l[2] * c[2] * w3),
-                 row_y(b, &at, to) - (l[0] * s[0] * w1 + l[1] * s[1] * w2 + l[2] * s[2] * w3), to);     /* (13) */
-}
-
-static void step(const bar *b, double h, double *angle, double *rate)
-{
-    static const double ahead[4] = {0, 0.5, 0.5, 1}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-    double slope[3] = {0}, bend[3] = {0}, turned[3] = {0}, changed[3] = {0};
-    for (int stage = 0; stage < 4; stage++) {
-        double a[3], w[3];
-        EACH(i) {
-            a[i] = angle[i] + h * ahead[stage] * slope[i];
-            w[i] = rate[i] + h * ahead[stage] * bend[i];
-            slope[i] = w[i];
+    double *v = y + N;
+    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
+        placed a = place(y);
+        double Phi1 = l[0] * a.c[0] + l[1] * a.c[1] + l[2] * a.c[2] - l0, Phi2 = l[0] * a.s[0] + l[1] * a.s[1] + l[2] * a.s[2];
+        if (fabs(Phi1) <= tolerance && fabs(Phi2) <= tolerance) {
+            double u = (a.g1 * v[0] + a.g2 * v[1] + a.g3 * v[2]) / a.mass;      /* v <- D (D^T M D)^-1 D^T M v: (25b) ... (27b) */
+            v[0] = u, v[1] = a.D2 * u, v[2] = a.D3 * u;
+            return;
         }
-        accelerate(b, a, w, bend);
-        EACH(i) {
-            turned[i] += weight[stage] * slope[i];
-            changed[i] += weight[stage] * bend[i];
-        }
-    }
-    EACH(i) {
-        angle[i] += h * turned[i];
-        rate[i] += h * changed[i];
+        double x2 = (Phi1 * a.c[2] + Phi2 * a.s[2]) * (a.one_by_s32 / l[1]), x3 = -(Phi1 * a.c[1] + Phi2 * a.s[1]) * (a.one_by_s32 / l[2]);
+        double along = (a.g2 * x2 + a.g3 * x3) / a.mass;
+        y[0] += along, y[1] -= x2 - a.D2 * along, y[2] -= x3 - a.D3 * along;    /* (25a) ... (27a) */
     }
 }
 
-static inline double energy(const bar *b, const pose *at, const double *w, double *kinetic)
+static void rk4(double *y, double h)
 {
-    *kinetic = w[0] * (at->M12 * w[1] + at->M13 * w[2]) + w[1] * at->M23 * w[2];
-    double potential = 0;
-    EACH(i) {
-        *kinetic += 0.5 * b->inertia[i] * w[i] * w[i];
-        potential += b->moment[i] * at->s[i];
-    }
-    return *kinetic + potential;
-}
-
-static void correct(const bar *b, double tolerance, double energy0, double *angle, double *rate)
-{
-    pose at;
-    const double *l = b->length;
-    for (int iteration = 0;; iteration++) {
-        turn(&at, angle);
-        double x = l[0] * at.c[0] + l[1] * at.c[1] + l[2] * at.c[2] - b->ground;
-        double y = l[0] * at.s[0] + l[1] * at.s[1] + l[2] * at.s[2];
-        decompose(b, &at);
-        if ((fabs(x) <= tolerance && fabs(y) <= tolerance) || iteration == 10) break;
-        remove_along(&at, x, y, angle);                                             /* (27a) */
-    }
-    remove_along(&at, row_x(b, &at, rate), row_y(b, &at, rate), rate);              /* (27b) */
-    double kinetic, excess = energy(b, &at, rate, &kinetic) - energy0, factor = sqrt(1 - excess / kinetic);
-    EACH(i) rate[i] *= factor;                                                      /* (29a) */
+    double k1[STATE], k2[STATE], k3[STATE], k4[STATE], stage[STATE];
+    differentiate(y, k1);
+    for (int i = 0; i < STATE; i++) stage[i] = y[i] + h / 2 * k1[i];
+    differentiate(stage, k2);
+    for (int i = 0; i < STATE; i++) stage[i] = y[i] + h / 2 * k2[i];
+    differentiate(stage, k3);
+    for (int i = 0; i < STATE; i++) stage[i] = y[i] + h * k3[i];
+    differentiate(stage, k4);
+    for (int i = 0; i < STATE; i++) y[i] += h / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
 }
 
 double four_bar_floor(const double *start, const double *rates, double h, int steps, double tolerance)
 {
-    const bar b = paper();
-    double angle[3], rate[3], kinetic;
-    pose at;
-    EACH(i) {
-        angle[i] = start[i];
-        rate[i] = rates[i];
+    double y[STATE];
+    memcpy(y, start, N * sizeof *y);
+    memcpy(y + N, rates, N * sizeof *y);
+    for (int step = 0; step < steps; step++) {
+        rk4(y, h);
+        correct(y, tolerance);
     }
-    turn(&at, angle);
-    decompose(&b, &at);
-    double energy0 = energy(&b, &at, rate, &kinetic);
-    for (int k = 0; k < steps; k++) {
-        step(&b, h, angle, rate);
-        correct(&b, tolerance, energy0, angle, rate);
+    return y[0];
+}
+
+/* sum <- sum_j weight_j k_j, unrolled, as all weights are known to the compiler; those that are zero vanish */
+#define COMBINE(terms, weight, sum)                                                                 \
+    do {                                                                                            \
+        for (int i_ = 0; i_ < STATE; i_++) (sum)[i_] = 0;                                           \
+        _Pragma("GCC unroll 16") for (int j_ = 0; j_ < (terms); j_++)                               \
+            if ((weight)[j_] != 0)                                                                  \
+                for (int i_ = 0; i_ < STATE; i_++) (sum)[i_] += (weight)[j_] * k[j_][i_];           \
+    } while (0)
+
+/* The twelve stages from k[0] = f(y), without f at the end: to `end`; returns the norm of the error as Hairer's code has it. */
+static double dop853_step(const double *restrict y, double h, double rtol, double k[][STATE], double *restrict end)
+{
+    double stage[STATE], sum[STATE], third[STATE], squares5 = 0, squares3 = 0;
+    _Pragma("GCC unroll 16") for (int i = 1; i < 12; i++) {
+        COMBINE(i, DOP853_A + 12 * i, sum);
+        for (int n = 0; n < STATE; n++) stage[n] = y[n] + h * sum[n];
+        differentiate(stage, k[i]);
     }
-    return angle[0];
+    COMBINE(12, DOP853_B, sum);
+    for (int n = 0; n < STATE; n++) end[n] = y[n] + h * sum[n];
+    COMBINE(12, DOP853_E5, sum);
+    COMBINE(12, DOP853_E3, third);
+    for (int n = 0; n < STATE; n++) {
+        double scale = 1 / (rtol + rtol * fmax(fabs(y[n]), fabs(end[n])));
+        squares5 += sum[n] * scale * (sum[n] * scale), squares3 += third[n] * scale * (third[n] * scale);
+    }
+    return squares5 > 0 ? h * squares5 / sqrt((squares5 + 0.01 * squares3) * STATE) : 0;
+}
+
+int four_bar_floor_dop853(const double *start, const double *rates, double t1, double rtol, double tolerance, int most, double *t,
+                          double *alpha)
+{
+    double y[STATE], end[STATE], k[12][STATE], now = 0, h = 1e-3;
+    int steps = 0;
+    memcpy(y, start, N * sizeof *y);
+    memcpy(y + N, rates, N * sizeof *y);
+    differentiate(y, k[0]);
+    while (now < t1 && steps < most) {
+        double taken = fmin(h, t1 - now), norm = dop853_step(y, taken, rtol, k, end);
+        h = taken * fmin(10, fmax(0.2, norm > 0 ? 0.8 * pow(norm, -1.0 / 8) : 10));
+        if (!(norm <= 1)) continue;
+        now = taken < t1 - now ? now + taken : t1;
+        memcpy(y, end, sizeof y);
+        correct(y, tolerance);
+        differentiate(y, k[0]);
+        t[steps] = now;
+        alpha[steps++] = y[0];
+    }
+    return steps;
 }

@@ -1,13 +1,16 @@
 """Time against error of zerodrift and of what would be taken instead, on the paper's four-bar and on closed chains.
 
 Run it with ``python tests/bench/peers/run.py``; it writes ``peers.csv``, ``peers_ratios.csv`` and ``peers.png`` in
-``tests/bench/results``. What is not installed is named and left out: ``pip install '.[peers]'`` installs all.
+``tests/bench/results``. What is not installed is named and left out: ``pip install '.[peers]'`` installs all but numbalsoda,
+which needs a Fortran compiler, too. ``run.py --name compiled zerodrift scipy heyoka numba`` measures these alone, for files
+``compiled...``.
 
 All start from the same state and give the angles at the same times; the error is the largest of any angle at any of them. Timed
 is what a user calls to get them, after the model is set up and after one call to warm up, in processor time: all use one thread,
 and what else the machine does is not held against those that take long. The least of interleaved rounds counts.
 """
 
+import argparse
 import csv
 import importlib
 import math
@@ -26,7 +29,7 @@ import numpy as np  # noqa: E402
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE.parent / "results"
 PEERS = {"zerodrift": "zerodrift", "scipy": "SciPy", "sundials": "SUNDIALS", "exudyn": "Exudyn", "pinocchio": "Pinocchio",
-         "mujoco": "MuJoCo"}
+         "mujoco": "MuJoCo", "heyoka": "heyoka.py", "numba": "numba", "numbalsoda": "numbalsoda"}
 DISTRIBUTIONS = {"sundials": "scikit-sundae", "pinocchio": "pin"}
 ROUNDS = 3
 LONG = 0.3              # s: what takes longer is timed once more only
@@ -46,10 +49,10 @@ class Row(NamedTuple):
     message: str
 
 
-def installed():
+def installed(names):
     """The modules of the peers there are, by name; the others are said to be absent."""
     there = {}
-    for peer in PEERS:
+    for peer in names:
         try:
             there[peer] = importlib.import_module(f"with_{peer}")
             print(f"{PEERS[peer]} {metadata.version(DISTRIBUTIONS.get(peer, peer))}")
@@ -158,7 +161,11 @@ def main():
     """Measure, print, write and draw."""
     import problems
 
-    peers, rows = installed(), []
+    asked = argparse.ArgumentParser(description=__doc__)
+    asked.add_argument("peers", nargs="*", default=list(PEERS), help=f"of {', '.join(PEERS)}; zerodrift and scipy at least")
+    asked.add_argument("--name", default="peers", help="what the files are called")
+    asked = asked.parse_args()
+    peers, rows = installed(asked.peers), []
     for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6))):
         rows += measured(chain, peers)
     for row in rows:
@@ -168,10 +175,11 @@ def main():
     print(f"\ntime to reach an error, over that of zerodrift's best\n{'':66}" + "".join(f"{error:>10.0e}" for error in AT))
     for problem, method, numbers in table:
         print(f"{problem:12} {method:52} " + "".join(f"{number:10.3g}" for number in numbers))
-    write(RESULTS / "peers.csv", Row._fields, [(*row[:4], f"{row.error:.3g}", f"{row.seconds:.3g}", row.message) for row in rows])
-    write(RESULTS / "peers_ratios.csv", ["problem", "method", *(f"at {error:.0e}" for error in AT)],
+    write(RESULTS / f"{asked.name}.csv", Row._fields,
+          [(*row[:4], f"{row.error:.3g}", f"{row.seconds:.3g}", row.message) for row in rows])
+    write(RESULTS / f"{asked.name}_ratios.csv", ["problem", "method", *(f"at {error:.0e}" for error in AT)],
           [(problem, method, *(f"{number:.3g}" for number in numbers)) for problem, method, numbers in table])
-    draw(rows, RESULTS / "peers.png")
+    draw(rows, RESULTS / f"{asked.name}.png")
 
 
 if __name__ == "__main__":
