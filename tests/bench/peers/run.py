@@ -71,11 +71,11 @@ def references(chain, peers):
     return exact
 
 
-def measured(chain, peers):
-    """All rows of one problem."""
+def measured(chain, peers, every):
+    """All rows of one problem, of every so many settings."""
     exact, rows = references(chain, peers), {}
     cases = [(peer, method, setting) for peer, module in peers.items()
-             for method, settings in module.sweeps(chain).items() for setting in settings]
+             for method, settings in module.sweeps(chain).items() for setting in settings[::every]]
     for case in cases:
         rows[case] = first(chain, peers, case, exact)
     for round_ in range(ROUNDS):
@@ -163,11 +163,14 @@ def main():
 
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("peers", nargs="*", default=list(PEERS), help=f"of {', '.join(PEERS)}; zerodrift and scipy at least")
+    asked.add_argument("--problem", help="one of the problems alone, such as four-bar")
+    asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
     asked.add_argument("--name", default="peers", help="what the files are called")
     asked = asked.parse_args()
     peers, rows = installed(asked.peers), []
     for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6))):
-        rows += measured(chain, peers)
+        if asked.problem in (None, chain.name):
+            rows += measured(chain, peers, asked.every)
     for row in rows:
         print(f"{row.problem:12} {row.method:52} {row.setting:28} "
               + (row.message or f"{row.error:9.1e} rad {1e3 * row.seconds:10.3f} ms"))
