@@ -36,7 +36,9 @@ def compile_text(text, library, *options):
 def compile_four_bar(library):
     """The built-in one as the library of a user."""
     source = ROOT / "csrc" / "systems" / "four_bar.c"
-    text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n'
+    direct = ROOT / "csrc" / "systems" / "direct" / "four_bar.c"
+    text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\n#include "{direct}"\n'
+    text += "const int zd_interface_version = ZD_INTERFACE_VERSION;\n"
     return compile_text(text, library, "-O3", "-Wno-pedantic")
 
 
@@ -50,7 +52,7 @@ def built_in():
 
 def motion(system, **options):
     """Of a pendulum, from exactly the same place."""
-    return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, **options)
+    return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, direct=False, **options)
 
 
 def run_elsewhere(system):

@@ -66,21 +66,3 @@ def rolling_disc(mass, radius, axle, diameter, p0, v0, gravity=9.81):
         mass=sp.diag(mass, mass, mass, *inertia), bias=[0, 0, 0, *gyroscopic(inertia)], potential=mass * gravity * PLACE[2],
         constraints=[PLACE[2] - radius * upward], nonholonomic=list(slip[:2]),
         units=["m"] * 3 + [""] * 4 + ["m/s"] * 3 + ["rad/s"] * 3, p0=p0, v0=v0, name="rolling disc", progress=False)
-
-
-@cache
-def chain_of_two(drive=0):
-    """Two rods in space, joined end to end; the first hangs from a point that moves along x by drive, an expression of t."""
-    (p1, e1), (p2, e2) = ((sp.symbols(f"x{k} y{k} z{k}"), sp.symbols(f"a{k} b{k} c{k} d{k}")) for k in (1, 2))
-    (v1, w1), (v2, w2) = ((sp.symbols(f"vx{k} vy{k} vz{k}"), sp.symbols(f"w{k}_1:4")) for k in (1, 2))
-    inertia, half = (0.03, 0.03, 0.001), sp.Matrix([0, 0, sp.Rational(-3, 10)])     # kg m^2; from the upper end to the middle, m
-    ends = [sp.Matrix(p1) - matrix(e1) * half - sp.Matrix([drive, 0, 0]),
-            sp.Matrix(p2) - matrix(e2) * half - sp.Matrix(p1) - matrix(e1) * half]
-    moment = [[J * w for J, w in zip(inertia, omega, strict=True)] for omega in (w1, w2)]
-    bias = [list(sp.Matrix(omega).cross(sp.Matrix(L))) for omega, L in zip((w1, w2), moment, strict=True)]
-    mass = sp.diag(1, 1, 1, *inertia, 1, 1, 1, *inertia)
-    return zd.symbolic(
-        [*p1, *e1, *p2, *e2], speeds=[*v1, *w1, *v2, *w2], kinematics=[*v1, *turning(e1, w1), *v2, *turning(e2, w2)],
-        quaternions=["a1", "a2"], mass=mass, bias=[0, 0, 0, *bias[0], 0, 0, 0, *bias[1]], potential=9.81 * (p1[2] + p2[2]),
-        constraints=[*ends[0], *ends[1]], units=2 * ["m", "m", "m", "", "", "", ""] + 2 * (["m/s"] * 3 + ["rad/s"] * 3),
-        p0=[0, 0, -0.3, 1, 0, 0, 0, 0, 0, -0.9, 1, 0, 0, 0], name="chain of two rods", progress=False)

@@ -12,15 +12,16 @@ GROUND, GRAVITY = sp.symbols("l0 g")
 VALUES = dict(zip([*LENGTHS, *MASSES, GROUND, GRAVITY], [0.3, 1.0, 0.6, 1.5, 5.0, 3.0, 1.0, 9.81], strict=True))
 
 
-def bar(drive=None, **options):
-    """The paper's four-bar, by its energies; `drive` prescribes alpha1."""
+def bar(drive=None, inertias=None, **options):
+    """The paper's four-bar, by its energies; `drive` prescribes alpha1. Links are slender rods, but for other `inertias`."""
     angles = dynamicsymbols("alpha1:4")
     kinetic = potential = x = y = sp.S.Zero
     points = [(0, 0)]
-    for angle, length, mass in zip(angles, LENGTHS, MASSES, strict=True):
+    inertias = [mass * length**2 / 12 for mass, length in zip(MASSES, LENGTHS, strict=True)] if inertias is None else inertias
+    for angle, length, mass, inertia in zip(angles, LENGTHS, MASSES, inertias, strict=True):
         arm = sp.Matrix([sp.cos(angle), sp.sin(angle)]) * length
         middle = sp.Matrix([x, y]) + arm / 2
-        kinetic += mass * middle.diff(T).dot(middle.diff(T)) / 2 + mass * length**2 / 12 * angle.diff(T) ** 2 / 2
+        kinetic += mass * middle.diff(T).dot(middle.diff(T)) / 2 + inertia * angle.diff(T) ** 2 / 2
         potential += mass * GRAVITY * middle[1]
         x, y = x + arm[0], y + arm[1]
         points.append((x, y))
@@ -67,3 +68,65 @@ def rolling_disc():
     return zd.symbolic(p, speeds=meaning, kinematics=kinematics, kinetic=kinetic, potential=m * g * z,
                        constraints=[z - R * sp.cos(lean)], nonholonomic=[slip_x, slip_y],
                        parameters={m: 1.0, R: 0.5, g: 9.81}, p0=core.p0, v0=core.v0)
+
+
+# ---- with the parameters that the built-in systems hand to their direct functions, in that order ----
+
+
+def of_parameters(*names):
+    """Symbols, and any values for them that nothing is special of: those of the built-in system are set later."""
+    symbols = sp.symbols(names)
+    return symbols, dict(zip(symbols, [0.7 + 0.1 * i for i in range(len(symbols))], strict=True))
+
+
+def four_bar_of_parameters(drive=None, more=()):
+    core = SYSTEMS["driven_four_bar" if more else "four_bar"]
+    inertias = sp.symbols("J1:4")
+    values = [1.0, 0.3, 1.0, 0.6, 1.5, 5.0, 3.0, 0.01125, 5 / 12, 0.09, 9.81]
+    parameters = dict(zip([GROUND, *LENGTHS, *MASSES, *inertias, GRAVITY], values, strict=True)) | dict(more)
+    return bar(drive, inertias, parameters=parameters, p0=core.p0, v0=core.v0)
+
+
+def driven_four_bar_of_parameters():
+    angle, rate, amplitude, frequency = more = sp.symbols("angle rate amplitude frequency")
+    drive = angle + rate * T + amplitude * sp.sin(frequency * T)
+    return four_bar_of_parameters(drive, zip(more, [float(sp.pi / 2), 1.0, 0.3, 2.0], strict=True))
+
+
+def pendulum_of_parameters():
+    core = SYSTEMS["pendulum"]
+    x, y, vx, vy = sp.symbols("x y vx vy")
+    (length, mass, gravity, _, _), values = of_parameters("length", "mass", "gravity", "angle", "rate")
+    return zd.symbolic([x, y], speeds=[vx, vy], kinetic=mass * (vx**2 + vy**2) / 2, potential=mass * gravity * y,
+                       constraints=[(x**2 + y**2 - length**2) / (2 * length)], parameters=values | {length: 1.0, gravity: 9.81},
+                       units=["m", "m"], p0=core.p0, v0=core.v0)
+
+
+def slider_crank_of_parameters():
+    core = SYSTEMS["slider_crank"]
+    q, x, phi = p = dynamicsymbols("q x phi")
+    names = ["crank", "rod", "J1", "m", "J2", "k", "c", "relaxed", "force", "angle", "rate"]
+    (a, b, J1, m, J2, k, c, relaxed, force, _, _), values = of_parameters(*names)
+    values |= {a: 0.5, b: 1.0, J1: 1.0, m: 1.0, J2: 2.0, k: 1.0, c: 1.0, relaxed: 1.0, force: 1.0}
+    dx, dy = x - (a * sp.cos(q) + b * sp.cos(phi)) / 2, -(a * sp.sin(q) + b * sp.sin(phi)) / 2
+    spring = sp.sqrt(dx**2 + dy**2)
+    kinetic = (J1 * q.diff(T)**2 + m * x.diff(T)**2 + J2 * phi.diff(T)**2) / 2
+    potential = k * (spring - relaxed)**2 / 2 - force * (x + b * sp.cos(phi))
+    closure = [x - a * sp.cos(q) - b * sp.cos(phi), -a * sp.sin(q) - b * sp.sin(phi)]
+    damping = [-c * spring.diff(T) * spring.diff(each) for each in p]
+    return zd.symbolic(p, kinetic=kinetic, potential=potential, force=damping, constraints=closure, parameters=values,
+                       units=["rad", "m", "rad"], p0=core.p0, v0=core.v0)
+
+
+def chaplygin_sleigh_of_parameters():
+    core = SYSTEMS["chaplygin_sleigh"]
+    x, y, phi, vx, vy, w = sp.symbols("x y phi vx vy w")
+    (m, inertia, a, *_), values = of_parameters("m", "I", "a", "heading", "speed", "turn_rate")
+    kinetic = m * ((vx - a * w * sp.sin(phi)) ** 2 + (vy + a * w * sp.cos(phi)) ** 2) / 2 + inertia * w**2 / 2
+    return zd.symbolic([x, y, phi], speeds=[vx, vy, w], kinetic=kinetic, nonholonomic=[vy * sp.cos(phi) - vx * sp.sin(phi)],
+                       parameters=values | {m: 1.0, inertia: 0.1, a: 0.1}, units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+
+
+OF_PARAMETERS = {"four_bar": four_bar_of_parameters, "driven_four_bar": driven_four_bar_of_parameters,
+                 "pendulum": pendulum_of_parameters, "slider_crank": slider_crank_of_parameters,
+                 "chaplygin_sleigh": chaplygin_sleigh_of_parameters}

@@ -8,6 +8,7 @@
 
 #include "../linalg/small.h"
 
+static const double ROUNDING = 0x1p-42;     /* of a state: so small a difference of two is what accelerations leave near a bifurcation */
 enum { LOOK_EVERY = 32 };    /* steps between looks at stiffness, where these cost an evaluation */
 
 typedef struct runge_kutta {
@@ -74,13 +75,14 @@ ZD_INLINE double squares(const int size, const runge_kutta *self, const double *
 static double lipschitz(const runge_kutta *self, const double *y, const double *scale)
 {
     const double *of_stage = self->k + (self->tableau->stages - 1) * self->size, *of_y = of_stage + self->size;
-    double rates = 0, states = 0;
+    double rates = 0, states = 0, rounding = 0;
     for (int i = 0; i < self->size; i++) {
         double rate = (of_y[i] - of_stage[i]) / scale[i], state = (y[i] - self->stage[i]) / scale[i];
         rates += rate * rate;
         states += state * state;
+        rounding += (ROUNDING * y[i] / scale[i]) * (ROUNDING * y[i] / scale[i]);
     }
-    return states > 0 ? sqrt(rates / states) : 0;
+    return states > rounding ? sqrt(rates / states) : 0;
 }
 
 int zd_runge_kutta_error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,

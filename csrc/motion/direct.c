@@ -87,6 +87,20 @@ void zd_direct_leave(zd_motion *motion)
     use(motion, NULL);
 }
 
+static void remember_energy(zd_motion *motion)
+{
+    motion->road.energy_skipped = motion->statistics.energy_skipped;
+    motion->road.energy_corrected = motion->statistics.energy_corrected;
+    motion->road.skipped_since_row = motion->tally->energy_skipped;
+}
+
+void zd_direct_forget_energy(zd_motion *motion)
+{
+    motion->statistics.energy_skipped = motion->road.energy_skipped;
+    motion->statistics.energy_corrected = motion->road.energy_corrected;
+    motion->tally->energy_skipped = motion->road.skipped_since_row;
+}
+
 /* The first order whose pivots are so large at the point, if there is one. */
 static int find_order(zd_motion *motion, double enough)
 {
@@ -98,6 +112,7 @@ static int find_order(zd_motion *motion, double enough)
         use(motion, order);
         if (zd_motion_accelerate(motion) || !are_large_enough(motion, enough)) continue;
         zd_copy(count_pivots(motion), road->pivots, road->before);
+        remember_energy(motion);
         return 1;
     }
     return 0;

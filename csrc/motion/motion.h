@@ -45,6 +45,9 @@ typedef struct zd_road {
     double *scale;          /* (orders, m): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
     double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began */
     double *pdot;           /* (nq,): at the point, of a system with A */
+    int64_t energy_skipped; /* where the step began, as the statistics have them: a step that leaves the road is made again */
+    double energy_corrected;
+    int skipped_since_row;
     double power;           /* W: at the point, of a system with energy input */
 } zd_road;
 
@@ -112,6 +115,8 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena);
 /* Which road a step takes that begins at the point. */
 void zd_direct_choose(zd_motion *motion);
 void zd_direct_leave(zd_motion *motion);
+/* What the energy correction has counted in a step goes with it. */
+void zd_direct_forget_energy(zd_motion *motion);
 /* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);

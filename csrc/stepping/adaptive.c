@@ -105,6 +105,20 @@ static int attempt(zd_course *course, double h, double t1, double *norm)
     return zd_passage_land(course, t1);
 }
 
+/* Where the direct road is left, the step has been looked at for stiffness once already. */
+static int attempt_on_either_road(zd_course *course, double h, double t1, double *norm)
+{
+    const zd_control before = course->control;
+    const int64_t stiff = course->motion->statistics.stiff;
+    int status = attempt(course, h, t1, norm);
+    if (!zd_road_is_left(course, status)) return status;
+    course->control.at_limit = before.at_limit;
+    course->control.below_limit = before.below_limit;
+    course->motion->statistics.stiff = stiff;
+    status = zd_road_leave(course);
+    return status ? status : attempt(course, h, t1, norm);
+}
+
 static double factor(const zd_course *course, double norm)
 {
     if (norm == 0) return LARGEST;
@@ -127,11 +141,7 @@ int zd_adaptive_step(zd_course *course)
     for (;;) {
         double h = bounded(course, course->control.h), t1 = h == course->end - t ? course->end : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;
-        int status = attempt(course, t1 - t, t1, &norm);
-        if (zd_road_is_left(course, status)) {
-            status = zd_road_leave(course);
-            if (!status) status = attempt(course, t1 - t, t1, &norm);
-        }
+        int status = attempt_on_either_road(course, t1 - t, t1, &norm);
         if (zd_variables_lose_digits(course->stepper, status)) {
             status = zd_course_use_dependent(course);
             if (!status) status = attempt(course, t1 - t, t1, &norm);

@@ -17,6 +17,7 @@ int zd_road_choose(zd_course *course)
 int zd_road_leave(zd_course *course)
 {
     zd_direct_leave(course->motion);
+    zd_direct_forget_energy(course->motion);
     int status = zd_stepper_return(course->stepper);
     return status ? status : begin_general_road(course);
 }

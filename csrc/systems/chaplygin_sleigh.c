@@ -8,6 +8,7 @@
  * V = 0 is declared so that its energy can be watched.
  */
 #include "../include/zerodrift/sines.h"
+#include "direct/chaplygin_sleigh.h"
 #include "kind.h"
 #include "skate.h"
 
@@ -56,6 +57,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
+    zd_chaplygin_sleigh_direct_constants(to);
     return NULL;
 }
 
@@ -102,8 +104,9 @@ const zd_kind zd_chaplygin_sleigh = {
         .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .direct = &zd_chaplygin_sleigh_direct, .directs = 1,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED_DOUBLES(ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
 };

@@ -6,6 +6,7 @@
  * energy comes in.
  */
 #include "../include/zerodrift/sines.h"
+#include "direct/driven_four_bar.h"
 #include "four_bar.h"
 #include "kind.h"
 
@@ -48,11 +49,17 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return status;
 }
 
+_Static_assert(sizeof(constants) == ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS * sizeof(double), "where direct functions look for theirs");
+
 static const char *prepare(const double *parameters, double *to)
 {
     const given *q = (const given *)parameters;
     constants *k = (constants *)to;
     k->drive = (drive){q->bar.angle, q->bar.rate, q->amplitude, q->frequency};
+    double *of_direct = to + ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS;
+    zd_four_bar_fill(&q->bar, of_direct);
+    memcpy(of_direct + ZD_FOUR_BAR_DIRECT, &k->drive, sizeof k->drive);
+    zd_driven_four_bar_direct_constants(of_direct);
     return zd_four_bar_prepare(&q->bar, &k->bar);
 }
 
@@ -94,8 +101,9 @@ const zd_kind zd_driven_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI | ZD_POTENTIAL,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = evaluate,
+        .direct = &zd_driven_four_bar_direct, .directs = 1,
     },
-    ZD_PREPARED(constants),
+    ZD_PREPARED_DOUBLES(ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = draw,
 };

@@ -10,6 +10,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../linalg/small.h"
+#include "direct/four_bar.h"
 #include "kind.h"
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
@@ -146,6 +147,12 @@ static int can_be_flat(const double *l)
     return 0;
 }
 
+/* About the midpoint of a link; left out, that of a slender rod. */
+static double inertia(const given *q, int i)
+{
+    return isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];
+}
+
 const char *zd_four_bar_prepare(const given *q, constants *to)
 {
     double p[N] = {q->angle};
@@ -154,7 +161,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
     if (!(fabs(zd_sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
     double J[N];
-    for (int i = 0; i < N; i++) J[i] = isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];
+    for (int i = 0; i < N; i++) J[i] = inertia(q, i);
     double l1 = q->l[1], l2 = q->l[2], l3 = q->l[3], m1 = q->m[0], m2 = q->m[1], m3 = q->m[2];
     *to = (constants){
         .l0 = q->l[0],
@@ -167,6 +174,12 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
         .weight = {(0.5 * m1 + m2 + m3) * q->g * l1, (0.5 * m2 + m3) * q->g * l2, 0.5 * m3 * q->g * l3},
     };
     return NULL;
+}
+
+void zd_four_bar_fill(const zd_four_bar_given *q, double *to)
+{
+    memcpy(to, q, ZD_FOUR_BAR_DIRECT * sizeof *to);
+    for (int i = 0; i < N; i++) to[offsetof(given, J) / sizeof *to + (size_t)i] = inertia(q, i);
 }
 
 void zd_four_bar_draw(const double *data, const double *p, double *points)
@@ -184,8 +197,13 @@ const zd_variable zd_four_bar_velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_do
 
 /* ---- the row of the table: the crank is free ---- */
 
+_Static_assert(sizeof(constants) == ZD_FOUR_BAR_DIRECT_BEGINS * sizeof(double), "where direct functions look for theirs");
+
 static const char *prepare(const double *parameters, double *to)
 {
+    double *of_direct = to + ZD_FOUR_BAR_DIRECT_BEGINS;
+    zd_four_bar_fill((const given *)parameters, of_direct);
+    zd_four_bar_direct_constants(of_direct);
     return zd_four_bar_prepare((const given *)parameters, (constants *)to);
 }
 
@@ -217,10 +235,11 @@ const zd_kind zd_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = zd_four_bar_evaluate,
+        .direct = &zd_four_bar_direct, .directs = 1,
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
     },
-    ZD_PREPARED(constants),
+    ZD_PREPARED_DOUBLES(ZD_FOUR_BAR_DIRECT_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = zd_four_bar_draw,
 };

@@ -3,13 +3,16 @@
 #define ZD_FOUR_BAR_H
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "../include/zerodrift/system.h"
 
 enum { ZD_FOUR_BAR_N = 3, ZD_FOUR_BAR_SCRATCH = 2 * ZD_FOUR_BAR_N };
 
-/* parameters, in the order of the tables */
+/* parameters, in the order of the tables; the first so many are those of direct functions */
+enum { ZD_FOUR_BAR_DIRECT = 11 };
+
 typedef struct zd_four_bar_given {
     double l[4];        /* m: l0 ... l3 */
     double m[3];        /* kg */
@@ -31,6 +34,7 @@ typedef struct zd_four_bar_constants {
 /* The terms of the paper's section 4.1; the closure is the first two rows. Takes the constants as `data`. */
 zd_evaluate zd_four_bar_evaluate;
 const char *zd_four_bar_prepare(const zd_four_bar_given *given, zd_four_bar_constants *to);
+void zd_four_bar_fill(const zd_four_bar_given *given, double *to);      /* the parameters of direct functions */
 void zd_four_bar_start(const zd_four_bar_given *given, double *p, double *v);
 void zd_four_bar_draw(const double *constants, const double *p, double *points);
 

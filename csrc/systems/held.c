@@ -65,11 +65,18 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
     return ZD_DONE;
 }
 
+/* These are of the inner system alone. */
+static void leave_out_direct(zd_system *system)
+{
+    system->direct = NULL;
+    system->directs = 0;
+}
+
 zd_system zd_hold_positions(zd_held *held, const zd_system *inner, const int *hold, const double *p)
 {
     *held = (zd_held){inner, hold, p};
     zd_system system = *inner;
-    system.directs = 0;
+    leave_out_direct(&system);
     system.mh += count(hold, inner->nq);
     system.mn = 0;
     system.provides = ZD_M | (inner->provides & ZD_A) | (system.mh ? ZD_PHI | ZD_C : 0);
@@ -83,7 +90,7 @@ zd_system zd_hold_velocities(zd_held *held, const zd_system *inner, const int *h
 {
     *held = (zd_held){inner, hold, v};
     zd_system system = *inner;
-    system.directs = 0;
+    leave_out_direct(&system);
     int rows = count(hold, inner->nv);
     system.mn += rows;
     system.provides = ZD_M | (inner->provides & ZD_PHI_T) | (zd_constraints(&system) ? ZD_C : 0) | (rows ? ZD_PHI_T : 0);

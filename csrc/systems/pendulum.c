@@ -14,6 +14,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
+#include "direct/pendulum.h"
 #include "kind.h"
 
 enum { X, Y, N = 2 };
@@ -47,6 +48,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
+    zd_pendulum_direct_constants(to);
     return NULL;
 }
 
@@ -93,8 +95,9 @@ const zd_kind zd_pendulum = {
         .nq = N, .nv = N, .mh = 1,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
+        .direct = &zd_pendulum_direct, .directs = 1,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED_DOUBLES(ZD_PENDULUM_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 2, .dimension = 2, .draw = draw,
 };

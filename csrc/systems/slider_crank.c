@@ -17,6 +17,7 @@
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
 #include "../linalg/small.h"
+#include "direct/slider_crank.h"
 #include "kind.h"
 
 enum { Q, X, ANGLE, N = 3 };
@@ -98,6 +99,7 @@ static const char *prepare(const double *parameters, double *to)
     const given *k = (const given *)parameters;
     if (!(k->b > k->a)) return "the rod must be longer than the crank: else the crank cannot turn all the way around";
     memcpy(to, parameters, sizeof *k);
+    zd_slider_crank_direct_constants(to);
     return NULL;
 }
 
@@ -155,8 +157,9 @@ const zd_kind zd_slider_crank = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER | ZD_TIMELESS,
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
+        .direct = &zd_slider_crank_direct, .directs = 1,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED_DOUBLES(ZD_SLIDER_CRANK_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 7, .dimension = 2, .draw = draw,
 };

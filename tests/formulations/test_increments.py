@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 import tolerances as tol
 import zerodrift as zd
-from rotating_bodies import SPIN, TURN, chain_of_two, gyroscopic, held_at_a_point, turning
+from rotating_bodies import SPIN, TURN, gyroscopic, held_at_a_point, turning
 from spinning_body import attitude, body, precession
 from support import assert_close, observed_order
 
@@ -118,23 +118,6 @@ def test_events(spinning, formulation):
     sol = zd.simulate(spinning, 3.0, step=0.05, formulation=formulation, integrator="dop853", events=lambda t, p, v: p[0])
     assert len(sol.t_events[0]) == 1
     assert abs(attitude(sol.t_events[0])[0, 0]) < 1e-11
-
-
-@pytest.mark.parametrize("drive", [0, (1 - sp.cos(5 * sp.Symbol("t"))) / 10], ids=["at rest", "driven"])
-@pytest.mark.parametrize("direct", [None, False])
-def test_two_rods_in_space(formulation, drive, direct):
-    """Two quaternions, structure found among the matrices, a constraint that moves: as all others, and no energy is lost."""
-    chain = chain_of_two(drive)
-    spins = ["w1_1", "w1_2", "w1_3", "w2_1", "w2_2", "w2_3"]
-    p, v = zd.assemble(chain, chain.p0, np.r_[0, 0, 0, 1.0, 2.0, 0.5, 0, 0, 0, -2.0, 0.5, 1.0], hold=spins)
-    options = {"step": 2e-3, "integrator": "dop853"}
-    sol = zd.simulate(chain, 2.0, p, v, formulation=formulation, direct=direct, **options)
-    expected = zd.simulate(chain, 2.0, p, v, formulation="augmented", direct=False, stabilization=None, **options)
-    assert_close(sol.p, expected.p, 1e-11)
-    assert_close(sol.v, expected.v, 1e-11)
-    assert_close(sol.multipliers, expected.multipliers, 1e-10)
-    assert np.abs(sol.energy_violation).max() < 1e-11 * sol.kinetic_energy.max()
-    assert np.abs(np.linalg.norm(sol.p.reshape(-1, 7)[:, 3:], axis=1) - 1).max() < 1e-15
 
 
 # ---- long steps ----

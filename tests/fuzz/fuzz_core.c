@@ -73,17 +73,8 @@ typedef struct linear {
     double A[SIZES * SIZES], M[SIZES * SIZES], C[SIZES * SIZES], D[SIZES * SIZES];
     double d[SIZES], f[SIZES], Phi[SIZES], Phi_t[SIZES], xi[SIZES], gamma[SIZES], V[1], power[1];
     int crosses;        /* whether the one constraint is p_0 p_1 = 0 instead */
-    int turns;          /* whether p begins with a unit quaternion, and v with its angular velocity */
     int *calls;         /* until one fails; below 0: none does */
 } linear;
-
-/* The rows of A of that */
-static void write_turning(int nv, const double *e, double *A)
-{
-    const double half[4][3] = {{-e[1], -e[2], -e[3]}, {e[0], -e[3], e[2]}, {e[3], e[0], -e[1]}, {-e[2], e[1], e[0]}};
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < nv; j++) A[i * nv + j] = j < 3 ? half[i][j] / 2 : 0;
-}
 
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
@@ -95,7 +86,6 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 #define WRITE(term, field, count) \
     if (want & (term)) memcpy(out->field, self->field, (size_t)(count) * sizeof(double))
     WRITE(ZD_A, A, nq * nv);
-    if (self->turns && (want & ZD_A)) write_turning(nv, p, out->A);
     WRITE(ZD_M, M, nv * nv);
     WRITE(ZD_BIAS, d, nv);
     WRITE(ZD_FORCE, f, nv);
@@ -129,22 +119,6 @@ static void make_crossing(input *in, linear *self, double *p, double *v)
     for (int i = below(in, 16) > 0; i < self->system.nv; i++) v[i] = below(in, 5) - 2;
 }
 
-/* A body whose attitude is a unit quaternion, and more coordinates behind it. */
-static void make_turning(input *in, linear *self, double *p, double *v)
-{
-    static const int first[] = {0};
-    zd_system *system = &self->system;
-    if (self->crosses || system->nv < 3 || system->nv == SIZES) return;
-    self->turns = 1;
-    system->nq = system->nv + 1;
-    system->provides |= ZD_A;
-    system->quaternions = 1;
-    system->quaternion = first;
-    for (int i = 0; i < 4; i++) p[i] = i == (int)byte(in) % 4;
-    if (below(in, 16) == 0) p[below(in, 4)] = number(in);
-    for (int i = 0; i < 3; i++) v[i] = below(in, 5) - 2;
-}
-
 static void make_linear(input *in, linear *self, int *calls, double *p, double *v)
 {
     zd_system *system = &self->system;
@@ -162,8 +136,7 @@ static void make_linear(input *in, linear *self, int *calls, double *p, double *
     memset(v, 0, LARGEST * sizeof *v);
     if (below(in, 4) == 0) make_crossing(in, self, p, v);
     for (int i = 0; i < SIZES; i++) self->M[i * system->nv % (SIZES * SIZES) + i % system->nv] = 1 + below(in, 4);
-    if (below(in, 4) == 0) make_turning(in, self, p, v);
-    for (int i = 0; i < system->nq; i++) self->A[i * system->nv + (i + system->nv - self->turns) % system->nv] = 1;
+    for (int i = 0; i < system->nq; i++) self->A[i * system->nv + i % system->nv] = 1;
     for (int i = 0; i < SIZES * SIZES; i++) self->C[i] = self->crosses ? 0 : below(in, 9) - 4, self->D[i] = below(in, 3) - 1;
     spoil(in, self->M, system->nv * system->nv);
     spoil(in, self->C, SIZES * SIZES);
@@ -341,11 +314,6 @@ static int are_finite(const double *x, int64_t n)
     return 1;
 }
 
-static void check_quaternion(const double *q)
-{
-    EXPECT(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 8 * 0x1p-52);
-}
-
 static void check_rows(const zd_system *system, const zd_settings *settings, const double *sizes, const zd_record *record, double *last)
 {
     const double rounding = 1 + 0x1p-51;        /* of the division by the size */
@@ -356,7 +324,6 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
                  && strcmp(zd_row(ZD_FORMULATIONS, settings->formulation)->name, "independent");
     EXPECT(record->rows <= record->capacity);
     EXPECT(are_finite(record->p, record->rows * system->nq));
-    for (int64_t row = 0; system->quaternions && row < record->rows; row++) check_quaternion(record->p + row * system->nq);
     EXPECT(are_finite(record->v, record->rows * system->nv));
     for (int64_t row = 0; row < record->rows; row++) {
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);

@@ -108,7 +108,7 @@ def test_a_start_within_the_tolerance_asked_for_is_taken(bar):
 
 def test_cost_of_a_step(bar):
     """RK4 with projection: the velocity correction's matrix serves the first of the next step's four stages."""
-    stats = motion(bar, 8.0, 800).stats
+    stats = motion(bar, 8.0, 800, direct=False).stats
     iterations = stats["position_iterations"]
     assert stats["velocity_corrections"] == stats["steps"] == 800
     assert stats["factorizations"] == 1 + 4 * 800 + iterations
@@ -117,15 +117,23 @@ def test_cost_of_a_step(bar):
 
 
 def test_cost_of_a_step_without_corrections(bar):
-    stats = motion(bar, 8.0, 800, stabilization=None).stats
+    stats = motion(bar, 8.0, 800, direct=False, stabilization=None).stats
     assert stats["factorizations"] == stats["solves"] == 1 + 4 * 800
     assert stats["position_iterations"] == stats["velocity_corrections"] == stats["energy_corrections"] == 0
 
 
 def test_energy_correction_needs_no_further_matrix(bar):
-    stats = motion(bar, 8.0, 800, energy=True).stats
+    stats = motion(bar, 8.0, 800, direct=False, energy=True).stats
     assert stats["factorizations"] == 1 + 4 * 800 + stats["position_iterations"]
     assert stats["energy_corrections"] == 800
+
+
+def test_cost_of_a_direct_step(bar):
+    """What a step ends with, the next begins with; the last call of a correction has the velocities' part, too."""
+    stats = motion(bar, 8.0, 800, save_every=800).stats
+    assert stats["direct_steps"] == stats["velocity_corrections"] == 800
+    assert stats["factorizations"] == 1
+    assert stats["evaluations"] <= 20 + (4 + 1) * 800 + stats["position_iterations"] + 800 // 8
 
 
 def test_implicit_iterations_are_counted(bar):

@@ -103,9 +103,9 @@ def simulate(
         least acceleration. Constraints that are redundant in every position are no bifurcation, and need no choice.
     direct : None or False
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
-        constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve the dependent
-        formulations, where no constraint is redundant. A step at whose ends the elimination is not sound is made by the
-        formulation's leading matrix; `repr` of the solution says how many were. False makes all steps so.
+        constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent
+        formulations and explicit integrators, where no constraint is redundant. A step at whose ends the elimination is not
+        sound is made by the formulation's leading matrix; `repr` of the solution says how many were. False makes all steps so.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.

@@ -20,7 +20,7 @@ MOST = 4                # orders, as the interface has it
 SAMPLES = 48
 ITERATIONS = 12         # of Newton's method
 CLOSED = 1e-9           # in parts of its row: a violation that is none
-LARGE = {1: 0.2, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
+LARGE = {1: 0.5, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
 TRIPLES = 9             # rows and columns up to which three at a time are tried
 SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
 

@@ -1,0 +1,142 @@
+/* Written by tests/direct_sources.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+#include "pendulum.h"
+
+#include <math.h>
+#include "../../include/zerodrift/sines.h"
+
+/* What follows from the parameters alone, behind them. */
+void zd_pendulum_direct_constants(double *k)
+{
+    k[5] = k[1] * k[2];
+    k[8] = k[0] * k[0];
+    k[6] = 1.0 / k[0];
+    k[7] = k[6] * 0.5;
+}
+
+static int accelerate_0(const void *data, double t, const double *restrict p, const double *restrict v,
+    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+    double *restrict power, double *restrict pivots)
+{
+    const double *restrict const k = data;
+    (void)k, (void)t, (void)p, (void)v;
+    (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
+    const double p0 = p[0], p1 = p[1];
+    const double v0 = v[0], v1 = v[1];
+    const double added0 = added ? added[0] : 0;
+    const double x18 = p0 * k[6];
+    const double x31 = 1.0 / x18;
+    const double x33 = (p1 * k[6]) * x31;
+    const double x35 = k[1] * x33;
+    const double x55 = x31 * (added0 - (k[7] * (((v0 * v0) + (v1 * v1)) * 2.0)));
+    const double x59 = (1.0 / (k[1] + (x33 * x35))) * ((x35 * x55) - k[5]);
+    const double x62 = x55 - (x33 * x59);
+    vdot[0] = x62;
+    vdot[1] = x59;
+    if (lambda || power) {
+        if (lambda) lambda[0] = -(x31 * (k[1] * x62));
+        if (power) power[0] = 0.0;
+    }
+    if (pivots) {
+        pivots[0] = x18;
+        pivots[1] = 1.0;
+    }
+    return ZD_DONE;
+}
+
+static int correct_0(const void *data, double t, const double *restrict p, const double *restrict v,
+    double *restrict Phi, double *restrict dp, double *restrict dv)
+{
+    const double *restrict const k = data;
+    (void)k, (void)t, (void)p, (void)v;
+    (void)Phi;
+    const double p0 = p[0], p1 = p[1];
+    const double v0 = v[0], v1 = v[1];
+    const double x17 = ((p1 * p1) + ((p0 * p0) - k[8])) * k[7];
+    const double x18 = p0 * k[6];
+    const double x19 = p1 * k[6];
+    const double x31 = 1.0 / x18;
+    const double x33 = x19 * x31;
+    const double x35 = k[1] * x33;
+    const double x40 = 1.0 / (k[1] + (x33 * x35));
+    const double x73 = x17 * x31;
+    const double x76 = x40 * (x35 * x73);
+    const double x80 = x31 * ((x18 * v0) + (x19 * v1));
+    const double x83 = x40 * (x35 * x80);
+    Phi[0] = x17;
+    dp[0] = x73 - (x33 * x76);
+    dp[1] = x76;
+    dv[0] = x80 - (x33 * x83);
+    dv[1] = x83;
+    return ZD_DONE;
+}
+
+static int accelerate_1(const void *data, double t, const double *restrict p, const double *restrict v,
+    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+    double *restrict power, double *restrict pivots)
+{
+    const double *restrict const k = data;
+    (void)k, (void)t, (void)p, (void)v;
+    (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
+    const double p0 = p[0], p1 = p[1];
+    const double v0 = v[0], v1 = v[1];
+    const double added0 = added ? added[0] : 0;
+    const double x19 = p1 * k[6];
+    const double x42 = 1.0 / x19;
+    const double x44 = (p0 * k[6]) * x42;
+    const double x46 = k[1] * x44;
+    const double x87 = x42 * (added0 - (k[7] * (((v0 * v0) + (v1 * v1)) * 2.0)));
+    const double x93 = (1.0 / (k[1] + (x44 * x46))) * ((x46 * x87) + (k[5] * x44));
+    const double x96 = x87 - (x44 * x93);
+    vdot[0] = x93;
+    vdot[1] = x96;
+    if (lambda || power) {
+        if (lambda) lambda[0] = -(x42 * (k[5] + (k[1] * x96)));
+        if (power) power[0] = 0.0;
+    }
+    if (pivots) {
+        pivots[0] = x19;
+        pivots[1] = 1.0;
+    }
+    return ZD_DONE;
+}
+
+static int correct_1(const void *data, double t, const double *restrict p, const double *restrict v,
+    double *restrict Phi, double *restrict dp, double *restrict dv)
+{
+    const double *restrict const k = data;
+    (void)k, (void)t, (void)p, (void)v;
+    (void)Phi;
+    const double p0 = p[0], p1 = p[1];
+    const double v0 = v[0], v1 = v[1];
+    const double x17 = ((p1 * p1) + ((p0 * p0) - k[8])) * k[7];
+    const double x18 = p0 * k[6];
+    const double x19 = p1 * k[6];
+    const double x42 = 1.0 / x19;
+    const double x44 = x18 * x42;
+    const double x46 = k[1] * x44;
+    const double x51 = 1.0 / (k[1] + (x44 * x46));
+    const double x104 = x17 * x42;
+    const double x107 = x51 * (x46 * x104);
+    const double x111 = x42 * ((x18 * v0) + (x19 * v1));
+    const double x114 = x51 * (x46 * x111);
+    Phi[0] = x17;
+    dp[0] = x107;
+    dp[1] = x104 - (x44 * x107);
+    dv[0] = x114;
+    dv[1] = x111 - (x44 * x114);
+    return ZD_DONE;
+}
+
+static const int solve_0[] = {0};
+static const int row_0[] = {0};
+static const int column_0[] = {0};
+static const int solve_1[] = {0};
+static const int row_1[] = {0};
+static const int column_1[] = {1};
+
+static const zd_elimination orders[] = {
+    {1, solve_0, row_0, column_0, accelerate_0, correct_0},
+    {1, solve_1, row_1, column_1, accelerate_1, correct_1},
+};
+
+const zd_direct zd_pendulum_direct = {1, 2, orders};

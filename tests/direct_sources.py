@@ -1,0 +1,52 @@
+"""The direct functions of built-in systems, written from their counterparts in SymPy: ``python tests/direct_sources.py`` writes
+them anew into csrc/systems/direct, after which the core has to be built again.
+"""
+
+import sympy
+
+from support import ROOT
+from symbolic_counterparts import OF_PARAMETERS
+from zerodrift.symbolics import direct
+
+FOLDER = ROOT / "csrc" / "systems" / "direct"
+# Where in the doubles of a system those of its direct functions begin: behind its own, or with these where they are the same.
+BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0}
+HEADING = f"/* Written by tests/direct_sources.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+
+
+def sources():
+    """The text of each file by its name."""
+    texts, sizes = {}, {}
+    for name, counterpart in OF_PARAMETERS.items():
+        system = counterpart()
+        symbol, count = f"zd_{name}_direct", len(system.parameters)
+        heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/sines.h"']
+        texts[f"{name}.c"], constants = direct.write(
+            *system._direct._definition, offset=count, symbol=symbol, heading=heading,
+            data=f"(const double *)data + {BEGINS[name]}" if BEGINS[name] else "data")
+        sizes[name] = count + constants
+    return texts | {f"{name}.h": header(name, size) for name, size in sizes.items()}
+
+
+def header(name, size):
+    capitals = f"ZD_{name.upper()}_DIRECT"
+    return f"""{HEADING}
+#ifndef {capitals}_H
+#define {capitals}_H
+
+#include "../../include/zerodrift/system.h"
+
+/* Where among the constants of the system those of its direct functions begin, and where they end. */
+enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + size} }};
+
+extern const zd_direct zd_{name}_direct;
+/* What follows from the parameters, which the first of these doubles are. */
+void zd_{name}_direct_constants(double *k);
+
+#endif
+"""
+
+
+if __name__ == "__main__":
+    for file, text in sources().items():
+        (FOLDER / file).write_text(text)
