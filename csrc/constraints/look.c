@@ -14,6 +14,8 @@
 #include <math.h>
 
 #include "../linalg/small.h"
+#include "../point/gram.h"
+#include "../point/matrices.h"
 
 static const double NEAR = 0.4;             /* of the sum: nothing needs to be looked at */
 static const double FAR = 0.9;              /* of the sum: beyond, rows may have come to lie reversed */
@@ -23,9 +25,9 @@ static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* t
 zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows are looked at */
+    const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows take their place */
     zd_look self = {
-        .C = zd_take(arena, m * dense * sizeof(float)),
+        .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
         .weight = zd_take_doubles(arena, m),
         .close = {
             .n = (int)n,
@@ -41,14 +43,15 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
 }
 
 /* The sum, or infinity where nothing is known. */
-static double find_change(const zd_look *self, const double *C)
+static double find_change(const zd_look *self, const zd_point *point)
 {
-    const int n = self->close.n;
     double sum = 0;
     for (int k = 0; k < self->close.m; k++) {
         double squares[4] = {0, 0, 0, 0};
-        const double *c = C + k * n;
-        const float *c0 = self->C + k * n;
+        const zd_row_of_C row = zd_point_row(point, k);
+        const double *c = row.x;
+        const float *c0 = self->C + (c - point->terms.C);
+        const int n = row.count;
         int i = 0;
         for (; i + 4 <= n; i += 4)
             for (int r = 0; r < 4; r++) squares[r] += (c[i + r] - (double)c0[i + r]) * (c[i + r] - (double)c0[i + r]);
@@ -78,24 +81,42 @@ static void find_weights(zd_look *self)
 }
 
 /* Keeps rows whose shares are known, if these are ample. */
-static void keep(zd_look *self, const double *C, const double *start_square)
+static void keep(zd_look *self, const zd_point *point)
 {
-    const int n = self->close.n, m = self->close.m;
+    const int m = self->close.m, stored = zd_size_of_C(point->system);
+    const double *C = point->terms.C, *start_square = point->rank->start_square;
     const double *square = self->close.square;
     find_weights(self);
     self->is_known = 1;
     for (int k = 0; k < m; k++)
         self->is_known &= 1 > AMPLE * square[k] * self->weight[k] * self->weight[k] && square[k] > AMPLE * start_square[k];
-    for (int i = 0; i < m * n; i++) self->C[i] = (float)C[i];
+    for (int i = 0; i < stored; i++) self->C[i] = (float)C[i];
+}
+
+/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those before
+ * it are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. */
+static zd_shares factor_products(zd_look *self, const zd_point *point)
+{
+    const int m = self->close.m;
+    double *G = self->close.G, *square = self->close.square;
+    zd_gram(point->layout, point->terms.C, NULL, G);
+    for (int k = 0; k < m; k++) square[k] = G[k * (m + 1)];
+    zd_shares shares = {ZD_SIZED(zd_cholesky, m, G, G), 1, INFINITY};
+    for (int k = 0; k < shares.rows; k++) {
+        double share = 1 / (G[k * (m + 1)] * square[k]);
+        if (!(share > DOUBTFUL)) shares.rows = k;
+        else shares.least = fmin(shares.least, share);
+    }
+    return shares;
 }
 
 int zd_look_is_doubtful(zd_look *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
-    const double *C = self->close.C = point->terms.C;
-    const double change = find_change(self, C);
+    const double change = find_change(self, point);
     if (change < NEAR) return 0;
-    const zd_shares shares = zd_orthogonalize(&self->close, DOUBTFUL);
+    self->close.C = point->terms.C;
+    const zd_shares shares = point->layout ? factor_products(self, point) : zd_orthogonalize(&self->close, DOUBTFUL);
     rank->was_turned |= !(change < FAR);
     self->is_known = 0;
     int is_short = 0, is_ill = shares.rows < self->close.m || !(shares.least > ILL);
@@ -105,6 +126,6 @@ int zd_look_is_doubtful(zd_look *self, zd_point *point)
     }
     rank->was_ill_conditioned |= is_ill;
     if (is_short || shares.rows < self->close.m) return 1;
-    if (!is_ill) keep(self, C, rank->start_square);
+    if (!is_ill) keep(self, point);
     return 0;
 }

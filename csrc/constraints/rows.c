@@ -7,7 +7,6 @@
 #include "../point/matrices.h"
 #include "limits.h"
 #include "look.h"
-#include "packed.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
@@ -66,8 +65,8 @@ static int need_look(zd_rank *self, const zd_system *system)
 static int is_doubtful(zd_point *point)
 {
     zd_rank *self = point->rank;
-    if (point->layout) return zd_packed_rows_are_doubtful(point);
-    return self->m <= ZD_FEW_ROWS ? ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C) : zd_look_is_doubtful(self->look, point);
+    const int are_few = self->m <= ZD_FEW_ROWS && !point->layout;
+    return are_few ? ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C) : zd_look_is_doubtful(self->look, point);
 }
 
 int zd_rows_are_long(const zd_point *point)

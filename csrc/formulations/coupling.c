@@ -5,9 +5,9 @@
  *     S = C M^-1 C^T = Y D^-1 Y^T             rows of two groups are coupled by the blocks that both touch
  *     S lambda = Y D^-1 y - xi,   vdot = L^-T D^-1 (y - Y^T lambda),   y = L^-1 (f - d)
  *
- * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids. But C vdot = xi shows what that has cost, and
- * is corrected with the same factors until nothing is left of it: with pivots down to 2^-40 of their diagonal each time leaves a
- * thousandth or less.
+ * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids. But C vdot = xi shows what that has cost,
+ * and is corrected with the same factors until nothing is left of it: with the smallest pivots that are allowed, each time leaves a
+ * thousandth or so. Where pivots are smaller, as masses are far apart, schur.c orthogonalizes after all.
  */
 #include "coupling.h"
 
@@ -19,11 +19,15 @@
 #include "../point/matrices.h"
 
 enum { MAX_REFINEMENTS = 4 };
+static const double SMALL = 0x1p-36;           /* of the diagonal of S: a smaller pivot has lost too many digits */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 {
-    if (!system->structure) return NULL;
+    const zd_structure *structure = system->structure;
+    int rows = 0;
+    for (int g = 0; structure && g < structure->groups; g++) rows += structure->rows[g];
+    if (!structure || rows != zd_constraints(system)) return NULL;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_coupling self = {
         .n = (int)n,
@@ -78,8 +82,13 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     for (int b = 0; b < layout->blocks; b++)
         for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) transform(self, b, i);
     zd_gram(layout, self->Y, self->D, self->S);
-    point->failed_index = ZD_SIZED(zd_cholesky, self->m, self->S, self->S);
-    return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
+    double *diagonal = self->rest;
+    for (int k = 0; k < self->m; k++) diagonal[k] = self->S[k * (self->m + 1)];
+    int factored = ZD_SIZED(zd_cholesky, self->m, self->S, self->S);
+    for (int k = factored; k-- > 0;)
+        if (!(1 > SMALL * diagonal[k] * self->S[k * (self->m + 1)])) factored = k;
+    point->failed_index = factored;
+    return factored < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
 
 /* ---- solution ---- */

@@ -17,9 +17,9 @@ typedef struct zd_coupling {
     const double *C;
 } zd_coupling;
 
-/* NULL where the system declares no structure. */
+/* NULL where the system declares no structure, or not all of its rows are to count. */
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system);
-/* All rows count at the point. */
+/* All rows count at the point. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
 int zd_coupling_factor(zd_coupling *self, zd_point *point);
 /* As the solve of formulation.h. */
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda);

@@ -30,7 +30,7 @@ static const double TURNED = 0.25;      /* of the squared sines by which Q turns
 typedef struct schur {
     int n, m;
     int most;           /* rows that there is memory for */
-    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count; else NULL */
+    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count */
     int is_coupled;             /* whether that was factored */
     double *dense_C;    /* (m, n): where the system's own is packed */
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
@@ -42,24 +42,23 @@ typedef struct schur {
     double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
 } schur;
 
+static void take_matrices(zd_arena *arena, schur *self)
+{
+    size_t n = (size_t)self->n, m = (size_t)self->most;
+    self->L = zd_take_doubles(arena, n * n);
+    self->Q = zd_take_doubles(arena, m * n);
+    self->G = zd_take_doubles(arena, m * m);
+    self->b = zd_take_doubles(arena, m);
+    self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n) : NULL;
+    self->rest = zd_take_doubles(arena, m);
+    self->correction = zd_take_doubles(arena, n);
+}
+
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    schur self = {
-        .n = (int)n,
-        .m = (int)m,
-        .most = (int)m,
-        .coupling = zd_coupling_take(arena, system),
-        .dense_C = zd_take_dense(arena, system, m * n),
-        .L = zd_take_doubles(arena, n * n),
-        .Q = zd_take_doubles(arena, m * n),
-        .G = zd_take_doubles(arena, m * m),
-        .b = zd_take_doubles(arena, m),
-        .rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n) : NULL,
-        .rest = zd_take_doubles(arena, m),
-        .correction = zd_take_doubles(arena, n),
-    };
+    schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .coupling = zd_coupling_take(arena, system)};
+    if (!system->structure) take_matrices(arena, &self);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -136,29 +135,52 @@ static int factor_large(schur *self, zd_point *point)
     return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
 
-static int factor_packed(schur *self, zd_point *point)
+static int factor_dense(schur *self, zd_point *point, const double *M)
 {
-    int status = zd_rows_find(point);
-    self->is_coupled = !status && zd_rank_is_full(point);
-    if (status || self->is_coupled) return status ? status : zd_coupling_factor(self->coupling, point);
-    zd_dense_M(point, self->L);
-    return ZD_DONE;
-}
-
-static int factor(void *memory, zd_point *point)
-{
-    schur *self = memory;
-    int status = point->layout ? factor_packed(self, point) : ZD_DONE;
-    if (status || self->is_coupled) return status;
-    point->failed_index = ZD_SIZED(zd_cholesky, self->n, point->layout ? self->L : point->terms.M, self->L);
+    point->failed_index = ZD_SIZED(zd_cholesky, self->n, M, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
     if (self->n > ZD_UNROLLED) return factor_large(self, point);
-    status = zd_rows_find(point);
+    int status = zd_rows_find(point);
     if (status) return status;
     self->m = point->rows;
     self->C = zd_dense_C(point, self->dense_C);
     point->failed_index = ZD_SIZED(factor_rows, self->n, self);
     return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
+}
+
+/* ---- systems that declare their structure ---- */
+
+static void *take_all(zd_arena *arena, const void *of)
+{
+    schur self = *(const schur *)of;
+    self.dense_C = zd_take_doubles(arena, (size_t)(self.most * self.n));
+    take_matrices(arena, &self);
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* Matrices are dense, in memory that is taken when it is first needed, where rows are left out, or where C M^-1 C^T has lost too many
+ * digits. */
+static int factor_packed(schur *self, zd_point *point)
+{
+    int status = zd_rows_find(point);
+    self->is_coupled = 0;
+    if (!status && zd_rank_is_full(point)) {
+        status = zd_coupling_factor(self->coupling, point);
+        self->is_coupled = !status;
+        if (status != ZD_DEPENDENT_ROWS) return status;
+    }
+    if (status && status != ZD_DEPENDENT_ROWS) return status;
+    if (!self->L) {
+        const schur *all = zd_store_take(point->rank->store, take_all, self);
+        if (!all) return ZD_NO_MEMORY;
+        *self = *all;
+    }
+    return factor_dense(self, point, zd_dense_M(point, self->L));
+}
+
+static int factor(void *memory, zd_point *point)
+{
+    return point->layout ? factor_packed(memory, point) : factor_dense(memory, point, point->terms.M);
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */

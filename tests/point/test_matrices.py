@@ -238,7 +238,7 @@ def test_motions_of_random_structures(seed, kinematics):
 
 
 @needs_compiler
-@pytest.mark.parametrize("ratio", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("ratio", [1e-3, 1e-6, 1e-9, 1e-12])
 def test_light_rods_between_heavy_ones_lose_no_digits(ratio):
     """C M^-1 C^T has the square of the condition: what that costs is corrected."""
     rods = chain(5, closed=True, masses=[1.0, ratio, 1.0, ratio, 1.0])
