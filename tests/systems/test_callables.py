@@ -213,7 +213,7 @@ def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, mes
 
 
 def test_energy_correction_without_potential_is_refused():
-    with pytest.raises(ValueError, match="needs a potential energy"):
+    with pytest.raises(ValueError, match=r"energy correction needs V \(potential energy in J\), and system declares none"):
         zd.simulate(four_bar(potential=None), 1.0, step=0.01, energy=True)
 
 

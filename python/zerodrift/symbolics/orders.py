@@ -21,6 +21,7 @@ SAMPLES = 48
 ITERATIONS = 12         # of Newton's method
 CLOSED = 1e-9           # in parts of its row: a violation that is none
 LARGE = {1: 0.5, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
+ENOUGH = {size: share / 4 for size, share in LARGE.items()}     # where an order is still taken: csrc/motion/direct.c begins at 2^-3
 TRIPLES = 9             # rows and columns up to which three at a time are tried
 SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
 
@@ -45,10 +46,11 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
         C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
     except numeric.Unknown:
         return []
-    used = [[k for k in range(m) if (C[:, k, j] != 0).any()] for j in range(sizes[1])]
     orders: list[Order] = []
     while len(orders) < MOST and len(C):
-        order, served = _Search(C, used).run()
+        order, served = _Search(C, LARGE).run()
+        if not served.any() and not orders:     # the start ought to be served, if less well
+            order, served = _Search(C, ENOUGH).run()
         if not served.any():
             break
         orders.append(order)
@@ -93,7 +95,8 @@ def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> n
 class _Search:
     """The search for one order that serves as many configurations C (k, m, nv) as it can, the first of them before all others."""
 
-    def __init__(self, C: np.ndarray, used: list[list[int]]) -> None:
+    def __init__(self, C: np.ndarray, large: dict[int, float]) -> None:
+        self.large = large
         self.C, self.entries = C.copy(), C != 0
         self.entries[:] = self.entries.any(axis=0)
         self.served = np.ones(len(C), dtype=bool)
@@ -116,7 +119,7 @@ class _Search:
         for size in range(1, min(3, len(self.rows)) + 1):
             full = []
             for solve, determinants in self._candidates(size):
-                large = (determinants >= LARGE[size]) & self.served
+                large = (determinants >= self.large[size]) & self.served
                 if large.sum() == self.served.sum():
                     full.append((self._fill(solve), -determinants[self.served].min(), solve))
                 elif large[0] or not self.served[0]:
