@@ -69,7 +69,7 @@ static int measure_effort(const zd_mechanism *self, const zd_frame *frame, const
 static int measure_drive(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
 {
     double bias;
-    int status = zd_drive_effort(self, frame, measure->index, at->t, at->lambda, value);
+    int status = zd_drive_effort(self, frame, measure->index, measure->term, at->t, at->lambda, value);
     const zd_relation *row = self->row + self->row_of_relation[measure->index];
     if (measure->quantity == ZD_DRIVE_POWER)
         *value *= zd_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist, &bias);

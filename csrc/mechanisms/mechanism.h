@@ -82,7 +82,7 @@ enum zd_quantity {
     ZD_JOINT_TENSION,           /* N: of joint `index`: the force of its first row, positive where it pulls */
     ZD_EFFORT_VALUE,            /* of effort `index`: of accelerations, though it needs none */
     ZD_EFFORT_POWER,            /* W: that it puts in */
-    ZD_DRIVE_VALUE,             /* of relation `index`: the effort along its first gauge, positive where it drives it up */
+    ZD_DRIVE_VALUE,             /* of relation `index`: the effort along the gauge of its term `term`, positive where it drives it up */
     ZD_DRIVE_POWER
 };
 
@@ -92,6 +92,7 @@ typedef struct zd_observed {
     int index;
     int size;                   /* of values, rates and accelerations: how many gauges; else as `quantity` says */
     double scale;               /* what it is multiplied with: -1 for tensions of springs */
+    int term;                   /* of drive values: which of the relation's terms; else 0 */
 } zd_observed;
 
 /* A law that somebody else computes; k is the number of its terms. For an effort it writes out[0] alone. For a relation: g, dg/dx_i (k),

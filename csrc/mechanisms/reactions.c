@@ -79,12 +79,12 @@ static void of_rows(const zd_mechanism *self, const zd_frame *frame, int joint, 
     }
 }
 
-int zd_drive_effort(const zd_mechanism *self, const zd_frame *frame, int relation, double t, const double *lambda, double *effort)
+int zd_drive_effort(const zd_mechanism *self, const zd_frame *frame, int relation, int term, double t, const double *lambda, double *effort)
 {
     int row = self->row_of_relation[relation];
     const double *factors = zd_row_factors(self, frame, self->row + row, t);
     if (!factors) return ZD_CALLBACK;
-    *effort = -lambda[row] * factors[0];
+    *effort = -lambda[row] * factors[term];
     return ZD_DONE;
 }
 
@@ -101,7 +101,7 @@ static int of_drives(const zd_mechanism *self, const zd_frame *frame, int joint,
     for (int i = 0; i < self->relations; i++) {
         const zd_relation *row = self->row + self->row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(self, frame, i, t, lambda, &value)) return ZD_CALLBACK;
+        if (zd_drive_effort(self, frame, i, 0, t, lambda, &value)) return ZD_CALLBACK;
         add_gauge(self, frame, self->term[row->first].gauge, point, value, to);
     }
     return ZD_DONE;

@@ -134,6 +134,7 @@ class Observed(NamedTuple):
     index: int                  # of the first gauge, the joint, effort or relation
     size: int = 1               # of values, rates and accelerations
     scale: float = 1.0
+    term: int = 0               # of drives: along which of the relation's gauges
 
 
 class Tables(NamedTuple):
@@ -347,7 +348,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
                         len(terms), len(effort.inputs), effort.joint))
         terms += ((gauge, 1.0) for gauge in effort.inputs)
     names = {word: ffi.new("char[]", word.encode()) for row in tables.measures for word in (row.name, row.unit)}
-    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], row.index, row.size, row.scale)
+    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], *row[3:])
                 for row in tables.measures]
     given = {
         "body": ffi.new("zd_body[]", list(tables.bodies)), "joint": ffi.new("zd_joint[]", list(tables.joints)),

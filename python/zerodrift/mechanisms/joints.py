@@ -8,7 +8,7 @@ import numpy as np
 
 from .bodies import Point
 from .laws import Law
-from .measures import scalar, vector
+from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 
@@ -35,7 +35,9 @@ class Joint:
         self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
         self.damping, self.cut = damping, cut
 
-    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N.")
+    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds the "
+                   "joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what they do "
+                   "along the joint's coordinate is in their measures, and not in this one.")
 
     @property
     def measured_name(self) -> str:
@@ -74,7 +76,8 @@ class Revolute(Joint):
     kind, own, coordinate = "revolute", 1, "angle"
     angle = scalar("angle", "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
     speed = scalar("speed", "The rate of `angle`, in rad/s.")
-    torque = scalar("torque", "The moment that the first body exerts on the second through the joint, in N m.")
+    torque = scalar("torque", "The moment that the first body exerts on the second through the joint, in N m; as with `force`, "
+                    "without springs and couplings.")
 
 
 class Prismatic(Joint):
@@ -152,14 +155,52 @@ class Coupling:
     name : str
     kind : str
     of : tuple of str
-        The measures it couples: of gears and racks (first, second), where ``second = ratio * first``.
+        The measures it couples: of gears and racks (first, second), where ``second = ratio * first``; of cams (cam, follower).
     ratio : float or None
     law : Law or None
         What has to be zero, of the others.
+
+    Notes
+    -----
+    A coupling acts along the measures that it couples: along the coordinate of a joint between the two bodies of that joint,
+    with opposite signs. It is an element of its own, as a spring is: `force` and `torque` of joints leave it out, and its effort is
+    its own measure, `force` or `torque` by the unit of the second of these measures, positive where it drives that one up. For
+    every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
+    across these coordinates (the load with which gears push their shafts apart and aside) is not modelled.
     """
 
     def __init__(self, name: str, kind: str, of: tuple[str, ...], *, ratio: float | None = None, law: Law | None = None) -> None:
         self.name, self.kind, self.of, self.ratio, self.law = name, kind, of, ratio, law
+
+    @property
+    def efforts(self) -> dict[str, int]:
+        """What is measured of its effort, and along which of the measures in `of`."""
+        if self.kind in ("constraint", "nonholonomic"):
+            return {}
+        last = min(1, len(self.of) - 1)
+        effort = {_effort_along(self.of[last]): last}
+        return {**effort, "cam_torque": 0} if self.kind == "cam" else effort
+
+    @property
+    def force(self) -> Measure:
+        """The force along the second measure, positive where it drives it up, in N; where that measure is in m."""
+        return self._effort("force")
+
+    @property
+    def torque(self) -> Measure:
+        """The torque along the second measure, positive where it drives it up, in N m; where that measure is in rad."""
+        return self._effort("torque")
+
+    @property
+    def cam_torque(self) -> Measure:
+        """The torque on a cam, positive where it drives the cam's angle up, in N m."""
+        return self._effort("cam_torque")
+
+    def _effort(self, effort: str) -> Measure:
+        if effort not in self.efforts:
+            known = ", ".join(self.efforts) or "no measure but its multiplier"
+            raise AttributeError(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has {known}")
+        return Measure(f"{self.name}.{effort}")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path."""
@@ -167,3 +208,8 @@ class Coupling:
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}: {', '.join(self.of)}>"
+
+
+def _effort_along(measure: str) -> str:
+    """What acts along a measure: a torque along an angle, a force along a length."""
+    return "torque" if measure.endswith(".angle") else "force"

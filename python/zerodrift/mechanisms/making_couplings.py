@@ -39,6 +39,12 @@ class CouplingVerbs(Elements):
         >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
         >>> m.gear("mesh", *pins, ratio=-2.0)
         <gear mesh: pin0.angle, pin1.angle>
+
+        Notes
+        -----
+        The gear acts along the two angles, between the two bodies of each joint. Its effort is its own measure: ``mesh.torque``,
+        in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on ``first.angle``.
+        `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings is not modelled.
         """
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio)
 
@@ -66,6 +72,13 @@ class CouplingVerbs(Elements):
         >>> rack = m.prismatic("rack", m.ground, bar, axis=(1, 0))
         >>> m.rack_pinion("teeth", pinion, rack, ratio=0.02)
         <rack_pinion teeth: pinion.angle, rack.displacement>
+
+        Notes
+        -----
+        The teeth act along the two coordinates, between the two bodies of each joint. Their effort is a measure of its own:
+        ``teeth.force``, in N, acts on ``rack.displacement`` and is positive where it drives the rack forward; ``-ratio * teeth.force``
+        (N m) acts on ``pinion.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings
+        is not modelled.
         """
         return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
 
@@ -102,6 +115,14 @@ class CouplingVerbs(Elements):
         >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
         >>> m.coupler("cage", {pins[0].angle: 1.0, pins[1].angle: 1.0, pins[2].angle: -2.0})
         <coupler cage: pin0.angle, pin1.angle, pin2.angle>
+
+        Notes
+        -----
+        The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is its
+        own measure, ``cage.torque`` in N m where the second of the measures (here ``pin1.angle``) is an angle, else ``cage.force`` in N.
+        It is that on the second of them, positive where it drives it up; on any other it is larger by the derivative of `value`
+        to that one over the derivative to the second. `force` and `torque` of joints leave it out, and side loads, as of teeth on bearings,
+        are not modelled.
         """
         name = self._new_name(name, "coupler")
         if isinstance(value, Mapping):
@@ -137,6 +158,13 @@ class CouplingVerbs(Elements):
         >>> lift = m.prismatic("lift", m.ground, valve, axis=(0, 1))
         >>> m.cam("cam", turn, lift, profile=lambda angle: 0.01 * (1 - np.cos(angle)))
         <cam cam: turn.angle, lift.displacement>
+
+        Notes
+        -----
+        The cam acts along the two coordinates, between the two bodies of each joint. Its effort is its own measure: on the follower,
+        ``cam.force`` in N or, where the follower is an angle, ``cam.torque`` in N m, positive where it drives the follower up; on the
+        cam, ``cam.cam_torque`` in N m, positive where it drives the angle up. `force` and `torque` of the joints leave it out, and
+        the side load on guides and bearings is not modelled. A cam pulls, too: its follower does not lift off where the force is negative.
         """
         name = self._new_name(name, "cam")
         cam = self._joint(f"cam of {name!r}", cam, ("angle",))

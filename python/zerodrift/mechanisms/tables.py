@@ -201,6 +201,7 @@ class Tables:
             gauges = [self.gauge_number[name] for name in coupling.of]
             ratio = self.numbers(coupling, "ratio", coupling.ratio)
             self._relation(coupling.name, rows.Relation(gauges, [-ratio, 1.0]))
+            self._observe_coupling(coupling, [0, 1])
             return
         gauges, picks = self._inputs(coupling.of)
         nonholonomic = coupling.kind == "nonholonomic"
@@ -208,6 +209,13 @@ class Tables:
         if nonholonomic:
             row.check_linear(len(gauges))
         self._relation(coupling.name, rows.Relation(gauges, nonholonomic=nonholonomic, law=self.laws.add(row)))
+        self._observe_coupling(coupling, [gauge for gauge, _ in picks])
+
+    def _observe_coupling(self, coupling: Coupling, terms: Sequence[int]) -> None:
+        """Adds the efforts of the relation added last: `terms` are those of the measures that the coupling is of."""
+        for effort, of in coupling.efforts.items():
+            unit = "N m" if effort.endswith("torque") else "N"
+            self.observed.append(Observed(f"{coupling.name}.{effort}", unit, "drive", len(self.relations) - 1, term=terms[of]))
 
     # ---- forces ----
 
