@@ -84,7 +84,8 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool
     if v is not None or hold != () or not (held is None or isinstance(held, Mapping)):
         raise TypeError("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
     if not hasattr(system, "_assembled"):
-        raise TypeError(f"p must hold real numbers, not object: a dict of values by measure is for mechanisms, and {system.name} is none")
+        raise TypeError("p must hold real numbers, not object: a dict of values by measure is for mechanisms, "
+                        f"and {system.name} is none")
     return system._assembled(held, wish, nudge, t)
 
 
