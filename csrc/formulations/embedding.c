@@ -3,7 +3,8 @@
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be the identity. Where there are unit quaternions, increments take the place of entries: increments.c. It starts from where the velocity of the point before leads, whose branch it stays on.
+ * so that A need not be the identity. Where there are unit quaternions, increments take the place of entries: increments.c. The iteration
+ * starts from where the velocity of the point before leads, whose branch it stays on.
  */
 #include "embedding.h"
 

@@ -14,7 +14,8 @@
 #include "motion.h"
 
 static const double LARGE = 0x1p-3;         /* the first order with such pivots is taken, */
-static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in D and ten in M */
+static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in
+                                             * D and ten in M */
 static const double SMALL = 0x1p-6;         /* for a step to end with: the general road counts less of a row as ill-conditioned, too */
 static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
 static const double SHRUNK = 0x1p-4;        /* within a step: what lies between its ends is then no longer known from them */

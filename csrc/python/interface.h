@@ -1,6 +1,7 @@
 /* What the extension module has beside zerodrift.h: what it was built from, and systems that are written in Python.
  *
- * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. What is marked as written in Python are functions that call it.
+ * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. What is marked as
+ * written in Python are functions that call it.
  */
 #ifndef ZD_PYTHON_INTERFACE_H
 #define ZD_PYTHON_INTERFACE_H

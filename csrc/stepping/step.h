@@ -16,7 +16,8 @@ typedef struct zd_variables {
 typedef struct zd_stepper {
     zd_motion *motion;
     zd_variables chosen;    /* those of the settings */
-    zd_variables dependent; /* (p, v), where those lose digits; without a formulation where none can, without a solver until then: see variables.c */
+    zd_variables dependent; /* (p, v), where those lose digits; without a formulation where none can, without a solver until
+                             * then: see variables.c */
     zd_system independent;  /* the sizes that its solver is laid out for */
     int capacity;           /* the largest size of the state */
     const zd_integrator *integrator;

@@ -221,7 +221,8 @@ typedef struct zd_group {
     int first, rows;        /* of C */
 } zd_group;
 
-/* By how much the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, change along a direction, while vdot and lambda stay. */
+/* By how much the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, change along a direction, while vdot and
+ * lambda stay. */
 typedef struct zd_residuals {
     int scratch;            /* doubles that a call needs */
     int (*derivative)(const void *data, double t, const double *p, const double *v, const double *vdot, const double *lambda,
