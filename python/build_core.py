@@ -1,5 +1,6 @@
 """Builds the C core as the extension module ``zerodrift._core`` (CFFI, out of line, stable ABI)."""
 
+import logging
 import os
 import re
 import runpy
@@ -44,7 +45,12 @@ def preprocessed(text: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         source, result = Path(folder, "headers.c"), Path(folder, "headers.i")
         source.write_text(text)
-        compiler.preprocess(str(source), str(result))
+        before = logging.root.manager.disable
+        logging.disable(logging.INFO)       # distutils tells every command, and asks nobody for -q before there is a build
+        try:
+            compiler.preprocess(str(source), str(result))
+        finally:
+            logging.disable(before)
         return re.sub(r"^#.*$", "", result.read_text(), flags=re.MULTILINE)
 
 
