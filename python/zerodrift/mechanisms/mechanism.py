@@ -80,7 +80,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         ----------
         coordinates : {None, "joint", "absolute"}
             "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints.
-            "absolute": three coordinates a body, and all joints are constraints. None: "joint", the cheaper one.
+            "absolute": three coordinates a body, and all joints are constraints. None: "joint", until structured
+            systems have linear cost.
 
         Returns
         -------

@@ -39,7 +39,7 @@ def report(drawing: Drawing) -> str:
     driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
-    lines.append(" a simulation takes joint coordinates, of which there are fewer")
+    lines.append(" a simulation takes joint coordinates, until structured systems have linear cost")
     return "\n".join(lines)
 
 
