@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zerodrift import _gateway
 from zerodrift._gateway import Variable
-from zerodrift._gateway.mechanisms import Body, Effort, Gauge, Joint, MechanismCore, Observed, Relation, Tables
+from zerodrift._gateway.mechanisms import Body, Effort, Gauge, Joint, MechanismCore, Observed, Relation, Tables, joint_kinds
 from zerodrift.systems.base import BaseSystem
 
-KINDS = _gateway.joint_kinds()
+KINDS = joint_kinds()
 TREE = [name for name, kind in KINDS.items() if kind.carrier]
 UNITS = {"x": "m", "y": "m", "angle": "rad", "displacement": "m"}
 

@@ -35,6 +35,13 @@ def test_the_module_has_what_it_lists():
         _ = zd.System2
 
 
+def test_what_is_not_used_is_not_imported():
+    heavy = ["matplotlib", "sympy", "zerodrift.mechanisms", "zerodrift._gateway.mechanisms", "zerodrift.inertia",
+             "zerodrift.symbolics"]
+    code = f"import sys, zerodrift; print([name for name in {heavy} if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
 def test_matplotlib_waits_until_something_is_drawn():
     code = "import sys, zerodrift as zd; zd.simulate(zd.systems.four_bar(), 1, step=0.05); print('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

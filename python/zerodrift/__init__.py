@@ -9,7 +9,7 @@
 import importlib
 from typing import Any
 
-from . import inertia, systems
+from . import systems
 from .errors import (
     AccuracyWarning,
     Bifurcation,
@@ -32,7 +32,6 @@ from .errors import (
     UnsuitedIntegrator,
     ZerodriftError,
 )
-from .mechanisms.mechanism import Mechanism
 from .runs.events import Event
 from .runs.operations import acceleration, assemble, project
 from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
@@ -53,14 +52,15 @@ __all__ = [
     "stability_map", "symbolic", "systems", "tune", "work_precision",
 ]
 _LATER = {      # imported at first use
-    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "native": "systems.native",
-    "numba_signature": "systems.native", "reference": "studies.reference", "stability_map": "studies.stability_map",
-    "symbolic": "symbolics.define", "tune": "studies.tune", "work_precision": "studies.work_precision",
+    "Mechanism": "mechanisms.mechanism", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
+    "native": "systems.native", "numba_signature": "systems.native", "reference": "studies.reference",
+    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "tune": "studies.tune",
+    "work_precision": "studies.work_precision",
 }
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("models", "plot"):      # SymPy and matplotlib are imported when they are used
+    if name in ("inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
         return importlib.import_module(f".{name}", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)

@@ -6,8 +6,7 @@ import pytest
 import tolerances as tol
 from mechanism_tables import KINDS, TREE, Body, Gauge, Observed, Tabled, Tables, rotation
 from support import along, assert_close
-from zerodrift import _gateway
-from zerodrift._gateway.mechanisms import GAUGES
+from zerodrift._gateway.mechanisms import GAUGES, element_kinds
 
 FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
 INTEGRABLE = sorted(GAUGES.keys() - {"glide", "skid"})
@@ -95,7 +94,7 @@ def test_a_measure_tells_its_row_and_bias(which, state):
 
 
 def test_the_tables_introduce_their_rows():
-    for table in (KINDS, _gateway.element_kinds()):
+    for table in (KINDS, element_kinds()):
         for name, row in table.items():
             assert row.card.name == name
             assert row.card.summary.endswith(".")

@@ -1,4 +1,7 @@
-"""The one door between Python and the C core: nothing outside this package touches ``ffi`` and ``lib``."""
+"""The one door between Python and the C core: nothing outside this package touches ``ffi`` and ``lib``.
+
+Its module `mechanisms` is imported by whoever makes mechanisms, and by nobody else.
+"""
 
 from .base import (
     CALLBACK,
@@ -24,7 +27,6 @@ from .base import (
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
-from .mechanisms import MechanismCore, element_kinds, joint_kinds
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
@@ -33,10 +35,10 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
-    "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "MechanismCore",
+    "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
     "NativeCore", "Packing", "Parameter", "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration",
-    "address_of", "cards", "clash", "count_steps", "default", "doubles", "element_kinds", "error_of", "find", "in_library",
-    "is_length", "joint_kinds", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
+    "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find", "in_library",
+    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
     "required", "settings", "step", "terms_of",
 ]
 

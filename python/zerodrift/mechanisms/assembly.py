@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import _gateway
+from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
@@ -47,7 +47,7 @@ class Assembly:
         The size of the mechanism in m.
     """
 
-    def __init__(self, core: _gateway.MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
+    def __init__(self, core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
                  t: float) -> None:
         self.core, self.rows, self.length, self.t = core, rows, length, t
         self.kept = [row for row in range(core.mh) if row not in set(left_out)]

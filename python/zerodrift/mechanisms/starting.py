@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _gateway
+from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, SingularSystem
 from .assembly import Assembly, Target
 from .drawing import Drawing
@@ -95,7 +95,7 @@ class Starting:
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
 
-    def _targets(self, given: Mapping[str, Any], core: _gateway.MechanismCore, *, rates: bool) -> list[Target]:
+    def _targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool) -> list[Target]:
         """The components of what is held or wished, of positions or of velocities."""
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []

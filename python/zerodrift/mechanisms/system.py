@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
+from .. import _check
 from .._gateway import Variable
+from .._gateway.mechanisms import MechanismCore
 from ..systems.base import BaseSystem
 from .drawing import Drawing
 from .numbers import Numbers
@@ -52,7 +53,7 @@ class MechanismSystem(BaseSystem):
         self._watching = Watching(self.measures, self._first_core)
 
     @functools.cached_property
-    def _core(self) -> _gateway.MechanismCore:
+    def _core(self) -> MechanismCore:
         if not self._start.has_speeds:
             return self._first_core
         return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives).core()
@@ -125,7 +126,7 @@ class MechanismSystem(BaseSystem):
         return list(self.measures)
 
 
-def _variables(tables: Tables, core: _gateway.MechanismCore) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
+def _variables(tables: Tables, core: MechanismCore) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
     """Coordinates and velocities: the names of what they measure."""
     coordinates, velocities = [], []
     for coordinate in core.coordinates:
@@ -143,7 +144,7 @@ def _variables(tables: Tables, core: _gateway.MechanismCore) -> tuple[tuple[Vari
     return tuple(coordinates), tuple(velocities)
 
 
-def row_names(tables: Tables, core: _gateway.MechanismCore) -> tuple[Variable, ...]:
+def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
     """What each row of C is: of a joint, which of its gauges; of a drive or coupling, its name."""
     named = []
     for row in core.rows:

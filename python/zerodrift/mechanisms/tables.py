@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import _gateway
 from .._gateway import mechanisms as rows
-from .._gateway.mechanisms import Gauge, Observed
+from .._gateway.mechanisms import Gauge, MechanismCore, Observed
 from . import law_rows
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
@@ -19,7 +18,7 @@ from .numbers import Numbers
 from .readings import has_coordinate, reading
 from .tree import Edge, carriers
 
-JOINTS, ELEMENTS = _gateway.joint_kinds(), _gateway.element_kinds()
+JOINTS, ELEMENTS = rows.joint_kinds(), rows.element_kinds()
 UNITS = {"position": ("m", "m/s"), "angle": ("rad", "rad/s"), "displacement": ("m", "m/s"), "length": ("m", "m/s")}
 RATES = {"position": "velocity", "angle": "angular_velocity"}
 
@@ -59,13 +58,13 @@ class Tables:
             for element in drawing.of(kind):
                 add(element)
 
-    def core(self) -> _gateway.MechanismCore:
+    def core(self) -> MechanismCore:
         """The core's system."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True)]
         tables = rows.Tables(bodies, [self._joint(joint) for joint in self.joints], self.gauges, self.relations, self.efforts,
                                  self.observed, self._gravity())
-        return _gateway.MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+        return MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
 
     def _gravity(self) -> tuple[float, float]:
         return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value)) for axis, value in zip("xy", self.drawing.gravity,

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _gateway
+from .._gateway.mechanisms import MechanismCore
 
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
 DEPENDENT = 1e-9        # of the largest singular value: rows that follow from others
@@ -17,7 +18,7 @@ DEPENDENT = 1e-9        # of the largest singular value: rows that follow from o
 class Watching:
     """Reads the measures of a mechanism, by their names, off solutions."""
 
-    def __init__(self, names: Sequence[str], core: _gateway.MechanismCore) -> None:
+    def __init__(self, names: Sequence[str], core: MechanismCore) -> None:
         self.number = {name: i for i, name in enumerate(names)}
         self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
 
@@ -30,7 +31,7 @@ class Watching:
             return self.number[base], "xy".index(axis)
         return None
 
-    def values(self, name: str, core: _gateway.MechanismCore, solution: Any) -> np.ndarray | None:
+    def values(self, name: str, core: MechanismCore, solution: Any) -> np.ndarray | None:
         """A measure at all rows: (k,) of a scalar or a component, (k, 2) of a vector; None: there is none of that name."""
         found = self.find(name)
         if found is None:
@@ -38,13 +39,13 @@ class Watching:
         number, component = found
         return _component(self._evaluate(number, core, solution, solution.multipliers), component)
 
-    def _evaluate(self, number: int, core: _gateway.MechanismCore, solution: Any, multipliers: np.ndarray) -> np.ndarray:
+    def _evaluate(self, number: int, core: MechanismCore, solution: Any, multipliers: np.ndarray) -> np.ndarray:
         t, p, v = (np.ascontiguousarray(array) for array in (solution.t, solution.p, solution.v))
         if core.measure_depends(number) != "accelerations":
             return core.measure(number, t, p, v)
         return core.measure(number, t, p, v, self._accelerate(core, solution), np.ascontiguousarray(multipliers))
 
-    def _accelerate(self, core: _gateway.MechanismCore, solution: Any) -> np.ndarray:
+    def _accelerate(self, core: MechanismCore, solution: Any) -> np.ndarray:
         """The accelerations (k, nv) at all rows."""
         known = self._accelerations.get(solution)
         if known is None:
@@ -52,7 +53,7 @@ class Watching:
             known = self._accelerations[solution] = np.array(rows).reshape(len(rows), core.nv)
         return known
 
-    def unique(self, name: str, core: _gateway.MechanismCore, solution: Any) -> Any:
+    def unique(self, name: str, core: MechanismCore, solution: Any) -> Any:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
         found = self.find(name)
         if found is None:
@@ -67,7 +68,7 @@ class Watching:
         same = same if component is None else same[component : component + 1]
         return bool(same[0]) if same.size == 1 else same
 
-    def at(self, name: str, core: _gateway.MechanismCore, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def at(self, name: str, core: MechanismCore, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """A measure of positions or velocities at one state."""
         number, component = self.find(name)
         found = core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))
@@ -80,13 +81,13 @@ def _component(values: np.ndarray, component: int | None) -> np.ndarray:
     return values[:, 0] if values.shape[1] == 1 else values
 
 
-def _acceleration(core: _gateway.MechanismCore, solution: Any, row: int) -> np.ndarray:
+def _acceleration(core: MechanismCore, solution: Any, row: int) -> np.ndarray:
     formulation = [card.name for card in _gateway.cards("formulations")].index(solution.settings["formulation"])
     p, v = np.ascontiguousarray(solution.p[row]), np.ascontiguousarray(solution.v[row])
     return _gateway.acceleration(core, formulation, 1, float(solution.t[row]), p, v)[0]
 
 
-def _shifts(core: _gateway.MechanismCore, solution: Any) -> list[np.ndarray]:
+def _shifts(core: MechanismCore, solution: Any) -> list[np.ndarray]:
     """Multipliers (k, m) that act on nothing: a basis of them at each row, filled up with zeros where there are fewer."""
     bases = []
     for t, p, v in zip(solution.t, solution.p, solution.v, strict=True):

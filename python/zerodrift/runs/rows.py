@@ -6,6 +6,7 @@ All of it comes from the core: a row that is added there is here, with its param
 from __future__ import annotations
 
 import dataclasses
+import functools
 import textwrap
 from typing import Any, ClassVar
 
@@ -97,7 +98,7 @@ class Row(_gateway.Card):
 
     @property
     def settings(self) -> type[RowSettings]:
-        return _CLASSES[self]
+        return _class_of(self)
 
     def __repr__(self) -> str:
         lines = [f"{self.name}: {self.summary}", "", *_paragraph(self.description)]
@@ -151,9 +152,14 @@ def _documentation(table: str, card: Row, name: str) -> str:
                       f">>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, {argument}=zd.{known}())"])
 
 
-def _class_of(table: str, card: Row) -> type[RowSettings]:
+def _class_name(card: Row) -> str:
+    return CLASS_NAMES.get(card.name, "".join(word.capitalize() for word in card.name.split("_")))
+
+
+@functools.cache        # each is made when it is first asked for: making all of them takes longer than importing all else
+def _class_of(card: Row) -> type[RowSettings]:
     """The settings of a row: a frozen dataclass whose fields are its parameters."""
-    name = CLASS_NAMES.get(card.name, "".join(word.capitalize() for word in card.name.split("_")))
+    name, table = _class_name(card), next(table for table, cards in TABLES.items() if cards.get(card.name) == card)
     fields = [(parameter.name, "str" if parameter.rule == "choice" else KINDS[parameter.rule], _initial(parameter))
               for parameter in card.parameters]
     words = {f"{parameter.name.upper()}S": parameter.words for parameter in card.parameters if parameter.rule == "choice"}
@@ -173,8 +179,7 @@ def _again(table: str, name: str, *values: Any) -> RowSettings:
     return TABLES[table][name].settings(*values)
 
 
-_CLASSES = {card: _class_of(table, card) for table, cards in TABLES.items() for card in cards.values()}
-CLASSES = {made.__name__: made for made in _CLASSES.values()}
+CARDS = {_class_name(card): card for cards in TABLES.values() for card in cards.values()}       # by the names of their classes
 Projection = TABLES["corrections"]["projection"].settings
 Baumgarte = TABLES["corrections"]["baumgarte"].settings
 EnergyCorrection = TABLES["corrections"]["energy"].settings

@@ -13,7 +13,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.builtin import FACTORIES, BuiltIn
-from .rows import CLASSES, RowSettings
+from .rows import CARDS, RowSettings
 from .settings import core_settings, corrections_of
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
@@ -354,7 +354,7 @@ def _to_json(value: Any) -> Any:
 
 def _from_json(value: Any) -> Any:
     if isinstance(value, dict):
-        return CLASSES[value.pop("kind")](**value)
+        return CARDS[value.pop("kind")].settings(**value)
     if isinstance(value, list) and value and isinstance(value[0], dict):
         return tuple(map(_from_json, value))
     return np.array(value) if isinstance(value, list) else value
