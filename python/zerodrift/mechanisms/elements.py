@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from . import names
-from .bodies import Body, Ground, Particle, Point, place
+from .bodies import Body, Ground, Link, Particle, Point, place
 from .forces import Motor
 from .joints import Joint
 from .laws import Law
@@ -46,8 +46,28 @@ class Elements:
 
     # ---- reading arguments ----
 
+    def _named(self, argument: str, value: Any) -> Any:
+        """What a name stands for: an element, or the start or end of a link; what is no string is taken as it is."""
+        if not isinstance(value, str):
+            return value
+        if value in self._elements:
+            return self._elements[value]
+        owner, _, side = value.partition(".")
+        if side in ("start", "end") and isinstance(link := self._elements.get(owner), Link):
+            return getattr(link, side)
+        raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {self._alike(value)}")
+
+    def _alike(self, name: str) -> str:
+        """The names most like one that there is not, best first; where none is like it, all."""
+        import difflib
+
+        ends = [f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end")]
+        close = difflib.get_close_matches(name, [*self._elements, *ends], n=5)
+        return f"{'close to it' if close else 'there'} is {', '.join(map(repr, close or self._elements))}"
+
     def _body(self, argument: str, value: Any) -> Body:
         """A body of this mechanism."""
+        value = self._named(argument, value)
         _check.instance(argument, value, Body, f"a body of {self.name!r}")
         if self._elements.get(value.name) is not value:
             raise ValueError(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
@@ -55,6 +75,7 @@ class Elements:
 
     def _point(self, argument: str, value: Any, *, center: bool = False) -> Point:
         """A point of this mechanism; of a particle, its place, and of a body its centre of mass, where that is meant."""
+        value = self._named(argument, value)
         if isinstance(value, Particle):
             return self._particle_point(argument, value)
         if center and isinstance(value, Body):
@@ -71,6 +92,7 @@ class Elements:
 
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
         """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
+        value = self._named(argument, value)
         _check.instance(argument, value, Joint, "a joint")
         if self._elements.get(value.name) is not value:
             raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism")
@@ -83,11 +105,12 @@ class Elements:
 
     def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
         """The points that a joint joins, each in the frame of its body, (first, second)."""
+        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
         if at is not None and not all(is_body):
             raise TypeError(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is")
         if at is not None:
-            at = place("at", at)
+            at = self._drawn("at", at)
             sides = tuple(self._body(side, value).point(at=at) for side, value in (("first", first), ("second", second)))
         else:
             sides = self._given_sides(name, first, second, is_body)
@@ -102,6 +125,10 @@ class Elements:
             return self._body("first", first).point(at=second.drawn), second
         first = self._point("first", first)
         return first, self._body("second", second).point(at=first.drawn) if is_body[1] else self._point("second", second)
+
+    def _drawn(self, argument: str, value: Any) -> np.ndarray:
+        """A place in the drawing, (2,): coordinates, or where a point is drawn."""
+        return place(argument, self._named(argument, value))
 
     def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
         if first.body is second.body:

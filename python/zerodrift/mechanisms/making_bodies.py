@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .bodies import Body, Link, Particle, Point, place
+from .bodies import Body, Link, Particle, Point
 from .elements import Elements
 from .plane import Pose
 
@@ -27,7 +27,7 @@ class BodyVerbs(Elements):
             In kg, at least 0.
         inertia : float
             About the centre of mass, in kg m^2, at least 0; `zerodrift.inertia` has it for plain shapes.
-        at : array_like (2,) or Point
+        at : array_like (2,), Point or name
             Where the origin of its frame is in the drawing, in m.
         angle : float
             Of its frame, from the drawing's x axis, counter-clockwise, in rad.
@@ -51,7 +51,7 @@ class BodyVerbs(Elements):
         <body wheel>
         """
         name = self._new_name(name, "body")
-        pose = Pose(place(f"at of {name!r}", at), _check.number(f"angle of {name!r}", angle))
+        pose = Pose(self._drawn(f"at of {name!r}", at), _check.number(f"angle of {name!r}", angle))
         return self._add(Body(name, pose, _amount("mass", name, mass), _amount("inertia", name, inertia),
                               _check.vector(f"com of {name!r}", com, 2)))
 
@@ -63,7 +63,7 @@ class BodyVerbs(Elements):
         ----------
         name : str
             Letters, digits, blanks, ``_`` and ``-``.
-        start, end : array_like (2,) or Point
+        start, end : array_like (2,), Point or name
             In the drawing, in m. Its frame begins at the start, and its x axis goes to the end.
         mass : float
             In kg, at least 0.
@@ -90,7 +90,7 @@ class BodyVerbs(Elements):
         0.5
         """
         name = self._new_name(name, "link")
-        start, end = place(f"start of {name!r}", start), place(f"end of {name!r}", end)
+        start, end = self._drawn(f"start of {name!r}", start), self._drawn(f"end of {name!r}", end)
         if not np.hypot(*(end - start)) > 0:
             raise ValueError(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}")
         if length is not None:
@@ -108,7 +108,7 @@ class BodyVerbs(Elements):
             Letters, digits, blanks, ``_`` and ``-``.
         mass : float
             In kg, at least 0.
-        at : array_like (2,) or Point
+        at : array_like (2,), Point or name
             Where it is in the drawing, in m: then it is a part of its own. Or a point of a body: then its mass belongs to that
             body, and it has measures, but no joint.
 
@@ -129,23 +129,23 @@ class BodyVerbs(Elements):
         <particle bob>
         """
         name = self._new_name(name, "particle")
-        mass = _amount("mass", name, mass)
+        mass, at = _amount("mass", name, mass), self._named(f"at of {name!r}", at)
         if isinstance(at, Point | Particle):
             carrier = self._point("at", at)
             return self._add(Particle(name, carrier.drawn, mass, carrier))
         return self._add(Particle(name, _check.vector(f"at of {name!r}", at, 2), mass))
 
-    def point(self, name: str, body: Body, local: Any = None, *, at: Any = None) -> Point:
+    def point(self, name: str, body: Body | str, local: Any = None, *, at: Any = None) -> Point:
         """Add a named point to a body, as ``body.point(local, at=at, name=name)`` does.
 
         Parameters
         ----------
         name : str
             For its measures, ``"name.position"`` and ``"name.velocity"``.
-        body : Body
+        body : Body or name
         local : array_like (2,)
             Its coordinates in the body's frame, in m.
-        at : array_like (2,)
+        at : array_like (2,), Point or name
             Instead: where it is in the drawing.
 
         Returns
@@ -160,6 +160,7 @@ class BodyVerbs(Elements):
         >>> m.point("P", link, (0.5, 0)).position
         VectorMeasure('P.position')
         """
+        at = None if at is None else self._drawn("at", at)
         return self._body("body", body).point(local, at=at, name=self._new_name(name, "point"))
 
 

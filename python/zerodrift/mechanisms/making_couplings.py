@@ -16,13 +16,13 @@ from .splines import PeriodicSpline
 class CouplingVerbs(Elements):
     """Couplings of measures, one row each."""
 
-    def gear(self, name: str, first: Joint, second: Joint, *, ratio: float) -> Coupling:
+    def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float) -> Coupling:
         """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
 
         Parameters
         ----------
         name : str
-        first, second : Joint
+        first, second : Joint or name
             Two revolutes.
         ratio : float
             Less than 0 for wheels that mesh outside.
@@ -48,13 +48,13 @@ class CouplingVerbs(Elements):
         """
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio)
 
-    def rack_pinion(self, name: str, pinion: Joint, rack: Joint, *, ratio: float) -> Coupling:
+    def rack_pinion(self, name: str, pinion: Joint | str, rack: Joint | str, *, ratio: float) -> Coupling:
         """Couple a hinge and a slider: ``rack.displacement = ratio * pinion.angle``.
 
         Parameters
         ----------
         name : str
-        pinion, rack : Joint
+        pinion, rack : Joint or name
             A revolute; a prismatic or a slot.
         ratio : float
             In m/rad.
@@ -131,15 +131,15 @@ class CouplingVerbs(Elements):
             value, of = _Sum(tuple(terms.values())), {f"x{i}": measure for i, measure in enumerate(terms)}
         return self._by_law(name, "coupler", value, of)
 
-    def cam(self, name: str, cam: Joint, follower: Joint | Measure | str, *, profile: Any) -> Coupling:
+    def cam(self, name: str, cam: Joint | str, follower: Joint | Measure | str, *, profile: Any) -> Coupling:
         """Couple a follower to the angle of a cam: ``follower = profile(angle)``.
 
         Parameters
         ----------
         name : str
-        cam : Joint
+        cam : Joint or name
             A revolute.
-        follower : Joint or measure
+        follower : Joint, measure, or name of one
             Whose coordinate, or what measure, follows.
         profile : callable, SymPy expression, or (angles, values)
             Of the angle, which it may call as it likes; in rad or m. A table over one turn becomes a periodic quintic spline.
@@ -168,6 +168,8 @@ class CouplingVerbs(Elements):
         """
         name = self._new_name(name, "cam")
         cam = self._joint(f"cam of {name!r}", cam, ("angle",))
+        if isinstance(follower, str) and "." not in follower:       # with a dot it is the name of a measure
+            follower = self._named(f"follower of {name!r}", follower)
         if isinstance(follower, Joint):
             follower = self._joint(f"follower of {name!r}", follower, ("angle", "displacement"))
             follower = f"{follower.name}.{follower.coordinate}"

@@ -20,14 +20,14 @@ DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("ang
 class ForceVerbs(Elements):
     """Drives, springs, forces. Callables name what they want: ``t``, parameters, and what ``of=`` binds to measures."""
 
-    def motor(self, name: str, joint: Joint, *, angle: Any = None, displacement: Any = None, speed: Any = None,
+    def motor(self, name: str, joint: Joint | str, *, angle: Any = None, displacement: Any = None, speed: Any = None,
               torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
         """Drive a joint.
 
         Parameters
         ----------
         name : str
-        joint : Joint
+        joint : Joint or name
             With an angle or a displacement.
         angle, displacement : float, callable or SymPy expression of t
             What the joint's coordinate is, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's functions.
@@ -75,14 +75,14 @@ class ForceVerbs(Elements):
             raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
         return self._add(motor)
 
-    def spring(self, name: str, first: Point | Particle, second: Point | Particle, *, stiffness: Any, length: float | None = None,
-               damping: float = 0.0) -> Spring:
+    def spring(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, stiffness: Any,
+               length: float | None = None, damping: float = 0.0) -> Spring:
         """Put a spring with a damper between two points.
 
         Parameters
         ----------
         name : str
-        first, second : Point or Particle
+        first, second : Point, Particle or name
         stiffness : float
             In N/m, at least 0.
         length : float, optional
@@ -109,14 +109,14 @@ class ForceVerbs(Elements):
         stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
         return self._add(Spring(name, first, second, stiffness, length, damping))
 
-    def torsion_spring(self, name: str, joint: Joint, *, stiffness: float, angle: float = 0.0,
+    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: float, angle: float = 0.0,
                        damping: float = 0.0) -> TorsionSpring:
         """Put a spring with a damper about a hinge.
 
         Parameters
         ----------
         name : str
-        joint : Joint
+        joint : Joint or name
             A revolute.
         stiffness : float
             In N m/rad, at least 0.
@@ -143,14 +143,15 @@ class ForceVerbs(Elements):
         stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
         return self._add(TorsionSpring(name, joint, stiffness, _check.number(f"angle of {name!r}", angle), damping))
 
-    def bushing(self, name: str, first: Body | Point, second: Body | Point, *, at: Any = None, stiffness: Any = (0.0, 0.0),
-                damping: Any = (0.0, 0.0), torsion: float = 0.0, torsion_damping: float = 0.0) -> Bushing:
+    def bushing(self, name: str, first: Body | Point | str, second: Body | Point | str, *, at: Any = None,
+                stiffness: Any = (0.0, 0.0), damping: Any = (0.0, 0.0), torsion: float = 0.0,
+                torsion_damping: float = 0.0) -> Bushing:
         """Join two bodies softly, by springs and dampers along and about the axes of the first.
 
         Parameters
         ----------
         name : str
-        first, second : Body or Point
+        first, second : Body, Point or name
             As of `revolute`. It is slack as drawn.
         at : array_like (2,)
             Where it is in the drawing, in m.
@@ -180,14 +181,14 @@ class ForceVerbs(Elements):
                   "torsion_damping": _least("torsion_damping", name, torsion_damping)}
         return self._add(Bushing(name, first, second, values))
 
-    def force(self, name: str, point: Point | Body, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
-              frame: Body | None = None) -> Force:
+    def force(self, name: str, point: Point | Body | str, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
+              frame: Body | str | None = None) -> Force:
         """Let a force act at a point.
 
         Parameters
         ----------
         name : str
-        point : Point or Body
+        point : Point, Body or name
             Of a body without a point, its centre of mass.
         along : array_like (2,)
             Its direction in the drawing; the length of the vector is ignored.
@@ -195,7 +196,7 @@ class ForceVerbs(Elements):
             In N, of t, parameters and measures of positions and velocities.
         of : dict of str to measure
             Under which names a callable is handed which measures.
-        frame : Body, optional
+        frame : Body or name, optional
             With which the direction turns; left out: it stays.
 
         Returns
@@ -225,19 +226,19 @@ class ForceVerbs(Elements):
         law = self._law(f"value of force {name!r}", value, of)
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
-    def torque(self, name: str, body: Body, *, value: Any, of: Mapping[str, Any] | None = None,
-               against: Body | None = None) -> Torque:
+    def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
+               against: Body | str | None = None) -> Torque:
         """Let a moment act on a body.
 
         Parameters
         ----------
         name : str
-        body : Body
+        body : Body or name
         value : float, callable or SymPy expression
             In N m, counter-clockwise, of t, parameters and measures of positions and velocities.
         of : dict of str to measure
             Under which names a callable is handed which measures.
-        against : Body, optional
+        against : Body or name, optional
             On which the opposite acts; left out: the ground.
 
         Returns

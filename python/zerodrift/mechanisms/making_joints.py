@@ -9,14 +9,15 @@ from .bodies import Body, Particle, Point
 from .elements import Elements
 from .joints import KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
 
-Side = Body | Point
+Side = Body | Point | str
 
 
 class JointVerbs(Elements):
     """Joints between bodies.
 
     Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
-    lies there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing.
+    lies there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing. Names stand for what they name:
+    ``"crank"``, ``"crank.end"``, a point's own name.
     """
 
     gravity: Any
@@ -28,7 +29,7 @@ class JointVerbs(Elements):
         Parameters
         ----------
         name : str
-        first, second : Body or Point
+        first, second : Body, Point or name
             Two points; a body and a point; or two bodies, and `at`. One of them may be a particle.
         at : array_like (2,)
             Where the joint is in the drawing, in m.
@@ -68,7 +69,7 @@ class JointVerbs(Elements):
         Parameters
         ----------
         name : str
-        first, second : Body or Point
+        first, second : Body, Point or name
             As of `revolute`; two points may lie apart along the axis. Of two bodies without `at`, the second's origin is meant.
         axis : array_like (2,)
             Its direction in the drawing; it turns with the first body.
@@ -98,6 +99,7 @@ class JointVerbs(Elements):
         """
         name = self._new_name(name, "joint")
         axis = self._direction(f"axis of {name!r}", axis)
+        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         if at is None and isinstance(first, Body) and isinstance(second, Body) and first.turns and second.turns:
             at = second.pose.origin
         sides = self._sides(name, first, second, at)
@@ -111,7 +113,7 @@ class JointVerbs(Elements):
         Parameters
         ----------
         name : str
-        first, second : Body or Point
+        first, second : Body, Point or name
             As of `revolute`; the reaction is told at the second's point.
         at : array_like (2,)
             Where the joint is in the drawing, in m.
@@ -138,13 +140,14 @@ class JointVerbs(Elements):
         self._turning(name, "weld", *(side.body for side in sides))
         return self._add(Weld(name, *sides))
 
-    def rod(self, name: str, first: Point | Particle, second: Point | Particle, *, length: float | None = None) -> Rod:
+    def rod(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *,
+            length: float | None = None) -> Rod:
         """Keep two points at a distance, as a massless rod with a hinge at each end does.
 
         Parameters
         ----------
         name : str
-        first, second : Point or Particle
+        first, second : Point, Particle or name
         length : float, optional
             In m; left out: as drawn.
 
@@ -173,15 +176,15 @@ class JointVerbs(Elements):
         _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
         return self._add(rod)
 
-    def slot(self, name: str, first: Body, second: Point | Particle, *, axis: Any) -> Slot:
+    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any) -> Slot:
         """Keep a point on a line of a body.
 
         Parameters
         ----------
         name : str
-        first : Body
+        first : Body or name
             What the line belongs to; it goes, as drawn, through the point.
-        second : Point or Particle
+        second : Point, Particle or name
             What slides.
         axis : array_like (2,)
             The line's direction in the drawing.
@@ -205,22 +208,21 @@ class JointVerbs(Elements):
         """
         name = self._new_name(name, "joint")
         axis = self._direction(f"axis of {name!r}", axis)
-        _check.instance("first", first, Body, "the body that the line belongs to")
+        first, second = self._body("first", first), self._point("second", second)
         self._turning(name, "the line of", first)
-        second = self._point("second", second)
-        first, second = self._different(name, self._body("first", first).point(at=second.drawn), second)
+        first, second = self._different(name, first.point(at=second.drawn), second)
         return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
-    def rolling(self, name: str, first: Body, second: Side, *, radius: float, at: Any = (0.0, 0.0),
+    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float, at: Any = (0.0, 0.0),
                 normal: Any = None) -> Rolling:
         """Let a wheel roll on a line without slipping.
 
         Parameters
         ----------
         name : str
-        first : Body
+        first : Body or name
             What the line belongs to.
-        second : Body or Point
+        second : Body, Point or name
             The wheel, whose origin is its centre, or the point of the body that is.
         radius : float
             In m.
@@ -251,10 +253,10 @@ class JointVerbs(Elements):
         if normal is None:
             normal = -self.gravity if self.gravity.any() else (0.0, 1.0)
         normal = self._direction(f"normal of {name!r}", normal)
-        _check.instance("first", first, Body, "the body that the line belongs to")
+        first, at, second = self._body("first", first), self._drawn("at", at), self._named("second", second)
         if isinstance(second, Body) and second.turns:
             second = self._body("second", second).point((0.0, 0.0))
-        first, second = self._different(name, self._body("first", first).point(at=at), self._point("second", second))
+        first, second = self._different(name, first.point(at=at), self._point("second", second))
         self._turning(name, "rolling", first.body, second.body)
         return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
 
@@ -264,7 +266,7 @@ class JointVerbs(Elements):
         Parameters
         ----------
         name : str
-        point : Point or Body
+        point : Point, Body or name
             Of a body without a point, its centre of mass.
         along : array_like (2,)
             The direction in the drawing in which it glides; it turns with the body.

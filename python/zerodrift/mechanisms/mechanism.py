@@ -22,8 +22,9 @@ from .system import LAYOUTS, MechanismSystem
 class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
     """A mechanism in the plane, from bodies and joints.
 
-    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Every
-    function that takes a system takes a mechanism. No call finishes it: what is added later counts from then on.
+    Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Where a
+    verb takes a joint, a body or a point, it takes its name as well: ``"pin"``, ``"crank"``, ``"crank.end"``. Every function
+    that takes a system takes a mechanism. No call finishes it: what is added later counts from then on.
 
     Parameters
     ----------
