@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral, Real
@@ -61,6 +62,17 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     if isinstance(value, str) and value in words:
         return value
     raise ValueError(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")
+
+
+def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
+    """What to look at instead of a name that nothing has: all names where they are few, else the closest, as an error ends."""
+    known = list(dict.fromkeys(known))
+    if len(known) <= 2 * most:
+        return f"there are {', '.join(known)}"
+    close = difflib.get_close_matches(str(name).lower(), {each.lower() for each in known}, n=most, cutoff=0.5)
+    found = [each for lower in close for each in known if each.lower() == lower]
+    return f"the closest of {len(known)} names are {', '.join(found)}" if found else (
+        f"there are {', '.join(known[:most])} and {len(known) - most} more")
 
 
 def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:

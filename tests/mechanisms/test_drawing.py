@@ -241,9 +241,12 @@ def test_a_start_names_what_there_is(m, link, pin):
         m.start({"rod.angle": 1.0})
     with pytest.raises(TypeError, match=r"a key of held must be a measure, such as crank.angle, or its name, not 3"):
         m.start({3: 1.0})
-    m.start({"link.colour": 1.0})
-    with pytest.raises(ValueError, match=r"start names 'link.colour', and there is no such measure"):
-        m.system()
+    for name, first in (("link.angel", "link.angle"), ("pin", "pin"), ("pin.force", "pin"), ("link.end.velocty", "link.end.vel")):
+        with pytest.raises(ValueError, match=rf"start names '{name}', and there is no such measure .*can be given: {first}"):
+            m.start({"link.angle": 9.0, name: 1.0})
+    with pytest.raises(ValueError, match=r"wish\['link.position'\] must have 2 components, not 1"):
+        m.start(wish={link.position: 1.0})
+    np.testing.assert_allclose(m.system().p0, [0.0])      # nothing of what was refused is kept
 
 
 def test_later_starts_add_replace_and_take_back(m, link, pin):

@@ -1,4 +1,4 @@
-"""The efforts of gears, racks, cams and couplers: what is reported of joints and couplings is mass times acceleration of every body."""
+"""The efforts of gears, racks, cams and couplers: with those of joints they are mass times acceleration of every body."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ def cross(a, b):
 
 
 def moving_train():
-    """A pinion on a swinging arm drives a rack on that arm, a gear a second wheel, and a cam on that wheel a follower on the arm."""
+    """A pinion on a swinging arm drives a rack on it, a gear a second wheel, and a cam on that wheel a follower."""
     m = zd.Mechanism("train", gravity=(0.3, -9.81))
     arm = m.body("arm", 3.0, 0.4, at=(0, 0), com=(0.2, 0.1), angle=0.3)
     pinion, wheel = m.body("pinion", 1.0, 0.02, at=(0.5, 0.1)), m.body("wheel", 1.5, 0.03, at=(0.9, 0.2), com=(0.01, 0))
@@ -109,8 +109,8 @@ def test_a_coupling_has_the_effort_of_its_unit():
     bead = m.particle("bead", 0.1, at=(1, 1))
     line = m.coupler("line", {bead.position.x: 1.0, bead.position.y: -1.0})
     assert line.force.name == "line.force"
-    with pytest.raises(AttributeError, match="coupler 'line' of bead.position.x, bead.position.y has no torque; it has force"):
+    with pytest.raises(AttributeError, match=r"coupler 'line' of .*\.x, .*\.y has no torque; it has force"):
         _ = line.torque
     wire = m.constraint("wire", lambda x: x, of={"x": bead.position.x})
-    with pytest.raises(AttributeError, match="constraint 'wire' of bead.position.x has no force; it has no measure but its multiplier"):
+    with pytest.raises(AttributeError, match=r"constraint 'wire' of .* has no force; it has no measure but its multiplier"):
         _ = wire.force

@@ -166,14 +166,14 @@ class Elements:
         owner = measure.partition(".")[0]
         if owner not in self._elements:
             raise ValueError(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
-                             f"there is {', '.join(map(repr, self._elements))}")
+                             f"{_check.closest(owner, self._elements)}")
 
     # ---- looking ----
 
     def __getitem__(self, name: str) -> Any:
         """The element of that name."""
         if name not in self._elements:
-            raise KeyError(f"nothing in {self.name} is called {name!r}; there are {', '.join(self._elements)}")
+            raise KeyError(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._elements)}")
         return self._elements[name]
 
     def _of(self, kind: type | tuple[type, ...]) -> list[Any]:

@@ -35,9 +35,9 @@ class Joint:
         self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
         self.damping, self.cut = damping, cut
 
-    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds the "
-                   "joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what they do "
-                   "along the joint's coordinate is in their measures, and not in this one.")
+    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds "
+                   "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what "
+                   "they do along the joint's coordinate is in their measures, and not in this one.")
 
     @property
     def measured_name(self) -> str:
@@ -163,9 +163,9 @@ class Coupling:
     Notes
     -----
     A coupling acts along the measures that it couples: along the coordinate of a joint between the two bodies of that joint,
-    with opposite signs. It is an element of its own, as a spring is: `force` and `torque` of joints leave it out, and its effort is
-    its own measure, `force` or `torque` by the unit of the second of these measures, positive where it drives that one up. For
-    every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
+    with opposite signs. It is an element of its own, as a spring is: `force` and `torque` of joints leave it out, and its effort
+    is its own measure, `force` or `torque` by the unit of the second of these measures, positive where it drives that one up.
+    For every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
     across these coordinates (the load with which gears push their shafts apart and aside) is not modelled.
     """
 

@@ -43,8 +43,9 @@ class CouplingVerbs(Elements):
         Notes
         -----
         The gear acts along the two angles, between the two bodies of each joint. Its effort is its own measure: ``mesh.torque``,
-        in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on ``first.angle``.
-        `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings is not modelled.
+        in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on
+        ``first.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings is not
+        modelled.
         """
         return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio)
 
@@ -76,9 +77,9 @@ class CouplingVerbs(Elements):
         Notes
         -----
         The teeth act along the two coordinates, between the two bodies of each joint. Their effort is a measure of its own:
-        ``teeth.force``, in N, acts on ``rack.displacement`` and is positive where it drives the rack forward; ``-ratio * teeth.force``
-        (N m) acts on ``pinion.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings
-        is not modelled.
+        ``teeth.force``, in N, acts on ``rack.displacement`` and is positive where it drives the rack forward;
+        ``-ratio * teeth.force``, in N m, acts on ``pinion.angle``. `force` and `torque` of the joints leave it out, and the side
+        load of the teeth on the bearings is not modelled.
         """
         return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
 
@@ -118,11 +119,11 @@ class CouplingVerbs(Elements):
 
         Notes
         -----
-        The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is its
-        own measure, ``cage.torque`` in N m where the second of the measures (here ``pin1.angle``) is an angle, else ``cage.force`` in N.
-        It is that on the second of them, positive where it drives it up; on any other it is larger by the derivative of `value`
-        to that one over the derivative to the second. `force` and `torque` of joints leave it out, and side loads, as of teeth on bearings,
-        are not modelled.
+        The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is
+        its own measure, ``cage.torque`` in N m where the second of the measures (here ``pin1.angle``) is an angle, else
+        ``cage.force`` in N. It is that on the second of them, positive where it drives it up; on any other it is multiplied by
+        the derivative of `value` to that one over the derivative to the second. `force` and `torque` of joints leave it out, and
+        side loads, as of teeth on bearings, are not modelled.
         """
         name = self._new_name(name, "coupler")
         if isinstance(value, Mapping):
@@ -161,10 +162,11 @@ class CouplingVerbs(Elements):
 
         Notes
         -----
-        The cam acts along the two coordinates, between the two bodies of each joint. Its effort is its own measure: on the follower,
-        ``cam.force`` in N or, where the follower is an angle, ``cam.torque`` in N m, positive where it drives the follower up; on the
-        cam, ``cam.cam_torque`` in N m, positive where it drives the angle up. `force` and `torque` of the joints leave it out, and
-        the side load on guides and bearings is not modelled. A cam pulls, too: its follower does not lift off where the force is negative.
+        The cam acts along the two coordinates, between the two bodies of each joint. Its effort is its own measure: on the
+        follower, ``cam.force`` in N or, where the follower is an angle, ``cam.torque`` in N m, positive where it drives the
+        follower up; on the cam, ``cam.cam_torque`` in N m, positive where it drives the angle up. `force` and `torque` of the
+        joints leave it out, and the side load on guides and bearings is not modelled. A cam pulls, too: its follower does not
+        lift off where the force is negative.
         """
         name = self._new_name(name, "cam")
         cam = self._joint(f"cam of {name!r}", cam, ("angle",))

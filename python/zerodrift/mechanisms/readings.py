@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import difflib
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from .bodies import Body, Link, Point
 from .forces import Spring
@@ -36,6 +39,37 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
             len(component) <= 1) else None
     return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any]) -> Reading:
+    """What a start reads, which holds or wishes it to have a value; an error where there is no such."""
+    read = reading(name, elements)
+    if read is None:
+        owner = elements.get(name.partition(".")[0])
+        known = readable(owner) if owner is not None else []
+        said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
+        raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}")
+    if value is not None and len(read.gauges) != np.size(value):
+        raise ValueError(f"{what}[{name!r}] must have {len(read.gauges)} components, not {np.size(value)}")
+    return read
+
+
+def _closest_first(name: str, known: Sequence[str]) -> str:
+    ranked = difflib.get_close_matches(name.lower(), known, n=len(known), cutoff=0.0)
+    return ", ".join([*ranked, *(each for each in known if each not in ranked)])
+
+
+def readable(element: Any) -> list[str]:
+    """The measures of positions and velocities of an element by name, each once and vectors whole."""
+    named = getattr(element, "measured_name", element.name)
+    rates = {"position": "velocity", "angle": "angular_velocity"}
+    found = []
+    for quantity in quantities(element):
+        rate = "speed" if isinstance(element, Joint) else rates.get(quantity)
+        found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
+    if isinstance(element, Link):
+        found += [f"{named}.{end}.{quantity}" for end in ("start", "end") for quantity in ("position", "velocity")]
+    return found
 
 
 def quantities(element: Any) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _check
 from .elements import Elements
 from .measures import name_of
+from .readings import checked_reading
 
 
 class StartVerbs(Elements):
@@ -45,13 +46,16 @@ class StartVerbs(Elements):
         >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
         """
         for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
-            for name, value in targets(given, what).items():
-                self._check_start(name)
+            checked = targets(given, what)
+            for name, value in checked.items():
+                self._check_start("start" if what == "held" else what, name, value)
+            for name, value in checked.items():
                 kept.pop(name, None) if value is None else kept.update({name: value})
 
-    def _check_start(self, name: str) -> None:
+    def _check_start(self, what: str, name: str, value: Any) -> None:
         """Refuses what is not there, and what a motor prescribes."""
-        self._check_measured("start", name)
+        self._check_measured(what, name)
+        checked_reading(what, name, value, self._elements)
         for motor in self.motors:
             taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"),
                      "speed": ("speed",)}.get(motor.drives, ())

@@ -15,7 +15,7 @@ from .drawing import Drawing
 from .forces import Motor
 from .numbers import Numbers
 from .plane import turned
-from .readings import Reading, reading
+from .readings import Reading, checked_reading, reading
 from .tables import JOINTS, Tables
 from .tree import loop
 
@@ -33,11 +33,7 @@ class Starting:
     def _check_held(self) -> None:
         for what, given in (("start", self.drawing.held), ("wish", self.drawing.wished)):
             for name, value in given.items():
-                read = reading(name, self.drawing.elements)
-                if read is None:
-                    raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities")
-                if len(read.gauges) != np.size(value):
-                    raise ValueError(f"{what}[{name!r}] must have {len(read.gauges)} components, not {np.size(value)}")
+                checked_reading(what, name, value, self.drawing.elements)
 
     @functools.cached_property
     def drives(self) -> dict[str, float]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _gateway
+from .. import _check, _gateway
 from .._gateway.mechanisms import MechanismCore
 
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
@@ -57,7 +57,7 @@ class Watching:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
         found = self.find(name)
         if found is None:
-            raise KeyError(f"nothing measured is called {name!r}")
+            raise KeyError(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}")
         number, component = found
         values = self._evaluate(number, core, solution, solution.multipliers)
         same = np.ones(values.shape[1], dtype=bool)

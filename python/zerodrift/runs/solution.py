@@ -182,8 +182,8 @@ class Solution:
         if columns:
             raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
                            "take the column of p, v or multipliers")
-        known = ", ".join(self._ipython_key_completions_())
-        raise KeyError(f"nothing in {self.system.name} is called {name!r}; there are {known}")
+        known = self._ipython_key_completions_()
+        raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
 
     def unique(self, name: str) -> Any:
         """Whether a measure of a mechanism does not depend on which of all admissible multipliers are taken.
