@@ -1,4 +1,4 @@
-"""The core by itself: it allocates once for each run, in one file, and keeps no global state."""
+"""The core by itself: it allocates in one file, ordinary steps allocate nothing, and it keeps no global state."""
 
 import os
 import re
@@ -25,20 +25,45 @@ def compiled(tmp_path, *arguments):
     return tmp_path
 
 
+@pytest.fixture(scope="module")
+def core(tmp_path_factory):
+    """All of it as one object."""
+    return compiled(tmp_path_factory.mktemp("core"), "-r", "-nostdlib", "-o", "core.o", *SOURCES) / "core.o"
+
+
 @needs_compiler
 @linux
-def test_steps_allocate_nothing(tmp_path):
-    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each system, formulation and
-    integrator, corrections on and off.
+def test_ordinary_steps_allocate_nothing(tmp_path, core):
+    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each built-in system, formulation
+    and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these, more is taken: see below.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
-    compiled(tmp_path, "-o", "allocations", ROOT / "tests" / "allocations.c", *SOURCES, *wrap, "-lm")
+    compiled(tmp_path, "-o", "allocations", ROOT / "tests" / "allocations.c", core, *wrap, "-lm")
     output = subprocess.run([tmp_path / "allocations"], check=True, capture_output=True, text=True).stdout
     lines = [line for line in output.splitlines() if line.startswith("allocations")]
     taken = sum(len(zd.integrators(getattr(zd.systems, name)())) for name in zd.systems.__all__)
     assert len(lines) == 2 * taken * len(FORMULATIONS)
     for line in lines:
         assert re.match(r"allocations 2 0 .*, status 0, 51 rows$", line)
+
+
+@needs_compiler
+@linux
+def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core):
+    """Steps near a bifurcation take memory when they first need it. Wherever it is refused, the run ends there and says so, and all
+    that it had is freed. Where nothing is refused, the same run comes to its end.
+    """
+    wrap = [f"-Wl,--wrap={name}" for name in ("aligned_alloc", "free")]
+    compiled(tmp_path, "-o", "rare_memory", ROOT / "tests" / "native" / "rare_memory.c", core, *wrap, "-lm")
+    output = subprocess.run([tmp_path / "rare_memory"], check=True, capture_output=True, text=True).stdout
+    lines = [line.split(" ", 4) for line in output.splitlines()]
+    for name in FORMULATIONS:
+        *refused, (_, granted, *last) = [line for line in lines if line[0] == name]
+        assert int(granted) == len(refused) >= 3        # the rows that count, limits, and what the crossing is told by
+        assert last == ["0", "0", ""]
+        for _, _, status, blocks, message in refused:
+            assert (status, blocks) == ("-9", "0")
+            assert re.fullmatch(r"at t = \S+ \(step \d+ of 200\): there is no memory for this", message)
 
 
 @needs_compiler

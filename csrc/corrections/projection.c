@@ -196,7 +196,7 @@ static int correct_positions(projection *self, zd_motion *motion)
      * iteration is made there. */
     const zd_rank *rank = motion->point->rank;
     if (!status && rank->was_ill_conditioned && rank->most_rows == rank->m) return improve_position(&problem);
-    if (!status || status == ZD_CALLBACK || !problem.has_moved) return status;
+    if (!status || status == ZD_CALLBACK || status == ZD_NO_MEMORY || !problem.has_moved) return status;
     newton.improve = improve_and_remember;
     newton.contraction = 0;
     newton.retreat = retreat;

@@ -13,7 +13,7 @@ static int shorten(const zd_newton *newton, void *context, double before)
     for (int i = 0; i < MOST_RETREATS; i++, share *= 0.5) {
         int status = newton->residual(context, &now);
         if (!status && now <= (1 - 1e-4 * share) * before) return ZD_DONE;
-        if (status == ZD_CALLBACK) return status;
+        if (status == ZD_CALLBACK || status == ZD_NO_MEMORY) return status;
         status = newton->retreat(context);
         if (status) return status;
     }

@@ -129,7 +129,8 @@ static double factor(const zd_course *course, double norm)
 /* What a shorter step does not help against. */
 static int is_final(int status)
 {
-    return status == ZD_CALLBACK || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC || status == ZD_NOT_JACOBIAN;
+    return status == ZD_CALLBACK || status == ZD_NO_MEMORY || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC
+           || status == ZD_NOT_JACOBIAN;
 }
 
 int zd_adaptive_step(zd_course *course)

@@ -65,7 +65,7 @@ static int pass(zd_course *course, double t1, double h)
     zd_crossing *crossing = &course->safeguards->crossing;
     if (course->settings->on_singular == ZD_STOP) return ZD_BIFURCATION_PASSED;
     int found, status = find(course, t1, &found);
-    if (status || !found) return status == ZD_CALLBACK ? status : ZD_BRANCH;
+    if (status || !found) return status == ZD_CALLBACK || status == ZD_NO_MEMORY ? status : ZD_BRANCH;
     crossing->may_pass = 1;
     status = zd_stepper_return(stepper);
     if (!status) status = integrate_and_land(course, h, t1);

@@ -12,7 +12,7 @@ static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status
 {
     const zd_motion *motion = stepper->motion;
     return stepper->dependent.formulation && motion->formulation == stepper->chosen.formulation && motion->point->rank->was_ill_conditioned
-        && status != ZD_CALLBACK;
+        && status != ZD_CALLBACK && status != ZD_NO_MEMORY;
 }
 /* From where the step began. */
 int zd_variables_use_dependent(zd_stepper *stepper);

@@ -1,0 +1,88 @@
+"""The cheap looks that believe that all rows count, against the full decision and orientations in NumPy, on random matrices."""
+
+import subprocess
+
+import numpy as np
+import pytest
+from scipy.linalg import qr
+
+from native_systems import COMPILER, needs_compiler
+from support import ROOT
+
+SOURCES = sorted((ROOT / "csrc").rglob("*.c"))
+RANK_TOLERANCE = 2.0**-23       # of rank.h: rows of which less is left follow from the others
+SMALLEST, LARGEST = 7, 60    # velocities: up to six, `schur` has no look of its own
+MATRICES = 24
+pytestmark = [needs_compiler, pytest.mark.skipif(not SOURCES, reason="no sources of the core")]
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    """What says what both looks say; it includes the file of 'schur' itself."""
+    path = tmp_path_factory.mktemp("looks") / "looks"
+    sources = [source for source in SOURCES if source.name != "schur.c"]
+    subprocess.run([COMPILER, "-O0", "-std=c11", "-ffp-contract=off", "-I", ROOT / "csrc", "-o", path,
+                    ROOT / "tests" / "native" / "looks.c", *sources, "-lm"], check=True)
+    return path
+
+
+def path_of_matrices(rng, n, m):
+    """Matrices one after the other, some nearly the same as the one before, some far from it. Along them a row comes to follow from the
+    others, by any digits, and goes on reversed.
+    """
+    C, wander = rng.normal(size=(2, m, n)) * 10 ** rng.uniform(-2, 2, (m, 1))
+    row, others = rng.integers(m), rng.normal(size=m)
+    others[row] = 0
+    at, left = 0.0, C[row].copy()
+    for i in range(MATRICES):
+        at += 10 ** rng.uniform(-4, 0) * 0.3
+        moved = C + at * wander
+        share = rng.choice([1.0, -1.0]) * 10 ** rng.uniform(-10, 0) if i % 3 == 2 else np.cos(8 * at)
+        follows = others @ (moved / np.linalg.norm(moved, axis=1)[:, None]) * np.linalg.norm(left)
+        moved[row] = follows + share * left
+        yield moved
+
+
+def of_full_rank(C, start):
+    """Whether the full decision lets all rows count: they are orthogonalized, always the one next of which most is left."""
+    lengths = np.linalg.norm(C, axis=1)
+    if not (lengths > RANK_TOLERANCE * start).all():
+        return False
+    return np.abs(np.diag(qr((C / lengths[:, None]).T, mode="r", pivoting=True)[0])).min() > RANK_TOLERANCE
+
+
+def orientation(C, before, metric):
+    """The sign of det(C1 W C0^T), and 0 where rounding decides it."""
+    product = C @ metric @ before.T
+    product /= np.sqrt(np.outer(np.einsum("ki,ij,kj->k", C, metric, C), np.einsum("ki,ij,kj->k", before, metric, before)))
+    return np.linalg.slogdet(product)[0] if np.linalg.cond(product) < 1e10 else 0.0
+
+
+def said(program, draws):
+    """(matrices, looks, 2): of each whether it is doubtful, and whether rows may have been turned since the matrix before."""
+    sent = b"".join(np.concatenate([[C.shape[2], C.shape[1], len(C)], M.ravel(), C.ravel()]).tobytes() for M, C in draws)
+    lines = subprocess.run([program], input=sent, capture_output=True, check=True).stdout.decode().splitlines()
+    return np.array([line.split()[1:] for line in lines], dtype=int).reshape(-1, 2, 2)
+
+
+def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
+    """Neither of them calls rows independent that are not, nor the orientation kept where it has changed: that of `look.c` is known
+    in the plain metric, that of `schur` in the metric of M^-1. Each case comes often enough to count.
+    """
+    rng, draws = np.random.default_rng(3), []
+    for n in [*rng.integers(SMALLEST, LARGEST + 1, 150), LARGEST]:
+        root = rng.normal(size=(n, n)) / np.sqrt(n)
+        draws.append((root @ root.T + 0.1 * np.eye(n), np.array(list(path_of_matrices(rng, n, int(rng.integers(3, n + 1)))))))
+    answers = said(program, draws).reshape(len(draws), MATRICES, 2, 2)
+    counts = np.zeros((2, 2, 2), dtype=int)
+    for (M, matrices), answer in zip(draws, answers, strict=True):
+        start, inverse = np.linalg.norm(matrices[0], axis=1), np.linalg.inv(M)
+        for i, C in enumerate(matrices):
+            full = of_full_rank(C, start)
+            for look, metric in enumerate((np.eye(len(M)), inverse)):
+                is_doubtful, was_turned = answer[i, look]
+                assert full or is_doubtful
+                kept = orientation(C, matrices[i - 1], metric) if i and not is_doubtful and not answer[i - 1, look, 0] else 0.0
+                assert kept >= 0 or was_turned
+                counts[look] += [[not full, full and not is_doubtful], [kept < 0, kept > 0 and not was_turned]]
+    assert (counts > 50).all(), counts
