@@ -87,6 +87,16 @@ def test_a_periodic_spline_goes_through_its_table_and_is_smooth():
     assert max(abs(exact(a) - 0.1 * (1 - np.cos(a))) for a in np.linspace(0, 20, 77)) < 1e-8
 
 
+def test_a_table_may_end_where_its_turn_closes():
+    angles, values = table()
+    closed = PeriodicSpline("profile", np.append(angles, 2 * np.pi), np.append(values, values[0]))
+    once = PeriodicSpline("profile", angles, values)
+    assert [closed(angle) for angle in np.linspace(0, 20, 7)] == [once(angle) for angle in np.linspace(0, 20, 7)]
+    for end, value in ((2 * np.pi, values[0] + 1e-3), (2 * np.pi + 0.1, values[0])):
+        with pytest.raises(ValueError, match="angles of profile must increase and lie within one turn"):
+            PeriodicSpline("profile", np.append(angles, end), np.append(values, value))
+
+
 def test_a_wheel_rolls_down_a_slope_without_slipping(layout):
     """A disc on the ground, pulled by gravity at 30 degrees: a = 2/3 g sin(30), friction a third of the pull."""
     g = 9.81 * np.array([0.5, -np.sqrt(0.75)])

@@ -143,7 +143,8 @@ class CouplingVerbs(Elements):
         follower : Joint, measure, or name of one
             Whose coordinate, or what measure, follows.
         profile : callable, SymPy expression, or (angles, values)
-            Of the angle, which it may call as it likes; in rad or m. A table over one turn becomes a periodic quintic spline.
+            Of the angle, which it may call as it likes; in rad or m. A table over one turn becomes a
+            periodic quintic spline; its last point may repeat the first, a turn later.
 
         Returns
         -------

@@ -10,6 +10,7 @@ from .. import _check
 from ..systems import jets
 
 PERIOD = 2 * np.pi
+CLOSING = 1e-9      # rad, and of the largest value: how near the last point of a table is to its first where it closes the turn
 
 # Quintic polynomials in s = 0 ... 1 by their values, first and second derivatives at both ends: rows (y0, y0', y0'', y1, y1',
 # y1''), columns 1, s, ..., s**5.
@@ -26,7 +27,8 @@ class PeriodicSpline:
     Parameters
     ----------
     angles, values : array_like (n,)
-        The table: angles in rad, increasing, within less than one turn; at least three.
+        The table: angles in rad, increasing, within less than one turn; at least three. A last point one turn after the first
+        may be there, with the same value.
     """
 
     def __init__(self, what: str, angles: Any, values: Any) -> None:
@@ -35,10 +37,19 @@ class PeriodicSpline:
         if self.angles.ndim != 1 or n < 3:
             raise ValueError(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}")
         self.values = _check.vector(f"values of {what}", values, n)
+        self._drop_closing_point()
+        n = self.angles.size
         self._widths = np.diff(self.angles, append=self.angles[0] + PERIOD)
         if not (self._widths > 0).all():
-            raise ValueError(f"angles of {what} must increase and lie within less than one turn, not {_check.shown(angles)}")
+            raise ValueError(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
+                             f"first), not {_check.shown(angles)}")
         self._coefficients = self._solve(n)
+
+    def _drop_closing_point(self) -> None:
+        """A table that says the same at both ends of a turn says it once."""
+        span, size = self.angles[-1] - self.angles[0], np.abs(self.values).max()
+        if self.angles.size > 3 and abs(span - PERIOD) < CLOSING and abs(self.values[-1] - self.values[0]) <= CLOSING * size:
+            self.angles, self.values = self.angles[:-1], self.values[:-1]
 
     def _solve(self, n: int) -> np.ndarray:
         """The coefficients (n, 6) of the pieces: third and fourth derivatives are the same on both sides of every knot."""
