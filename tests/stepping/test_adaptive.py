@@ -115,7 +115,8 @@ BAR = SYSTEMS["four_bar"]
 
 
 @pytest.mark.parametrize(("options", "message"), [
-    ({"integrator": "rk4"}, "step is needed: 'rk4' takes steps of fixed size; 'dormand_prince', 'dop853' can choose theirs"),
+    ({"integrator": "rk4"}, "step is needed: 'rk4' takes steps of fixed size; give step=, or integrator='dormand_prince' or"),
+    ({"integrator": "rk4", "rtol": 1e-6}, "'rk4' takes steps of fixed size, and rtol is for steps that are chosen; give step="),
     ({"step": 0.1, "rtol": 1e-6}, "rtol is for steps that are chosen"),
     ({"step": 0.1, "max_step": 1.0}, "max_step is for steps that are chosen"),
     ({"rtol": 1e-15}, "rtol must be at least 2.2"),

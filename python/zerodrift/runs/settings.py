@@ -134,8 +134,9 @@ def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict
     able = [name for name, card in integrators().items() if card.error_order]
     name = name_of("integrators", integrator)
     if name not in able:
-        raise ValueError(f"step is needed: {name!r} takes steps of fixed size; "
-                         f"{', '.join(map(repr, able))} can choose theirs")
+        asked = "".join(f", and {word} is for steps that are chosen" for word, value in given.items() if value is not None)
+        raise ValueError(f"step is needed: {name!r} takes steps of fixed size{asked}; give step=, or "
+                         f"{' or '.join(f'integrator={each!r}' for each in able)}, which can choose theirs")
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0, "first_step": smallest, "max_step": smallest}
     found = {name: None if value is None else _check.number(name, value, least=least[name]) for name, value in values.items()}
