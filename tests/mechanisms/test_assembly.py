@@ -275,3 +275,29 @@ def test_reactions_that_are_not_determined_are_not_unique():
             sol.unique("colour")
     total = [sum(sol[f"P{i}.force"] for i in range(3)) for sol in sols]
     np.testing.assert_allclose(*total, atol=1e-9)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_massless_link_in_a_loop_is_named(layout):
+    m = zd.Mechanism("four-bar", gravity=(0, -9.81))
+    links = [m.link("crank", (0, 0), (0, 0.3), mass=1.5), m.link("coupler", (0, 0.3), (0.9, 0.6)),
+             m.link("rocker", (0.9, 0.6), (1, 0), mass=3.0)]
+    for name, first, second in (("A", m.ground, links[0].start), ("B", links[0].end, links[1].start),
+                                ("C", links[1].end, links[2].start), ("D", links[2].end, m.ground.point((1, 0)))):
+        m.revolute(name, first, second)
+    with pytest.raises(zd.SingularSystem, match=r"; 'coupler' has no mass or no inertia: give some, or take formulation="):
+        zd.simulate(m.system(layout), 0.1, step=0.01, formulation="schur")
+    assert zd.simulate(m.system(layout), 0.1, step=0.01, formulation="augmented").success
+
+
+def test_joints_that_do_not_let_a_held_velocity_be_are_named():
+    """Two links that have to be stretched, so that they cannot turn."""
+    m = zd.Mechanism("stretched")
+    first, second = (m.link(name, (x, y), (x + 1, 0.3 - y), mass=1.0, length=1.0)
+                     for name, x, y in (("a", 0, 0), ("b", 1, 0.3)))
+    m.revolute("A", m.ground, first.start)
+    m.revolute("B", first.end, second.start)
+    m.revolute("C", second.end, m.ground.point((2, 0)))
+    m.start({first.angular_velocity: 1.0})
+    with pytest.raises(zd.InconsistentStart, match=r"the velocities of 'a\.angular_velocity' and '[ABC]'.* contradict each other"):
+        zd.assemble(m)

@@ -295,13 +295,20 @@ class Assembly:
         left = rows @ scaled - right
         if np.abs(left).max(initial=0.0) > 1e-9 * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
             worst = [names[i] for i in np.argsort(-np.abs(left)) if abs(left[i]) > 1e-3 * np.abs(left).max()]
-            told = " and ".join(map(repr, dict.fromkeys(name for name in worst if name)))
+            told = " and ".join(map(repr, dict.fromkeys(name for name in worst if name))) or self._held_against_joints(left, held)
             raise InconsistentStart(f"start: the velocities of {told} contradict each other, by {np.abs(left * size).max():.3g}")
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = _nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
+
+    def _held_against_joints(self, left: np.ndarray, held: Sequence[Target]) -> str:
+        """What is held, or driven, and the joints that do not let it move so."""
+        joints = [self.rows[i] for i in np.argsort(-np.abs(left)) if i < self.core.m and abs(left[i]) > 1e-3 * np.abs(left).max()]
+        moved = [target.name for target in held] or [
+            self.rows[i] for i in range(self.core.m) if self.core.rows[i].owner != "joint"]
+        return " and ".join(map(repr, [*moved, *dict.fromkeys(joints)]))
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
         """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""

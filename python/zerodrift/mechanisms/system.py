@@ -12,7 +12,7 @@ from .. import _check
 from .._gateway import Variable
 from .._gateway.mechanisms import MechanismCore
 from ..systems.base import BaseSystem
-from .drawing import Drawing
+from .drawing import Drawing, Inertias
 from .numbers import Numbers
 from .outline import outline
 from .readings import reading
@@ -71,8 +71,7 @@ class MechanismSystem(BaseSystem):
     @functools.lru_cache(maxsize=4)     # noqa: B019 - a system lives as long as its start is asked for
     def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """The assembled start (p, v) at a time: what is held, drives, and the rest as near to the drawing as can be."""
-        poses, rates = self._start.at(t)
-        p, v = self._core.state(poses, rates)
+        p, v = self._core.state(*self._start.at(t))
         return _check.frozen(p), _check.frozen(v)
 
     def _assembled(self, held: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -121,6 +120,16 @@ class MechanismSystem(BaseSystem):
         if read is None or len(read.gauges) != 1:
             raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
         return lambda t, p, v: float(self._watching.at(name, self._core, t, p, v))
+
+    def _advice_on_mass(self) -> str | None:
+        """Which bodies are without mass or inertia, and what helps."""
+        inertias = Inertias(self._drawing, self._numbers).of
+        without = [body.name for body in self._drawing.parts()
+                   for mass, inertia, _ in [inertias[body.name]] if not (mass > 0 and (inertia > 0 or not body.turns))]
+        if not without:
+            return None
+        named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
+        return f"{named} {have} no mass or no inertia: give some, or take formulation='augmented'"
 
     def _names_of_measures(self) -> list[str]:
         return list(self.measures)

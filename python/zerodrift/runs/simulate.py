@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import Interrupted
+from ..errors import Interrupted, SingularSystem
 from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
 from . import diagnosis, settings
 from . import events as _events
@@ -175,7 +175,7 @@ def simulate(
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
-        run = _gateway.Run(core, options, p0, v0, watcher)
+        run = _created(system, core, options, p0, v0, watcher)
         record = _gateway.Record(core, rows)
         outcome = _drive(run, record, progress, keyboard)
         solution = _solution(system, span, chosen, run, record, watcher, outcome)
@@ -233,6 +233,17 @@ def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
         stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
         system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
+
+
+def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
+    """The core's run; where masses forbid it, the error says what the system knows of them."""
+    try:
+        return _gateway.Run(*given)
+    except SingularSystem as error:
+        advice = system._advice_on_mass() if "mass matrix" in str(error) else None
+        if advice is None:
+            raise
+        raise SingularSystem(f"{error}; {advice}") from None
 
 
 def _message(run: _gateway.Run, outcome: _Outcome) -> str:

@@ -224,6 +224,10 @@ class BaseSystem:
         place = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
         return lambda t, p, v: float(v[place])
 
+    def _advice_on_mass(self) -> str | None:
+        """What helps where the mass matrix is not positive definite; None: nothing is known of it."""
+        return None
+
     def _names_of_measures(self) -> list[str]:
         """What is measured by names of its own."""
         return []
