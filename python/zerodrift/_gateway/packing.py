@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -27,28 +27,25 @@ class Packing:
 
     def __init__(self, blocks: Sequence[tuple[int, int, int]], groups: Sequence[tuple[int, tuple[int, ...]]]) -> None:
         self.blocks, self.groups = tuple(blocks), tuple(groups)
-        at_p, at_v = (np.cumsum([0, *sizes]) for sizes in ([b[0] for b in blocks], [b[1] for b in blocks]))
-        at_row = np.cumsum([0, *(rows for rows, _ in groups)])
-        ranges = [np.arange(*ends) for ends in pairwise(at_v)]
-        parts = {
-            "A": [_grid(np.arange(*ends), v) for ends, v in zip(pairwise(at_p), ranges, strict=True)],
-            "M": [(v, v) if block[2] & DIAGONAL else _grid(v, v) for block, v in zip(blocks, ranges, strict=True)],
-            "C": [_grid(first + np.arange(rows), np.concatenate([ranges[b] for b in touched]))
-                  for first, (rows, touched) in zip(at_row[:-1], groups, strict=True)],
-        }
-        nq, nv, m = int(at_p[-1]), int(at_v[-1]), int(at_row[-1])
+        self._places, ends = {}, {}
+        self._places["A"], self._places["M"], ends["A"], ends["M"] = _of_blocks(*(_whole(b[i] for b in blocks) for i in range(3)))
+        self._places["C"], ends["C"] = _of_groups(_whole(b[1] for b in blocks), _whole(rows for rows, _ in groups),
+                                                  [touched for _, touched in groups])
+        nq, nv, m = sum(b[0] for b in blocks), sum(b[1] for b in blocks), sum(rows for rows, _ in groups)
         self.shapes = {"A": (nq, nv), "M": (nv, nv), "C": (m, nv)}
-        self.offsets = {name: tuple(map(int, np.cumsum([0, *(len(rows) for rows, _ in each)]))) for name, each in parts.items()}
-        none = [(np.zeros(0, dtype=int),) * 2]
-        self._places = {name: tuple(map(np.concatenate, zip(*none, *each, strict=True))) for name, each in parts.items()}
+        self.offsets = {name: tuple(_begins(sizes).tolist()) for name, sizes in ends.items()}
 
     @classmethod
     def of(cls, c: Any) -> Packing | None:
         """That of a `zd_structure *`; None where it is NULL."""
         if not c:
             return None
-        blocks = [(c.coordinates[b], c.velocities[b], c.mass[b] if c.mass else 0) for b in range(c.blocks)]
-        return cls(blocks, [(c.rows[g], tuple(c.block[i] for i in range(c.first[g], c.first[g + 1]))) for g in range(c.groups)])
+        coordinates, velocities = ffi.unpack(c.coordinates, c.blocks), ffi.unpack(c.velocities, c.blocks)
+        mass = ffi.unpack(c.mass, c.blocks) if c.mass else [0] * c.blocks
+        rows, first = (ffi.unpack(c.rows, c.groups), ffi.unpack(c.first, c.groups + 1)) if c.groups else ([], [0])
+        block = ffi.unpack(c.block, first[-1]) if first[-1] else []
+        touched = [tuple(block[begin:end]) for begin, end in pairwise(first)]
+        return cls(list(zip(coordinates, velocities, mass, strict=True)), list(zip(rows, touched, strict=True)))
 
     def c(self) -> tuple[Any, Any]:
         """A `zd_structure *`, and what has to live as long as it."""
@@ -89,9 +86,43 @@ class Packing:
         return np.bincount(to, weights=packed * x[of], minlength=self.shapes[name][transposed])
 
 
-def _grid(rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The places of a full matrix, row by row."""
-    return np.repeat(rows, len(columns)), np.tile(columns, len(rows))
+Places = tuple[np.ndarray, np.ndarray]      # the row and the column of each stored entry
+
+
+def _of_blocks(coordinates: np.ndarray, velocities: np.ndarray,
+               mass: np.ndarray) -> tuple[Places, Places, np.ndarray, np.ndarray]:
+    """The places of A and of M, and how much each block stores of them."""
+    at_v, every, diagonal = _begins(velocities), np.arange(velocities.sum()), mass & DIAGONAL != 0
+    block = np.repeat(np.arange(len(coordinates)), coordinates)     # of each row of A
+    A = _places(at_v[block], velocities[block], every)
+    block = np.repeat(np.arange(len(velocities)), velocities)       # of each row of M
+    M = _places(np.where(diagonal[block], every, at_v[block]), np.where(diagonal, 1, velocities)[block], every)
+    return A, M, coordinates * velocities, velocities * np.where(diagonal, 1, velocities)
+
+
+def _of_groups(velocities: np.ndarray, rows: np.ndarray, touched: Sequence[Sequence[int]]) -> tuple[Places, np.ndarray]:
+    """The places of C, and how much each group stores of it."""
+    blocks = _whole(b for each in touched for b in each)
+    _, columns = _places(_begins(velocities)[blocks], velocities[blocks], np.arange(velocities.sum()))
+    several = _begins(_whole(len(each) for each in touched))
+    counts = np.diff(_begins(velocities[blocks])[several])
+    group = np.repeat(np.arange(len(rows)), rows)                   # of each row of C
+    return _places(_begins(counts)[group], counts[group], columns), rows * counts
+
+
+def _places(first: np.ndarray, counts: np.ndarray, columns: np.ndarray) -> Places:
+    """The places of rows of which row i has entries in the columns `columns[first[i] : first[i] + counts[i]]`."""
+    row = np.repeat(np.arange(len(counts)), counts)
+    return row, columns[first[row] + np.arange(len(row)) - _begins(counts)[row]]
+
+
+def _begins(sizes: np.ndarray) -> np.ndarray:
+    """Where things of such sizes begin that stand one after the other, and the end."""
+    return np.concatenate([[0], np.cumsum(sizes)]).astype(int)
+
+
+def _whole(numbers: Iterable[int]) -> np.ndarray:
+    return np.array(list(numbers), dtype=int)
 
 
 def declare(system: Any, packing: Packing | None) -> Any:
