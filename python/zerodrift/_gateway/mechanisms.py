@@ -233,6 +233,8 @@ class MechanismCore(CoreSystem):
         dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
     laws_know_time : bool
         Whether a law depends on t but through positions and velocities.
+    like : MechanismCore, optional
+        One whose tables differ in bodies alone: the others are not written again.
 
     Attributes
     ----------
@@ -248,10 +250,12 @@ class MechanismCore(CoreSystem):
         If the tables contradict themselves; the sentence says where.
     """
 
-    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
+    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True,
+                 like: MechanismCore | None = None) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
-        self._mechanism, self._kept = _create(tables, law is not None, laws_know_time)
+        self._written = like._written if like else _write(tables)
+        self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
         super().__init__(lib.zd_mechanism_system(self._mechanism), self._mechanism)
         rows, coordinates = lib.zd_mechanism_rows(self._mechanism), lib.zd_mechanism_coordinates(self._mechanism)
         self.rows = tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
@@ -336,8 +340,8 @@ def _law_sizes(tables: Tables) -> dict[int, tuple[int, int]]:
     return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
 
 
-def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
-    """The core's mechanism, and what has to live as long."""
+def _write(tables: Tables) -> dict[str, Any]:
+    """All tables but that of the bodies as arrays of C, by their names in `zd_tables`."""
     terms: list[tuple[int, float]] = []
     relations, efforts = [], []
     for row in tables.relations:
@@ -347,20 +351,28 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
         efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law,
                         len(terms), len(effort.inputs), effort.joint))
         terms += ((gauge, 1.0) for gauge in effort.inputs)
-    names = {word: ffi.new("char[]", word.encode()) for row in tables.measures for word in (row.name, row.unit)}
-    measures = [(names[row.name], names[row.unit], QUANTITIES[row.quantity], *row[3:])
-                for row in tables.measures]
-    given = {
-        "body": ffi.new("zd_body[]", list(tables.bodies)), "joint": ffi.new("zd_joint[]", list(tables.joints)),
+    units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
+    names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
+    measures = [(name, units[row.unit], QUANTITIES[row.quantity], *row[3:])
+                for name, row in zip(names, tables.measures, strict=True)]
+    return {
+        "words": (names, units), "joint": ffi.new("zd_joint[]", list(tables.joints)),
         "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),
         "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
         "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_observed[]", measures)}
+
+
+def _create(tables: Tables, written: dict[str, Any], has_laws: bool, laws_know_time: bool) -> Any:
+    """The core's mechanism. The words of `written` have to live as long."""
+    bodies = ffi.new("zd_body[]", list(tables.bodies))
+    arrays = {"body": bodies, **{name: array for name, array in written.items() if name != "words"}}
     c = ffi.new("zd_tables *", {
-        "gravity": tables.gravity, "bodies": len(tables.bodies), "joints": len(tables.joints), "gauges": len(tables.gauges),
-        "terms": len(terms), "relations": len(relations), "efforts": len(efforts), "measures": len(measures), **given,
+        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(written["joint"]), "gauges": len(written["gauge"]),
+        "terms": len(written["term"]), "relations": len(written["relation"]), "efforts": len(written["effort"]),
+        "measures": len(written["measure"]), **arrays,
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = lib.zd_mechanism_create(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
-    return ffi.gc(mechanism, lib.zd_mechanism_free), names
+    return ffi.gc(mechanism, lib.zd_mechanism_free)

@@ -50,7 +50,7 @@ class Assembly:
     def __init__(self, core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
                  t: float) -> None:
         self.core, self.rows, self.length, self.t = core, rows, length, t
-        self.kept = [row for row in range(core.mh) if row not in set(left_out)]
+        self.kept = sorted(set(range(core.mh)) - set(left_out))
         self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
         angles = np.array([coordinate.kind == "angle" for coordinate in core.coordinates])
         self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are told in rad and parts of the length

@@ -64,8 +64,11 @@ class Inertias:
         """A point from its body's mass centre, in the body's axes; on the ground from its origin."""
         place = point.local_with(numbers)
         known = self.of.get(point.body.name)
-        place = place if known is None else place - known[2]
-        return float(place[0]), float(place[1])
+        x, y = place.tolist()       # of plain numbers, as arrays of two cost ten times as much
+        if known is None:
+            return x, y
+        com_x, com_y = known[2].tolist()
+        return x - com_x, y - com_y
 
 
 def _together(mass: float, inertia: float, com: np.ndarray,

@@ -23,10 +23,10 @@ MASSLESS = 1e-13        # of the largest: how little a motion may weigh
 
 
 class Starting:
-    """The start of a mechanism, in poses of mass centres."""
+    """The start of a mechanism, in poses of mass centres; `tables` are those of the drawing, where they are known already."""
 
-    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
-        self.drawing, self.numbers = drawing, numbers
+    def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
+        self.drawing, self.numbers, self._known = drawing, numbers, tables
         self.has_speeds = any(_is_constant_speed(motor) for motor in drawing.of(Motor))
         self._check_held()
 
@@ -68,7 +68,9 @@ class Starting:
         return assembly.core.poses(p, assembly.velocities(p, held, wished))
 
     def _tables(self, starts: Mapping[str, float]) -> Tables:
-        return Tables(self.drawing, self.numbers, in_tree=False, starts=starts)
+        if self._known is None or starts:
+            return Tables(self.drawing, self.numbers, in_tree=False, starts=starts)
+        return self._known.absolute()
 
     def _assembly(self, tables: Tables, t: float, *, skip_speeds: bool = False) -> Assembly:
         core = tables.core()
@@ -93,6 +95,8 @@ class Starting:
 
     def _targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool) -> list[Target]:
         """The components of what is held or wished, of positions or of velocities."""
+        if not given:
+            return []
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []
         for name, value in given.items():

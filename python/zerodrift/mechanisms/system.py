@@ -44,8 +44,8 @@ class MechanismSystem(BaseSystem):
         self._drawing, self.layout, self._changed, self.name = drawing, layout, changed, drawing.name
         self._numbers = Numbers(changed)
         self.parameters = drawing.numbers(self._numbers) | changed
-        self._start = Starting(drawing, self._numbers)
-        tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
+        self._tables = tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
+        self._start = Starting(drawing, self._numbers, tables)
         self._first_core = tables.core()
         self.measures = tuple(row.name for row in tables.observed)
         self.coordinates, self.velocities = _variables(tables, self._first_core)
@@ -78,7 +78,7 @@ class MechanismSystem(BaseSystem):
         """The state at a time that holds and wishes more than the mechanism's own start does."""
         drawing = self._drawing
         drawing = drawing._replace(held=drawing.held | targets(held, "held"), wished=drawing.wished | targets(wish, "wish"))
-        start = Starting(drawing, self._numbers)
+        start = Starting(drawing, self._numbers, self._tables)
         return self._core.state(*start.at(t, nudge=nudge))
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",

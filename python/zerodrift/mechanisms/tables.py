@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -51,6 +52,8 @@ class Tables:
         self.observed: list[Observed] = []
         self.laws = law_rows.Laws()
         self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
+        self.joint_rows = [self._joint(joint) for joint in self.joints]
+        self._made: MechanismCore | None = None
         self._read_positions()
         self._read_joints()
         for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (Bushing, self._bushing),
@@ -62,9 +65,16 @@ class Tables:
         """The core's system."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True)]
-        tables = rows.Tables(bodies, [self._joint(joint) for joint in self.joints], self.gauges, self.relations, self.efforts,
-                                 self.observed, self._gravity())
-        return MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+        tables = rows.Tables(bodies, self.joint_rows, self.gauges, self.relations, self.efforts, self.observed, self._gravity())
+        self._made = MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time,
+                                   like=self._made)
+        return self._made
+
+    def absolute(self) -> Tables:
+        """The same tables, of which nothing but the bodies differs: all of them are free."""
+        other = copy.copy(self)
+        other.carrier = [-1] * len(self.parts)
+        return other
 
     def _gravity(self) -> tuple[float, float]:
         return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value)) for axis, value in zip("xy", self.drawing.gravity,
@@ -137,7 +147,7 @@ class Tables:
     def _read_joints(self) -> None:
         """Measures of joints, and their damping."""
         for i, joint in enumerate(self.joints):
-            kind, row = JOINTS[joint.kind], self._joint(joint)
+            kind, row = JOINTS[joint.kind], self.joint_rows[i]
             self.observed.append(Observed(f"{joint.name}.force", "N", "joint force", i, 2))
             if any(each.gauge == "angle" for each in kind.rows) or (has_coordinate(joint) and kind.coordinate == "angle"):
                 self.observed.append(Observed(f"{joint.name}.torque", "N m", "joint torque", i))
