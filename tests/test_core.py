@@ -34,8 +34,8 @@ def core(tmp_path_factory):
 @needs_compiler
 @linux
 def test_ordinary_steps_allocate_nothing(tmp_path, core):
-    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each built-in system, formulation
-    and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these, more is taken: see below.
+    """One allocation makes a run and another, freed at once, its start; none moves it: counted in each built-in system,
+    formulation and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these see below.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
     compiled(tmp_path, "-o", "allocations", ROOT / "tests" / "allocations.c", core, *wrap, "-lm")
@@ -50,8 +50,8 @@ def test_ordinary_steps_allocate_nothing(tmp_path, core):
 @needs_compiler
 @linux
 def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core):
-    """Steps near a bifurcation take memory when they first need it. Wherever it is refused, the run ends there and says so, and all
-    that it had is freed. Where nothing is refused, the same run comes to its end.
+    """Steps near a bifurcation take memory when they first need it. Wherever it is refused, the run ends there and says so, and
+    all that it had is freed. Where nothing is refused, the same run comes to its end.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ("aligned_alloc", "free")]
     compiled(tmp_path, "-o", "rare_memory", ROOT / "tests" / "native" / "rare_memory.c", core, *wrap, "-lm")

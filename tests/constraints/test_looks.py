@@ -27,8 +27,8 @@ def program(tmp_path_factory):
 
 
 def path_of_matrices(rng, n, m):
-    """Matrices one after the other, some nearly the same as the one before, some far from it. Along them a row comes to follow from the
-    others, by any digits, and goes on reversed.
+    """Matrices one after the other, some nearly the same as the one before, some far from it. Along them a row comes to follow
+    from the others, by any digits, and goes on reversed.
     """
     C, wander = rng.normal(size=(2, m, n)) * 10 ** rng.uniform(-2, 2, (m, 1))
     row, others = rng.integers(m), rng.normal(size=m)
@@ -66,8 +66,8 @@ def said(program, draws):
 
 
 def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
-    """Neither of them calls rows independent that are not, nor the orientation kept where it has changed: that of `look.c` is known
-    in the plain metric, that of `schur` in the metric of M^-1. Each case comes often enough to count.
+    """Neither of them calls rows independent that are not, nor the orientation kept where it has changed: `look.c` knows it in
+    the plain metric, `schur` in that of M^-1. Each case comes often enough to count.
     """
     rng, draws = np.random.default_rng(3), []
     for n in [*rng.integers(SMALLEST, LARGEST + 1, 150), LARGEST]:
