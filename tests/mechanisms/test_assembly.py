@@ -126,6 +126,29 @@ def test_velocities_that_contradict_each_other_are_named():
         _ = m.system().p0
 
 
+def test_joints_that_block_a_drive_are_named():
+    """A slot keeps a bar on a pin from turning, and a motor is to turn it; the joint of another body has no part in it."""
+    m = zd.Mechanism("blocked")
+    bar, free = (m.body(name, 1.0, 1.0, at=(0, 0)) for name in ("bar", "free"))
+    pin = m.revolute("pin", m.ground, bar, at=(0, 0))
+    m.revolute("hook", m.ground, free, at=(0, 1))
+    m.slot("stop", m.ground, bar.point(at=(2, 0)), axis=(1, 0))
+    m.motor("drive", pin, angle=lambda t: 0.3 * np.sin(4 * t))
+    with pytest.raises(zd.InconsistentStart, match=r"'drive' asks for a velocity that the joints 'pin', 'stop' do not allow; it "
+                                                   r"is off by 1\.2$"):
+        zd.simulate(m, 0.1, step=0.01)      # the law's rate at t = 0 is 0.3 times 4, and the joints leave none
+
+
+def test_what_is_welded_has_no_joint_coordinates():
+    m = zd.Mechanism("bracket", gravity=(0, -9.81))
+    m.weld("bolt", m.ground, m.body("plate", 2.0, 0.1, at=(0.5, 0)), at=(0, 0))
+    with pytest.raises(zd.ZerodriftError, match="mechanism 'bracket' has no joint coordinates to move in"):
+        zd.simulate(m, 0.1, step=0.05)
+    sol = zd.simulate(m.system("absolute"), 0.1, step=0.05)
+    assert np.allclose(sol["bolt.force"], [0.0, 2.0 * 9.81], atol=1e-12)
+    assert np.allclose(sol["bolt.torque"], 2.0 * 9.81 * 0.5, atol=1e-12)     # about the bolt, half a metre from the centre
+
+
 def test_held_values_that_agree_are_accepted():
     m = linkage()
     m.start({"crank.angular_velocity": 1.0})
@@ -299,5 +322,5 @@ def test_joints_that_do_not_let_a_held_velocity_be_are_named():
     m.revolute("B", first.end, second.start)
     m.revolute("C", second.end, m.ground.point((2, 0)))
     m.start({first.angular_velocity: 1.0})
-    with pytest.raises(zd.InconsistentStart, match=r"the velocities of 'a\.angular_velocity' and '[ABC]'.* contradict each other"):
+    with pytest.raises(zd.InconsistentStart, match=r"'a\.angular_velocity' asks for .* that the joints '[ABC]'.* do not allow"):
         zd.assemble(m)

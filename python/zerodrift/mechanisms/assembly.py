@@ -294,21 +294,31 @@ class Assembly:
         scaled = self._least_step(rows, right)
         left = rows @ scaled - right
         if np.abs(left).max(initial=0.0) > 1e-9 * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
-            worst = [names[i] for i in np.argsort(-np.abs(left)) if abs(left[i]) > 1e-3 * np.abs(left).max()]
-            told = " and ".join(map(repr, dict.fromkeys(name for name in worst if name))) or self._held_against_joints(left, held)
-            raise InconsistentStart(f"start: the velocities of {told} contradict each other, by {np.abs(left * size).max():.3g}")
+            raise self._contradiction(left, size, names)
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = _nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
 
-    def _held_against_joints(self, left: np.ndarray, held: Sequence[Target]) -> str:
-        """What is held, or driven, and the joints that do not let it move so."""
-        joints = [self.rows[i] for i in np.argsort(-np.abs(left)) if i < self.core.m and abs(left[i]) > 1e-3 * np.abs(left).max()]
-        moved = [target.name for target in held] or [
-            self.rows[i] for i in range(self.core.m) if self.core.rows[i].owner != "joint"]
-        return " and ".join(map(repr, [*moved, *dict.fromkeys(joints)]))
+    def _contradiction(self, left: np.ndarray, size: np.ndarray, names: Sequence[str]) -> Exception:
+        """The error that names whose velocities contradict each other, or the joints that do not leave one its velocity.
+
+        What is left over weighs rows so that the weighted sum of them vanishes and that of their right sides does not: rows with
+        a weight are those that contradict each other.
+        """
+        least = 1e-3 * np.abs(left).max()
+        worst = [int(i) for i in np.argsort(-np.abs(left)) if abs(left[i]) > least]
+        moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
+        if len(moved) > 1:
+            told, off = " and ".join(map(repr, moved)), np.abs(left * size).max()
+            return InconsistentStart(f"start: the velocities of {told} contradict each other, by {off:.3g}")
+        row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
+        off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
+        told = f"; it is off by {off:.3g}" if off else ""
+        joints = ", ".join(repr(name) for name in sorted({self.rows[i] for i in worst if not names[i]}))
+        blocking = f"the joints {joints} do" if joints else "the mechanism does"
+        return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow{told}")
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
         """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""

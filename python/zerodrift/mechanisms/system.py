@@ -11,6 +11,7 @@ import numpy as np
 from .. import _check
 from .._gateway import Variable
 from .._gateway.mechanisms import MechanismCore
+from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from .drawing import Drawing, Inertias
 from .numbers import Numbers
@@ -83,6 +84,9 @@ class MechanismSystem(BaseSystem):
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        if not self.nq:
+            raise ZerodriftError(f"mechanism {self.name!r} has no joint coordinates to move in, as all its bodies are welded to "
+                                 "the ground; system('absolute') has coordinates, and gives its reactions")
         if p is None and v is None:
             return self.start_at(t)
         return super()._state_or_start(p, v, p_name, v_name)
