@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from . import _check
@@ -72,7 +73,7 @@ def disc(*, radius: float, mass: float | None = None, density: float | None = No
     radius, inner = _check.number("radius", radius, above=0), _check.number("inner", inner, least=0)
     if inner >= radius:
         raise ValueError(f"inner must be less than radius, {radius:g}, not {inner:g}")
-    mass = _mass(mass, density, 3.141592653589793 * (radius**2 - inner**2), "kg/m^2")
+    mass = _mass(mass, density, math.pi * (radius**2 - inner**2), "kg/m^2")
     return Inertia(mass, mass * (radius**2 + inner**2) / 2)
 
 

@@ -55,15 +55,8 @@ class Elements:
         owner, _, side = value.partition(".")
         if side in ("start", "end") and isinstance(link := self._elements.get(owner), Link):
             return getattr(link, side)
-        raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {self._alike(value)}")
-
-    def _alike(self, name: str) -> str:
-        """The names most like one that there is not, best first; where none is like it, all."""
-        import difflib
-
-        ends = [f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end")]
-        close = difflib.get_close_matches(name, [*self._elements, *ends], n=5)
-        return f"{'close to it' if close else 'there'} is {', '.join(map(repr, close or self._elements))}"
+        known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
+        raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {_check.closest(value, known)}")
 
     def _body(self, argument: str, value: Any) -> Body:
         """A body of this mechanism."""
