@@ -63,8 +63,8 @@ def test_a_name_is_what_it_names(machine, add):
 
 @pytest.mark.parametrize("name", ["sahft", "kne", "arm.and", "arm.start.x", "", "Q"])
 def test_a_name_that_there_is_not_is_answered_with_close_ones(machine, name):
-    close = {"sahft": "the closest of 13 names are shaft", "kne": "the closest of 13 names are knee", "arm.and": "the closest of 13 names are arm.end, ",
-             "arm.start.x": "the closest of 13 names are arm.start"}.get(name, "there are ground, base, arm, ")
+    closest = {"sahft": "shaft", "kne": "knee", "arm.and": "arm.end, ", "arm.start.x": "arm.start"}
+    close = f"the closest of 13 names are {closest[name]}" if name in closest else "there are ground, base, arm, "
     with pytest.raises(ValueError, match=f"joint of motor 'drive' names '{name}', which is no element of 'machine'; {close}"):
         machine.motor("drive", name, speed=1.0)
 
