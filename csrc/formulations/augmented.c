@@ -43,7 +43,7 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void spare(void *memory, double **Q, double **G)
+static void lend_workspace(void *memory, double **Q, double **G)
 {
     const augmented *self = memory;
     *Q = self->G;                       /* (n + m)^2 is at least m n + m^2 */
@@ -114,7 +114,7 @@ const zd_formulation zd_augmented = {
     },
     ZD_DEPENDENT_STATE,
     .take = take,
-    .spare = spare,
+    .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,
 };

@@ -34,7 +34,7 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-void zd_complement_spare(const zd_complement *self, double **Q, double **G)
+void zd_complement_lend(const zd_complement *self, double **Q, double **G)
 {
     *Q = self->work;
     *G = self->K;

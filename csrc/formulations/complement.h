@@ -30,7 +30,7 @@ typedef struct zd_complement {
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system);
 /* Memory (n, n) each that is free as long as it is not known which rows count. */
-void zd_complement_spare(const zd_complement *self, double **Q, double **G);
+void zd_complement_lend(const zd_complement *self, double **Q, double **G);
 /* D and K at the point, once for each (t, p). */
 int zd_complement_at(zd_complement *self, zd_point *point);
 /* Takes these velocities (r,) for u, until they are badly conditioned. */

@@ -16,8 +16,9 @@ typedef struct zd_formulation {
     int (*factor)(void *self, zd_point *point);
     /* Whether factor() of such a system tells by itself, as it orthogonalizes them, that all rows count; NULL: it does not. */
     int (*finds_rows)(const zd_system *system);
-    /* What is free as long as it is not known which rows count, (m, n) and (m, m), m <= n; NULL: nothing is. */
-    void (*spare)(void *self, double **Q, double **G);
+    /* Workspace that factor() does not use before it is known which rows count, and that the search for these may write into meanwhile:
+     * Q (m, n) and G (m, m), m <= n. NULL: there is none. */
+    void (*lend_workspace)(void *self, double **Q, double **G);
     /* M x + C^T lambda = force, C x = rhs, with what was factored. force NULL: zero; lambda NULL: not wanted. */
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */

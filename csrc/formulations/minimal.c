@@ -32,10 +32,10 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-void zd_minimal_spare(void *memory, double **Q, double **G)
+void zd_minimal_lend(void *memory, double **Q, double **G)
 {
     zd_minimal *self = memory;
-    zd_complement_spare(&self->complement, Q, G);
+    zd_complement_lend(&self->complement, Q, G);
 }
 
 int zd_minimal_factor(void *memory, zd_point *point)

@@ -17,7 +17,7 @@ typedef struct zd_minimal {
 } zd_minimal;
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system);
-void zd_minimal_spare(void *self, double **Q, double **G);
+void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
 /* Notes, before the point moves to time t, how far ahead of its acceleration that is: this serves where u alone does not determine v. */

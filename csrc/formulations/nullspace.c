@@ -40,10 +40,10 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void spare(void *memory, double **Q, double **G)
+static void lend_workspace(void *memory, double **Q, double **G)
 {
     nullspace *self = memory;
-    zd_complement_spare(&self->complement, Q, G);
+    zd_complement_lend(&self->complement, Q, G);
 }
 
 /* Rows of different units are made comparable before pivots are. */
@@ -113,7 +113,7 @@ const zd_formulation zd_nullspace = {
     },
     ZD_DEPENDENT_STATE,
     .take = take,
-    .spare = spare,
+    .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,
 };

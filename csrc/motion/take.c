@@ -11,9 +11,9 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     zd_rank *rank = zd_rank_take(arena, system);
     zd_look *look = NULL;
     double *rhs = formulation->settle ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
-    int has_spare = formulation->spare && zd_constraints(independent) == zd_constraints(system) && !system->structure;
-    double counted, *Q = has_spare ? &counted : NULL, *G = Q;
-    if (motion->solver && has_spare) formulation->spare(motion->solver, &Q, &G);
+    int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
+    double counted, *Q = lends ? &counted : NULL, *G = Q;
+    if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     int is_told = !system->structure && (zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)));
     if (!is_told) look = zd_look_take(arena, system, Q, G);
     if (!rank) return NULL;
