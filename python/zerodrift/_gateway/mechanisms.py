@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -233,15 +234,9 @@ class MechanismCore(CoreSystem):
         dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
     laws_know_time : bool
         Whether a law depends on t but through positions and velocities.
-    like : MechanismCore, optional
-        One whose tables differ in bodies alone: the others are not written again.
 
     Attributes
     ----------
-    rows : tuple of Row
-        What each row of C is, holonomic ones first.
-    coordinates : tuple of Coordinate
-        What each entry of p is.
     measures : tuple of Observed
 
     Raises
@@ -250,18 +245,26 @@ class MechanismCore(CoreSystem):
         If the tables contradict themselves; the sentence says where.
     """
 
-    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True,
-                 like: MechanismCore | None = None) -> None:
+    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
-        self._written = like._written if like else _write(tables)
+        self._written = _write(tables)
         self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
         super().__init__(lib.zd_mechanism_system(self._mechanism), self._mechanism)
-        rows, coordinates = lib.zd_mechanism_rows(self._mechanism), lib.zd_mechanism_coordinates(self._mechanism)
-        self.rows = tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
-                          for i in range(self.m))
-        self.coordinates = tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
         self.measures = tuple(tables.measures)
+
+    @functools.cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """What each row of C is, holonomic ones first."""
+        rows = lib.zd_mechanism_rows(self._mechanism)
+        return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
+                     for i in range(self.m))
+
+    @functools.cached_property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """What each entry of p is."""
+        coordinates = lib.zd_mechanism_coordinates(self._mechanism)
+        return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
 
     def for_run(self) -> MechanismCore:
         """The same system; with laws, one that keeps what they raise for itself."""

@@ -15,6 +15,7 @@ from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
+SMALLEST = 1e-3         # of the largest row, and of the length: what counts as the size of a smaller row
 ATTEMPTS = 200          # damped steps from a sketch
 NEARER = 50             # steps towards the drawing
 TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
@@ -59,7 +60,8 @@ class Assembly:
 
     def _weigh(self) -> None:
         """The square root of the mass metric in scaled coordinates; what has no mass gets a millionth of the largest."""
-        mass = np.diag(self._evaluate(np.zeros(self.core.nq))["M"]) * self.scale**2
+        M = self.core.evaluate_stored(self.t, np.zeros(self.core.nq), np.zeros(self.core.nv))["M"]
+        mass = (np.diag(M) if self.core.packing is None else M) * self.scale**2     # of free bodies the diagonal is stored
         largest = mass.max(initial=0.0) or 1.0
         self.weight = np.sqrt(np.maximum(mass, 1e-6 * largest))
 
@@ -71,10 +73,19 @@ class Assembly:
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
         """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
-        residual, _ = self._residual(p, held)
-        if np.abs(residual).max(initial=0.0) > CLOSED:
+        if not self._is_closed(p, held):
             p = self._nearest(p, self._track(self._close(p), held), held)
         return self._approach(p, held, wished) if wished else p
+
+    def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
+        """Whether all rows and held targets are met."""
+        if not held:
+            stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+            Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
+            if np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length:
+                return True     # whatever the sizes of the rows, for which their dense matrix would have to be made
+        residual, _ = self._residual(p, held)
+        return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
 
     def led_to(self, p: np.ndarray) -> np.ndarray:
         """From positions at another time to those to which drives lead."""
@@ -98,7 +109,7 @@ class Assembly:
         known = self._size.get(len(targets))
         if known is None:
             known = np.linalg.norm(rows, axis=1)
-            known = self._size[len(targets)] = np.maximum(known, 1e-3 * known.max(initial=self.length))
+            known = self._size[len(targets)] = np.maximum(known, SMALLEST * known.max(initial=self.length))
         return known
 
     def _close(self, p: np.ndarray) -> np.ndarray:
@@ -285,6 +296,8 @@ class Assembly:
 
     def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
         """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
+        if self._may_rest(p) and not held and not wished:
+            return np.zeros(self.core.nv)
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)
@@ -300,6 +313,11 @@ class Assembly:
             free = _nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
+
+    def _may_rest(self, p: np.ndarray) -> bool:
+        """Whether no row asks for a velocity."""
+        Phi_t = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv)).get("Phi_t")
+        return Phi_t is None or not Phi_t.any()
 
     def _contradiction(self, left: np.ndarray, size: np.ndarray, names: Sequence[str]) -> Exception:
         """The error that names whose velocities contradict each other, or the joints that do not leave one its velocity.

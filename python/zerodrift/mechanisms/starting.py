@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..errors import CorrectionFailed, SingularSystem
 from .assembly import Assembly, Target
 from .drawing import Drawing
 from .forces import Motor
+from .measuring import measuring
 from .numbers import Numbers
 from .plane import turned
 from .readings import Reading, checked_reading, reading
@@ -41,9 +42,9 @@ class Starting:
         if not self.has_speeds:
             return {}
         tables = self._tables({})
-        assembly = self._assembly(tables, 0.0, skip_speeds=True)
-        p = self._positions(tables, assembly)
         names = [f"{motor.joint.name}.{motor.joint.coordinate}" for motor in self.drawing.of(Motor) if _is_constant_speed(motor)]
+        assembly = self._assembly(tables, 0.0, speeds=names)
+        p = self._positions(tables, assembly)
         index = {row.name: i for i, row in enumerate(assembly.core.measures)}
         zero = np.zeros(assembly.core.nv)
         return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
@@ -72,11 +73,13 @@ class Starting:
             return Tables(self.drawing, self.numbers, in_tree=False, starts=starts)
         return self._known.absolute()
 
-    def _assembly(self, tables: Tables, t: float, *, skip_speeds: bool = False) -> Assembly:
-        core = tables.core()
+    def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
+        """The assembly at a time; without the drives of the coordinates that `speeds` names, which it measures, too."""
+        measured = [*self.drawing.held, *self.drawing.wished, *speeds]
+        core = measuring(tables, measured) if measured else tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
-        speeds = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if skip_speeds else set()
-        left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in speeds]
+        motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
+        left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
         return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t)
 
     def drawn(self, tables: Tables) -> np.ndarray:

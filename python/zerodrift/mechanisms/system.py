@@ -14,6 +14,7 @@ from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from .drawing import Drawing, Inertias
+from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
 from .readings import reading
@@ -44,20 +45,46 @@ class MechanismSystem(BaseSystem):
     def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float]) -> None:
         self._drawing, self.layout, self._changed, self.name = drawing, layout, changed, drawing.name
         self._numbers = Numbers(changed)
-        self.parameters = drawing.numbers(self._numbers) | changed
-        self._tables = tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
-        self._start = Starting(drawing, self._numbers, tables)
-        self._first_core = tables.core()
-        self.measures = tuple(row.name for row in tables.observed)
-        self.coordinates, self.velocities = _variables(tables, self._first_core)
-        self.constraints = row_names(tables, self._first_core)
-        self._watching = Watching(self.measures, self._first_core)
+        self._tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
+        self._start = Starting(drawing, self._numbers, self._tables)
+        self._first_core = self._tables.core()
+
+    # What follows is made when it is first asked for: for a hundred bodies it takes longer than all else.
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, float]:
+        return self._drawing.numbers(self._numbers) | self._changed
+
+    @functools.cached_property
+    def coordinates(self) -> tuple[Variable, ...]:
+        return tuple(position for position, _ in _variables(self._tables, self._first_core))
+
+    @functools.cached_property
+    def velocities(self) -> tuple[Variable, ...]:
+        return tuple(rate for _, rate in _variables(self._tables, self._first_core))
+
+    @functools.cached_property
+    def constraints(self) -> tuple[Variable, ...]:
+        return row_names(self._tables, self._first_core)
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        return self._watching.names
+
+    @functools.cached_property
+    def _watching(self) -> Watching:
+        return Watching(measuring(self._started_tables))
+
+    @functools.cached_property
+    def _started_tables(self) -> Tables:
+        """The tables with the places that drives of constant speed start from."""
+        if not self._start.has_speeds:
+            return self._tables
+        return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives)
 
     @functools.cached_property
     def _core(self) -> MechanismCore:
-        if not self._start.has_speeds:
-            return self._first_core
-        return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives).core()
+        return self._started_tables.core() if self._start.has_speeds else self._first_core
 
     @functools.cached_property
     def p0(self) -> np.ndarray:
@@ -111,11 +138,11 @@ class MechanismSystem(BaseSystem):
 
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """A measure at every row of a solution; None where nothing is measured by that name."""
-        return self._watching.values(getattr(name, "name", name), self._core, solution)
+        return self._watching.values(getattr(name, "name", name), solution)
 
     def _unique(self, name: Any, solution: Any) -> Any:
         """Which components of a measure are the same whatever admissible multipliers there are."""
-        return self._watching.unique(getattr(name, "name", name), self._core, solution)
+        return self._watching.unique(getattr(name, "name", name), solution)
 
     def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
         if self._watching.find(name) is None:
@@ -123,7 +150,7 @@ class MechanismSystem(BaseSystem):
         read = reading(name, self._drawing.elements)
         if read is None or len(read.gauges) != 1:
             raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
-        return lambda t, p, v: float(self._watching.at(name, self._core, t, p, v))
+        return lambda t, p, v: float(self._watching.at(name, t, p, v))
 
     def _advice_on_mass(self) -> str | None:
         """Which bodies are without mass or inertia, and what helps."""
@@ -139,22 +166,20 @@ class MechanismSystem(BaseSystem):
         return list(self.measures)
 
 
-def _variables(tables: Tables, core: MechanismCore) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
+def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
     """Coordinates and velocities: the names of what they measure."""
-    coordinates, velocities = [], []
+    found = []
     for coordinate in core.coordinates:
         body = tables.parts[coordinate.body - 1]
         if coordinate.kind == "displacement":
             joint = tables.joints[tables.carrier[coordinate.body - 1]]
-            coordinates.append(Variable(f"{joint.name}.displacement", "m"))
-            velocities.append(Variable(f"{joint.name}.speed", "m/s"))
+            found.append((Variable(f"{joint.name}.displacement", "m"), Variable(f"{joint.name}.speed", "m/s")))
         elif coordinate.kind == "angle":
-            coordinates.append(Variable(f"{body.name}.angle", "rad"))
-            velocities.append(Variable(f"{body.name}.angular_velocity", "rad/s"))
+            found.append((Variable(f"{body.name}.angle", "rad"), Variable(f"{body.name}.angular_velocity", "rad/s")))
         else:
-            coordinates.append(Variable(f"{body.name}.{coordinate.kind}", "m"))
-            velocities.append(Variable(f"{body.name}.{coordinate.kind}_dot", "m/s"))
-    return tuple(coordinates), tuple(velocities)
+            place = f"{body.name}.{coordinate.kind}"
+            found.append((Variable(place, "m"), Variable(f"{place}_dot", "m/s")))
+    return found
 
 
 def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:

@@ -20,8 +20,7 @@ from .readings import has_coordinate, reading
 from .tree import Edge, carriers
 
 JOINTS, ELEMENTS = rows.joint_kinds(), rows.element_kinds()
-UNITS = {"position": ("m", "m/s"), "angle": ("rad", "rad/s"), "displacement": ("m", "m/s"), "length": ("m", "m/s")}
-RATES = {"position": "velocity", "angle": "angular_velocity"}
+ORIGIN = np.zeros(2)
 
 
 class Tables:
@@ -53,22 +52,19 @@ class Tables:
         self.laws = law_rows.Laws()
         self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
-        self._made: MechanismCore | None = None
-        self._read_positions()
-        self._read_joints()
+        self._damp()
         for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (Bushing, self._bushing),
                           (TorsionSpring, self._torsion_spring), (Force, self._force), (Torque, self._torque)):
             for element in drawing.of(kind):
                 add(element)
 
-    def core(self) -> MechanismCore:
-        """The core's system."""
+    def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> MechanismCore:
+        """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True)]
-        tables = rows.Tables(bodies, self.joint_rows, self.gauges, self.relations, self.efforts, self.observed, self._gravity())
-        self._made = MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time,
-                                   like=self._made)
-        return self._made
+        tables = rows.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.efforts,
+                             observed, self._gravity())
+        return MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
 
     def absolute(self) -> Tables:
         """The same tables, of which nothing but the bodies differs: all of them are free."""
@@ -109,58 +105,61 @@ class Tables:
         length = joint.length_with(self.numbers) if isinstance(joint, Rod) else 0.0
         return rows.Joint(kind.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(), length)
 
-    # ---- measures ----
+    # ---- gauges ----
 
     def _gauge(self, name: str, gauge: Gauge) -> int:
         self.gauge_number[name] = len(self.gauges)
         self.gauges.append(gauge)
         return self.gauge_number[name]
 
-    def _observe(self, name: str, quantity: str, rate: str, gauge: int, size: int) -> None:
-        """Adds a measure of positions, and its rate."""
-        units = UNITS[quantity]
-        self.observed.append(Observed(f"{name}.{quantity}", units[0], "values", gauge, size))
-        self.observed.append(Observed(f"{name}.{rate}", units[1], "rates", gauge, size))
+    def _gauge_of(self, name: str) -> int:
+        """The number of the gauge that reads one component of a position, such as "crank.end.position.x": there is one where
+        something depends on it.
+        """
+        known = self.gauge_number.get(name)
+        return self._gauge(name, self._reading_of(name)) if known is None else known
 
-    def _read_positions(self) -> None:
-        """Measures of bodies and named points."""
-        for body in self.drawing.of(Body):
-            if body is self.drawing.ground:
-                continue
-            carried = isinstance(body, Particle) and body.carrier
-            self._read_point(body.name, body.carrier if carried else Point(body, np.zeros(2)))
-            if body.turns:
-                gauge = self._gauge(f"{body.name}.angle", Gauge("angle", 0, self.number[body.name]))
-                self._observe(body.name, "angle", "angular_velocity", gauge, 1)
-            for point in (getattr(body, end, None) for end in ("start", "end")):
-                if point is not None:
-                    self._read_point(point.name, point)
-        for point in self.drawing.of(Point):
-            self._read_point(point.name, point)
+    def _reading_of(self, name: str) -> Gauge:
+        owner, _, quantity = name.rpartition(".")
+        if quantity in ("x", "y"):
+            owner, _, _ = owner.rpartition(".")
+            element, _, end = owner.partition(".")
+            of = self.drawing.elements[element]
+            return self.place_gauges(getattr(of, end) if end else of)["xy".index(quantity)]
+        of = self.drawing.elements[owner]
+        if isinstance(of, Joint):
+            return self.coordinate_gauge(self.joint_number[owner])
+        return self.length_gauge(of) if isinstance(of, Spring) else self.angle_gauge(of)
 
-    def _read_point(self, name: str, point: Point) -> None:
-        body, local = self._place(point)
-        first = self._gauge(f"{name}.position.x", Gauge("x", 0, body, (0.0, 0.0), local))
-        self._gauge(f"{name}.position.y", Gauge("y", 0, body, (0.0, 0.0), local))
-        self._observe(name, "position", "velocity", first, 2)
+    def place_gauges(self, of: Body | Point) -> tuple[Gauge, Gauge]:
+        """What reads x and y of a point, or of the origin of a body's frame."""
+        if isinstance(of, Body):
+            of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, ORIGIN)
+        body, local = self._place(of)
+        return Gauge("x", 0, body, (0.0, 0.0), local), Gauge("y", 0, body, (0.0, 0.0), local)
 
-    def _read_joints(self) -> None:
-        """Measures of joints, and their damping."""
+    def angle_gauge(self, body: Body) -> Gauge:
+        """What reads the angle of a body."""
+        return Gauge("angle", 0, self.number[body.name])
+
+    def coordinate_gauge(self, joint: int) -> Gauge:
+        """What reads the coordinate of a joint."""
+        kind, row = JOINTS[self.joints[joint].kind], self.joint_rows[joint]
+        zero = getattr(row, kind.zero) if kind.zero else 0.0
+        return Gauge(kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero)
+
+    def length_gauge(self, spring: Spring) -> Gauge:
+        """What reads the length of a spring."""
+        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        return Gauge("distance", first, second, point1, point2)
+
+    def _damp(self) -> None:
+        """The damping of joints."""
         for i, joint in enumerate(self.joints):
-            kind, row = JOINTS[joint.kind], self.joint_rows[i]
-            self.observed.append(Observed(f"{joint.name}.force", "N", "joint force", i, 2))
-            if any(each.gauge == "angle" for each in kind.rows) or (has_coordinate(joint) and kind.coordinate == "angle"):
-                self.observed.append(Observed(f"{joint.name}.torque", "N m", "joint torque", i))
-            if kind.tension:
-                self.observed.append(Observed(f"{joint.name}.{kind.tension}", "N", "joint tension", i))
-            if has_coordinate(joint):
-                zero = getattr(row, kind.zero) if kind.zero else 0.0
-                gauge = self._gauge(f"{joint.name}.{kind.coordinate}", Gauge(
-                    kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero))
-                self._observe(joint.name, kind.coordinate, "speed", gauge, 1)
-                damping = self.numbers(joint, "damping", joint.damping)
-                if damping:
-                    self.efforts.append(rows.Effort("spring", gauge, damping=damping, joint=i))
+            damping = self.numbers(joint, "damping", joint.damping) if has_coordinate(joint) else 0.0
+            if damping:
+                gauge = self._gauge_of(f"{joint.name}.{joint.coordinate}")
+                self.efforts.append(rows.Effort("spring", gauge, damping=damping, joint=i))
 
     # ---- drives and couplings ----
 
@@ -169,7 +168,7 @@ class Tables:
         gauges, picks = list(first), []
         for name in names:
             read = reading(name, self.drawing.elements)
-            gauge = self.gauge_number[read.gauges[0]]
+            gauge = self._gauge_of(read.gauges[0])
             if gauge not in gauges:
                 gauges.append(gauge)
             picks.append((gauges.index(gauge), read.is_rate))
@@ -181,7 +180,7 @@ class Tables:
 
     def _motor(self, motor: Motor) -> None:
         joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.joint.coordinate}"
-        gauge, quantity = self.gauge_number[coordinate], "torque" if motor.joint.coordinate == "angle" else "force"
+        gauge, quantity = self._gauge_of(coordinate), "torque" if motor.joint.coordinate == "angle" else "force"
         unit = {"torque": "N m", "force": "N"}[quantity]
         if motor.prescribes:
             index, words = len(self.relations), ("drive", "drive power")
@@ -207,7 +206,7 @@ class Tables:
 
     def _coupling(self, coupling: Coupling) -> None:
         if coupling.law is None:
-            gauges = [self.gauge_number[name] for name in coupling.of]
+            gauges = [self._gauge_of(name) for name in coupling.of]
             ratio = self.numbers(coupling, "ratio", coupling.ratio)
             self._relation(coupling.name, rows.Relation(gauges, [-ratio, 1.0]))
             self._observe_coupling(coupling, [0, 1])
@@ -248,11 +247,8 @@ class Tables:
                                           scale=float(kind.sign)))
 
     def _spring(self, spring: Spring) -> None:
-        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
-        length = self._gauge(f"{spring.name}.length", Gauge("distance", first, second, point1, point2))
-        self.observed.append(Observed(f"{spring.name}.length", "m", "values", length))
-        slack = spring.free_length_with(self.numbers)
-        self._elastic(spring, self._gauge(spring.name, Gauge("distance", first, second, point1, point2, zero=slack)))
+        gauge = self.length_gauge(spring)._replace(zero=spring.free_length_with(self.numbers))
+        self._elastic(spring, self._gauge(spring.name, gauge))
 
     def _torsion_spring(self, spring: TorsionSpring) -> None:
         first, second = (self.number[body.name] for body in spring.joint.bodies)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,10 +15,11 @@ DEPENDENT = 1e-9        # of the largest singular value: rows that follow from o
 
 
 class Watching:
-    """Reads the measures of a mechanism, by their names, off solutions."""
+    """Reads the measures of a mechanism, by their names, off solutions; `core` is the system with all of them."""
 
-    def __init__(self, names: Sequence[str], core: MechanismCore) -> None:
-        self.number = {name: i for i, name in enumerate(names)}
+    def __init__(self, core: MechanismCore) -> None:
+        self._core, self.names = core, tuple(row.name for row in core.measures)
+        self.number = {name: i for i, name in enumerate(self.names)}
         self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
 
     def find(self, name: str) -> tuple[int, int | None] | None:
@@ -31,47 +31,48 @@ class Watching:
             return self.number[base], "xy".index(axis)
         return None
 
-    def values(self, name: str, core: MechanismCore, solution: Any) -> np.ndarray | None:
+    def values(self, name: str, solution: Any) -> np.ndarray | None:
         """A measure at all rows: (k,) of a scalar or a component, (k, 2) of a vector; None: there is none of that name."""
         found = self.find(name)
         if found is None:
             return None
         number, component = found
-        return _component(self._evaluate(number, core, solution, solution.multipliers), component)
+        return _component(self._evaluate(number, solution, solution.multipliers), component)
 
-    def _evaluate(self, number: int, core: MechanismCore, solution: Any, multipliers: np.ndarray) -> np.ndarray:
+    def _evaluate(self, number: int, solution: Any, multipliers: np.ndarray) -> np.ndarray:
+        core = self._core
         t, p, v = (np.ascontiguousarray(array) for array in (solution.t, solution.p, solution.v))
         if core.measure_depends(number) != "accelerations":
             return core.measure(number, t, p, v)
-        return core.measure(number, t, p, v, self._accelerate(core, solution), np.ascontiguousarray(multipliers))
+        return core.measure(number, t, p, v, self._accelerate(solution), np.ascontiguousarray(multipliers))
 
-    def _accelerate(self, core: MechanismCore, solution: Any) -> np.ndarray:
+    def _accelerate(self, solution: Any) -> np.ndarray:
         """The accelerations (k, nv) at all rows."""
         known = self._accelerations.get(solution)
         if known is None:
-            rows = [_acceleration(core, solution, row) for row in range(len(solution.t))]
-            known = self._accelerations[solution] = np.array(rows).reshape(len(rows), core.nv)
+            rows = [_acceleration(self._core, solution, row) for row in range(len(solution.t))]
+            known = self._accelerations[solution] = np.array(rows).reshape(len(rows), self._core.nv)
         return known
 
-    def unique(self, name: str, core: MechanismCore, solution: Any) -> Any:
+    def unique(self, name: str, solution: Any) -> Any:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
         found = self.find(name)
         if found is None:
             raise KeyError(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}")
         number, component = found
-        values = self._evaluate(number, core, solution, solution.multipliers)
+        values = self._evaluate(number, solution, solution.multipliers)
         same = np.ones(values.shape[1], dtype=bool)
-        if core.measure_depends(number) == "accelerations":
-            for shift in _shifts(core, solution):
-                moved = self._evaluate(number, core, solution, solution.multipliers + shift)
+        if self._core.measure_depends(number) == "accelerations":
+            for shift in _shifts(self._core, solution):
+                moved = self._evaluate(number, solution, solution.multipliers + shift)
                 same &= np.abs(moved - values).max(axis=0, initial=0.0) < SAME
         same = same if component is None else same[component : component + 1]
         return bool(same[0]) if same.size == 1 else same
 
-    def at(self, name: str, core: MechanismCore, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def at(self, name: str, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """A measure of positions or velocities at one state."""
         number, component = self.find(name)
-        found = core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))
+        found = self._core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))
         return _component(found["value"][None], component)[0]
 
 

@@ -1,0 +1,79 @@
+"""The measures of a mechanism, as the core's table has them.
+
+They are made when they are first asked for: a run that nobody measures needs none of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from functools import partial
+from typing import NamedTuple
+
+from .._gateway.mechanisms import Gauge, MechanismCore, Observed
+from .bodies import Body, Link, Point
+from .forces import Spring
+from .readings import has_coordinate
+from .tables import JOINTS, Tables
+
+
+class Position(NamedTuple):
+    """A measure of positions, its rate where that is one, too, and what makes the gauges that it reads."""
+
+    name: str
+    unit: str
+    rate: str | None
+    gauges: Callable[[], tuple[Gauge, ...]]
+
+
+def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
+    """The core's system with all measures; or with those of positions and velocities that `only` names, or components of."""
+    gauges, observed = list(tables.gauges), []
+    wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
+    for position in _positions(tables):
+        if wanted is not None and position.name not in wanted and position.rate not in wanted:
+            continue
+        reads = position.gauges()
+        observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
+        if position.rate:
+            observed.append(Observed(position.rate, f"{position.unit}/s", "rates", len(gauges), len(reads)))
+        gauges += reads
+    if wanted is None:
+        observed += [*_of_joints(tables), *tables.observed]
+    return tables.core(gauges, observed)
+
+
+def _positions(tables: Tables) -> Iterator[Position]:
+    """What can be read of bodies, named points, joints and springs."""
+    for body in tables.drawing.of(Body):
+        if body is tables.drawing.ground:
+            continue
+        yield _place(tables, body.name, body)
+        if body.turns:
+            angle = partial(tables.angle_gauge, body)
+            yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", lambda angle=angle: (angle(),))
+        for end in (body.start, body.end) if isinstance(body, Link) else ():
+            yield _place(tables, end.name, end)
+    for point in tables.drawing.of(Point):
+        yield _place(tables, point.name, point)
+    for i, joint in enumerate(tables.joints):
+        if has_coordinate(joint):
+            unit = "rad" if joint.coordinate == "angle" else "m"
+            yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed",
+                           lambda i=i: (tables.coordinate_gauge(i),))
+    for spring in tables.drawing.of(Spring):
+        yield Position(f"{spring.name}.length", "m", None, lambda spring=spring: (tables.length_gauge(spring),))
+
+
+def _place(tables: Tables, name: str, of: Body | Point) -> Position:
+    return Position(f"{name}.position", "m", f"{name}.velocity", partial(tables.place_gauges, of))
+
+
+def _of_joints(tables: Tables) -> Iterator[Observed]:
+    """The reactions of joints."""
+    for i, joint in enumerate(tables.joints):
+        kind = JOINTS[joint.kind]
+        yield Observed(f"{joint.name}.force", "N", "joint force", i, 2)
+        if any(each.gauge == "angle" for each in kind.rows) or (has_coordinate(joint) and kind.coordinate == "angle"):
+            yield Observed(f"{joint.name}.torque", "N m", "joint torque", i)
+        if kind.tension:
+            yield Observed(f"{joint.name}.{kind.tension}", "N", "joint tension", i)
