@@ -36,6 +36,29 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     return finish(run, status, message, message_size);
 }
 
+int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
+                     const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size)
+{
+    int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < rows && !status; i++)
+        status = zd_acceleration(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, message,
+                                 message_size);
+    return status;
+}
+
+int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
+                      const double *vdot, const double *multipliers, double *values, double *scratch)
+{
+    const zd_measures *all = system->measures;
+    int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < rows && !status; i++)
+        status = all->evaluate(system->data, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
+                               multipliers ? multipliers + i * m : NULL, &(zd_measured){.value = values + i * size}, scratch);
+    return status;
+}
+
 /* One of the two stages, positions or velocities, with what is held at that stage as further constraints. */
 static int project_stage(const zd_system *system, const zd_settings *settings, int corrects, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)

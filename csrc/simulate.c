@@ -1,5 +1,4 @@
 /* The story: a step in time, back onto the constraints, keep what is wanted; again until the end. */
-#include "output/record.h"
 #include "run/explain.h"
 #include "run/run.h"
 #include "stepping/clock.h"
@@ -19,7 +18,7 @@ static int save(zd_run *run, zd_record *record)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval) return zd_output_after(&run->output, record, run->watch.ended);
-    return zd_course_is_due(&run->course, settings->save_every) ? zd_record_row(&run->motion, record) : ZD_DONE;
+    return zd_course_is_due(&run->course, settings->save_every) ? zd_recorder_add(&run->recorder, record) : ZD_DONE;
 }
 
 static int is_over(const zd_run *run)

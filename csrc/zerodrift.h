@@ -75,6 +75,14 @@ typedef struct zd_events {
     int (*found)(void *data, int event, double t, const double *p, const double *v);
 } zd_events;
 
+/* ---- outputs: measures that are recorded in every saved row ---- */
+
+typedef struct zd_outputs {
+    const zd_system *of;    /* whose measures: of what moves, or of its equations in another form; NULL: those of the system that is run */
+    int count;
+    const int *measure;     /* (count,) which of them; their components stand in a row one after the other */
+} zd_outputs;
+
 /* ---- settings of a run ---- */
 
 enum { ZD_CORRECTIONS_MAX = 8, ZD_ROW_VALUES = 16 };
@@ -100,6 +108,7 @@ typedef struct zd_settings {
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */
     int64_t t_evals;
     const zd_events *events;        /* NULL: none */
+    const zd_outputs *outputs;      /* NULL: none */
     zd_given of_formulation, of_integrator;
     zd_given correction[ZD_CORRECTIONS_MAX];        /* of each row of the table */
     enum zd_on_singular on_singular;
@@ -153,6 +162,7 @@ typedef struct zd_record {      /* one row per saved instant; memory belongs to 
     double *kinetic, *potential, *input, *energy_violation; /* (capacity,) J; the last three NULL without potential */
     int *iterations;            /* (capacity,) most position iterations of a step since the row before */
     int *energy_skipped;        /* (capacity,) energy corrections left out since the row before */
+    double *outputs;            /* (capacity, components of all outputs); NULL where there are none */
 } zd_record;
 
 typedef struct zd_run zd_run;
@@ -193,6 +203,13 @@ zd_system zd_perturbed(const zd_perturbation *perturbation);      /* it refers t
 
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size);
+/* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv) and multipliers (rows, m). */
+int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
+                     const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
+/* A measure at many states: values (rows, size); scratch as the measures ask for. vdot, multipliers may be NULL where it does not depend
+ * on them. */
+int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
+                      const double *vdot, const double *multipliers, double *values, double *scratch);
 /* Corrects p and v in place as the corrections that are given do, holding coordinates and velocities where hold_p, hold_v are
  * nonzero (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,

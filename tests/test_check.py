@@ -186,7 +186,7 @@ def test_corrections_are_given_once():
 
 
 def test_a_system_that_is_only_described_is_not_simulated(bar):
-    from zerodrift.runs.solution import Described
+    from zerodrift.runs.saving import Described
 
     description = Described(bar._described())
     with pytest.raises(TypeError, match=r"system must be one of zd.systems.*, not <description of four_bar>"):

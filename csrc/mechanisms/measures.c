@@ -129,17 +129,3 @@ zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
     }
     return (zd_measures){count, measure, zd_frame_size(self), evaluate};
 }
-
-int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
-                      const double *vdot, const double *multipliers, double *values, double *scratch)
-{
-    const zd_measures *all = system->measures;
-    int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = system->mh + system->mn;
-    for (int64_t i = 0; i < rows; i++) {
-        const zd_measured out = {.value = values + i * size};
-        int status = all->evaluate(system->data, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
-                                   multipliers ? multipliers + i * m : NULL, &out, scratch);
-        if (status) return status;
-    }
-    return ZD_DONE;
-}

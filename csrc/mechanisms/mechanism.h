@@ -149,8 +149,4 @@ void zd_mechanism_with_owner(const zd_mechanism *mechanism, void *owner, void *d
 void zd_mechanism_poses(const zd_mechanism *mechanism, const double *p, const double *v, double *poses, double *rates, double *scratch);
 void zd_mechanism_state(const zd_mechanism *mechanism, const double *poses, const double *rates, double *p, double *v);
 
-/* A measure of any system at many states: values (rows, size). vdot, multipliers may be NULL where it does not depend on them. */
-int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
-                      const double *vdot, const double *multipliers, double *values, double *scratch);
-
 #endif

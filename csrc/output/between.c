@@ -5,11 +5,9 @@
 
 #include <math.h>
 
-#include "record.h"
-
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper)
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder)
 {
-    zd_output self = {.stepper = stepper, .t_eval = settings->t_eval, .t_evals = settings->t_evals};
+    zd_output self = {.stepper = stepper, .recorder = recorder, .t_eval = settings->t_eval, .t_evals = settings->t_evals};
     if (settings->t_eval || settings->events) {
         self.before = zd_place_take(arena, stepper->motion);
         self.after = zd_place_take(arena, stepper->motion);
@@ -42,19 +40,18 @@ static int is_wanted(const zd_output *self, double until)
 int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     double t1 = self->stepper->t;
-    zd_motion *motion = self->stepper->motion;
     int status = ZD_DONE, away = 0;
     if (is_wanted(self, t1)) zd_output_keep_end(self);
     while (!status && is_wanted(self, nextafter(t1, -INFINITY))) {
         away = 1;
         status = zd_output_move(self, self->t_eval[self->next++]);
-        if (!status) status = zd_record_row(motion, record);
+        if (!status) status = zd_recorder_add(self->recorder, record);
     }
     if (!status && away) status = zd_output_move(self, t1);
     int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
     self->next += here;
-    return zd_record_row(motion, record);
+    return zd_recorder_add(self->recorder, record);
 }
 
 int zd_output_is_complete(const zd_output *self)

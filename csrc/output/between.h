@@ -3,16 +3,18 @@
 #define ZD_BETWEEN_H
 
 #include "../stepping/step.h"
+#include "record.h"
 
 typedef struct zd_output {
     zd_stepper *stepper;
+    zd_recorder *recorder;
     const double *t_eval;   /* (t_evals,) times that are wanted; NULL: none */
     int64_t t_evals;
     int64_t next;              /* of them */
     zd_place before, after; /* the step: where it began and where it has ended */
 } zd_output;
 
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper);
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
 void zd_output_keep_beginning(zd_output *self);
 void zd_output_keep_end(zd_output *self);
 int zd_output_move(zd_output *self, double t);      /* to any time of the step, once its end is kept */

@@ -39,13 +39,42 @@ static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
     return ZD_DONE;
 }
 
-int zd_record_row(zd_motion *motion, zd_record *record)
+zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_motion *motion)
 {
+    zd_recorder self = {.motion = motion, .outputs = settings->outputs};
+    if (!self.outputs) return self;
+    self.measured = self.outputs->of ? self.outputs->of : &motion->system;
+    const zd_measures *measures = self.measured->measures;
+    for (int i = 0; i < self.outputs->count; i++) self.width += measures->measure[self.outputs->measure[i]].size;
+    self.scratch = zd_take_doubles(arena, (size_t)measures->scratch);
+    return self;
+}
+
+/* The accelerations and multipliers at the point are known. */
+static int record_outputs(const zd_recorder *self, zd_record *record, int64_t row)
+{
+    const zd_measures *measures = self->measured->measures;
+    const zd_point *point = self->motion->point;
+    double *value = record->outputs + row * self->width;
+    int status = ZD_DONE;
+    for (int i = 0; i < self->outputs->count && !status; i++) {
+        const int measure = self->outputs->measure[i];
+        status = measures->evaluate(self->measured->data, measure, point->t, point->p, point->v, point->vdot, point->lambda,
+                                    &(zd_measured){.value = value}, self->scratch);
+        value += measures->measure[measure].size;
+    }
+    return status;
+}
+
+int zd_recorder_add(zd_recorder *self, zd_record *record)
+{
+    zd_motion *motion = self->motion;
     int64_t row = record->rows;
     zd_point *point = motion->point;
     int status = zd_motion_accelerate(motion);
     if (!status) status = record_constraints(motion, record, row);
     if (!status) status = record_energy(motion, record, row);
+    if (!status && self->outputs) status = record_outputs(self, record, row);
     if (status) return status;
     record->t[row] = point->t;
     copy_row(record->p, row, point->system->nq, point->p);

@@ -97,6 +97,19 @@ static const char *wrong_events(const zd_events *events)
     return FIRST_BROKEN(rules);
 }
 
+static const char *wrong_outputs(const zd_system *system, const zd_outputs *outputs)
+{
+    if (!outputs) return NULL;
+    const zd_system *of = outputs->of ? outputs->of : system;
+    const zd_measures *measures = of->measures;
+    int alike = of->nq == system->nq && of->nv == system->nv && of->mh == system->mh && of->mn == system->mn;
+    if (!alike) return "outputs are measures of a system with the same coordinates, velocities and constraints";
+    if (!measures || outputs->count < 1 || outputs->count > ZD_LARGEST || !outputs->measure) return "there are 1 to 8192 outputs, of measures";
+    for (int i = 0; i < outputs->count; i++)
+        if (outputs->measure[i] < 0 || outputs->measure[i] >= measures->count) return "every output is one of the measures";
+    return NULL;
+}
+
 static int is_bad(double tolerance) { return !(tolerance >= 0 && tolerance < INFINITY); }
 
 static double latest(const zd_settings *settings) { return fmax(fabs(settings->t0), fabs(settings->t1)); }
@@ -158,6 +171,7 @@ int zd_check_run(const zd_system *system, const zd_settings *settings, char *mes
 {
     int status = zd_check_method(system, settings, message, size);
     const char *wrong = status ? NULL : wrong_course(settings);
+    if (!wrong && !status) wrong = wrong_outputs(system, settings->outputs);
     if (wrong) snprintf(message, (size_t)size, "%s", wrong);
     return wrong ? ZD_BAD_ARGUMENT : status;
 }

@@ -48,7 +48,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .undivided = zd_place_take(arena, motion),
     };
     if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
-    run->output = zd_output_take(arena, settings, &run->stepper);
+    run->recorder = zd_recorder_take(arena, settings, motion);
+    run->output = zd_output_take(arena, settings, &run->stepper, &run->recorder);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
     return here;
 }

@@ -5,6 +5,7 @@
 #include "../motion/motion.h"
 #include "../output/between.h"
 #include "../output/events.h"
+#include "../output/record.h"
 #include "../safeguards/safeguards.h"
 #include "../stepping/course.h"
 #include "../stepping/step.h"
@@ -22,6 +23,7 @@ struct zd_run {
     zd_stepper stepper;
     zd_safeguards safeguards;
     zd_course course;
+    zd_recorder recorder;
     zd_output output;       /* where something between steps is wanted */
     zd_watch watch;
     zd_tally tally;

@@ -11,7 +11,7 @@ import pytest
 
 import zerodrift as zd
 from support import ROWS, assert_same_bits, motion
-from zerodrift.runs.solution import Described
+from zerodrift.runs.saving import Described
 
 
 def saved_and_loaded(sol, tmp_path):

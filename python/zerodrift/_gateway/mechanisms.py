@@ -11,6 +11,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import CALLBACK, DONE, MESSAGE_SIZE, Card, card_of, doubles, text
+from .measures import given
 from .systems import CoreSystem
 
 GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
@@ -26,7 +27,6 @@ QUANTITIES = {
     "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER}
 COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDINATE_ANGLE: "angle",
                lib.ZD_COORDINATE_DISPLACEMENT: "displacement"}
-DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
 
 
 class JointRow(NamedTuple):
@@ -287,54 +287,17 @@ class MechanismCore(CoreSystem):
         """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
         scratch, shape = np.zeros(max(1, self.c.scratch)), (len(self.tables.bodies), 3)
         poses, rates = np.zeros(shape), None if v is None else np.zeros(shape)
-        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), _given(v, self.nv), _given(poses, poses.size),
-                               _given(rates, poses.size), doubles(scratch, scratch.size, writable=True))
+        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(poses, poses.size),
+                               given(rates, poses.size), doubles(scratch, scratch.size, writable=True))
         return poses, rates
 
     def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
         size = 3 * len(self.tables.bodies)
         p, v = np.zeros(self.nq), np.zeros(self.nv)
-        lib.zd_mechanism_state(self._mechanism, doubles(poses, size), _given(rates, size), doubles(p, p.size, writable=True),
+        lib.zd_mechanism_state(self._mechanism, doubles(poses, size), given(rates, size), doubles(p, p.size, writable=True),
                                doubles(v, v.size, writable=True))
         return p, v
-
-    def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
-                multipliers: np.ndarray | None = None) -> np.ndarray:
-        """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
-
-        vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
-        """
-        core, k = self.for_run(), len(t)
-        size = self.c.measures.measure[index].size
-        values, scratch = np.zeros((k, size)), np.zeros(max(1, self.c.measures.scratch))
-        status = lib.zd_measure_states(core.c, index, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv),
-                                       _given(vdot, k * self.nv), _given(multipliers, k * self.m),
-                                       doubles(values, values.size, writable=True),
-                                       doubles(scratch, scratch.size, writable=True))
-        if status:
-            raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
-        return values
-
-    def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Value (size,), rate (size,), row (size, nv) and bias (size,) of a measure of positions or velocities at one state."""
-        core, size = self.for_run(), self.c.measures.measure[index].size
-        arrays = {"value": np.zeros(size), "rate": np.zeros(size), "row": np.zeros((size, self.nv)), "bias": np.zeros(size)}
-        out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
-        scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
-        at = doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL
-        status = core.c.measures.evaluate(core.c.data, index, t, *at, out, scratch)
-        if status:
-            raise core.error or ValueError(f"measure {self.measures[index].name} needs accelerations and multipliers")
-        return arrays
-
-    def measure_depends(self, index: int) -> str:
-        """On what a measure depends: "positions", "velocities" or "accelerations"."""
-        return DEPENDS[self.c.measures.measure[index].depends]
-
-
-def _given(array: np.ndarray | None, size: int) -> Any:
-    return ffi.NULL if array is None else doubles(array, size)
 
 
 def _law_sizes(tables: Tables) -> dict[int, tuple[int, int]]:

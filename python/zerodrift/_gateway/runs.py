@@ -13,6 +13,7 @@ import numpy as np
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, doubles, error_of, row_named, text
 from .callbacks import Watcher
+from .measures import Outputs
 from .systems import CoreSystem
 
 
@@ -57,8 +58,10 @@ def _shapes(nq: int, nv: int, mh: int, m: int, has_energy: bool) -> dict[str, tu
 class Record:
     """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed."""
 
-    def __init__(self, core: CoreSystem, capacity: int) -> None:
+    def __init__(self, core: CoreSystem, capacity: int, outputs: Outputs | None = None) -> None:
         self._shapes = _shapes(core.nq, core.nv, core.mh, core.m, core.has_energy)
+        if outputs:
+            self._shapes = self._shapes | {"outputs": (outputs.width,)}
         self._blocks: list[tuple[Any, dict[str, np.ndarray]]] = []
         self._add(capacity)
 
@@ -104,12 +107,15 @@ class Record:
 class Run:
     """A run of the core."""
 
-    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None) -> None:
+    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
+                 outputs: Outputs | None = None) -> None:
         self._core = core = core.for_run()
-        self._watcher = watcher
+        self._watcher, self._outputs = watcher, outputs
         options.given_jacobian = core.given_jacobian
         if watcher:
             options.events = watcher.c
+        if outputs:
+            options.outputs = outputs.c
         status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
@@ -126,7 +132,7 @@ class Run:
 
     @property
     def _raised(self) -> BaseException | None:
-        return self._core.error or (self._watcher and self._watcher.error)
+        return self._core.error or (self._watcher and self._watcher.error) or (self._outputs and self._outputs.error)
 
     @property
     def notes(self) -> Sequence[str]:
@@ -182,6 +188,19 @@ def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float,
     if status:
         raise core.error or error_of(status, text(message))
     return vdot, multipliers
+
+
+def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.ndarray, p: np.ndarray,
+                  v: np.ndarray) -> np.ndarray:
+    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv)."""
+    core, k = core.for_run(), len(t)
+    vdot, multipliers, message = np.empty((k, core.nv)), np.empty((k, core.m)), ffi.new("char[]", MESSAGE_SIZE)
+    status = lib.zd_accelerations(core.c, formulation, on_singular, k, doubles(t, k), doubles(p, p.size), doubles(v, v.size),
+                                  doubles(vdot, vdot.size, writable=True), doubles(multipliers, multipliers.size, writable=True),
+                                  message, MESSAGE_SIZE)
+    if status:
+        raise core.error or error_of(status, text(message))
+    return vdot
 
 
 def project(core: CoreSystem, options: Any, t: float, p: np.ndarray, v: np.ndarray,

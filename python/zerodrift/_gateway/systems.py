@@ -8,6 +8,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
+from .measures import Measuring
 from .packing import PACKED, Packing
 
 MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
@@ -56,7 +57,7 @@ def kinds() -> dict[str, Kind]:
     return {kind.card.name: kind for kind in (Kind(lib.zd_kind_of(row)) for row in range(lib.zd_rows(lib.ZD_SYSTEMS)))}
 
 
-class CoreSystem:
+class CoreSystem(Measuring):
     """A `zd_system` and what it refers to."""
 
     def __init__(self, system: Any, data: Any) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,11 +16,9 @@ from .drawing import Drawing, Inertias
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
-from .readings import reading
 from .start import targets
 from .starting import Starting
 from .tables import JOINTS, Tables
-from .watching import Watching
 
 LAYOUTS = ("joint", "absolute")
 
@@ -69,11 +66,11 @@ class MechanismSystem(BaseSystem):
 
     @property
     def measures(self) -> tuple[str, ...]:
-        return self._watching.names
+        return tuple(self._watching.number)
 
     @functools.cached_property
-    def _watching(self) -> Watching:
-        return Watching(measuring(self._started_tables))
+    def _measuring(self) -> MechanismCore:
+        return measuring(self._started_tables)
 
     @functools.cached_property
     def _started_tables(self) -> Tables:
@@ -134,24 +131,6 @@ class MechanismSystem(BaseSystem):
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return outline(self._drawing, self._numbers, poses)
 
-    # ---- measures ----
-
-    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
-        """A measure at every row of a solution; None where nothing is measured by that name."""
-        return self._watching.values(getattr(name, "name", name), solution)
-
-    def _unique(self, name: Any, solution: Any) -> Any:
-        """Which components of a measure are the same whatever admissible multipliers there are."""
-        return self._watching.unique(getattr(name, "name", name), solution)
-
-    def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
-        if self._watching.find(name) is None:
-            return super()._reader(name, what)
-        read = reading(name, self._drawing.elements)
-        if read is None or len(read.gauges) != 1:
-            raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
-        return lambda t, p, v: float(self._watching.at(name, t, p, v))
-
     def _advice_on_mass(self) -> str | None:
         """Which bodies are without mass or inertia, and what helps."""
         inertias = Inertias(self._drawing, self._numbers).of
@@ -161,9 +140,6 @@ class MechanismSystem(BaseSystem):
             return None
         named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
         return f"{named} {have} no mass or no inertia: give some, or take formulation='augmented'"
-
-    def _names_of_measures(self) -> list[str]:
-        return list(self.measures)
 
 
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:

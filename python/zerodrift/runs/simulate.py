@@ -14,6 +14,7 @@ from ..errors import Interrupted, SingularSystem
 from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
 from . import diagnosis, settings
 from . import events as _events
+from . import outputs as _outputs
 from .keyboard import Keyboard
 from .progress import progress_of
 from .solution import Solution
@@ -43,6 +44,7 @@ def simulate(
     correction: Any = None,
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,
+    outputs: Any = None,
     on_singular: str = "stop",
     direct: bool | None = None,
     on_failure: str = "raise",
@@ -93,6 +95,10 @@ def simulate(
         Steps between saved rows; start and end are always saved.
     progress : bool or callable
         True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
+    outputs : list of measures or names, optional
+        Measures that are recorded in every saved row, such as ``["C.force", crank.angle]``, with the accelerations and
+        multipliers of the run itself; ``sol[name]`` then reads the record, and `Solution.save` keeps it. Left out: ``sol[name]``
+        evaluates measures when it is asked, and nothing is recorded or paid for.
     on_singular : {"stop", "continue"}
         What to do when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a
@@ -171,14 +177,19 @@ def simulate(
     core = core_of(system) if direct is False else direct_core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
+    recorded = None
+    if outputs is not None:
+        chosen["outputs"] = _outputs.names(outputs, system)
+        recorded = _outputs.Recorded(chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
-        run = _created(system, core, options, p0, v0, watcher)
-        record = _gateway.Record(core, rows)
+        more = recorded.core if recorded else None
+        run = _created(system, core, options, p0, v0, watcher, more)
+        record = _gateway.Record(core, rows, more)
         outcome = _drive(run, record, progress, keyboard)
-        solution = _solution(system, span, chosen, run, record, watcher, outcome)
+        solution = _solution(system, span, chosen, run, record, watcher, outcome, recorded)
     return _finished(solution, run, outcome, on_failure, keyboard)
 
 
@@ -220,7 +231,7 @@ def _show(show: Callable[[float], None], part: float) -> None:
         raise
 
 
-def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
+def _solution(system, span, chosen, run, record, watcher, outcome, recorded) -> Solution:
     """Everything that a run left behind."""
     arrays = record.take()
     t_events, p_events, v_events = _events_found(watcher)
@@ -232,7 +243,8 @@ def _solution(system, span, chosen, run, record, watcher, outcome) -> Solution:
         energy_skipped=arrays["energy_skipped"], position_size=run.sizes,
         stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
-        system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events)
+        system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events,
+        outputs=recorded.columns(arrays["outputs"]) if recorded and recorded.core else {})
 
 
 def _created(system: BaseSystem, *given: Any) -> _gateway.Run:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import itertools
-import json
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +11,11 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of, direct_core_of
-from ..systems.builtin import FACTORIES, BuiltIn
-from .rows import CARDS, RowSettings
+from ..systems.watching import AXES
+from .saving import read, write
 from .settings import core_settings, corrections_of
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
-EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,6 +73,8 @@ class Solution:
         For each event, the times at which it happened; None where no events were asked for.
     p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
         Coordinates and velocities at those times.
+    outputs : dict of str to ndarray (k,) or (k, size)
+        The measures that the run recorded, by name.
     """
 
     t: np.ndarray
@@ -100,12 +100,13 @@ class Solution:
     t_events: tuple[np.ndarray, ...] | None = None
     p_events: tuple[np.ndarray, ...] | None = None
     v_events: tuple[np.ndarray, ...] | None = None
+    outputs: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for value in vars(self).values():
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
-        for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or ()):
+        for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or (), self.outputs.values()):
             array.setflags(write=False)
 
     @classmethod
@@ -172,7 +173,9 @@ class Solution:
         >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
         True
         """
-        measured = self.system._measured(name, self)
+        measured = self._recorded(getattr(name, "name", name))
+        if measured is None:
+            measured = self.system._measured(name, self)
         if measured is not None:
             return measured
         columns = [array[:, column] for array, variables in self._named() for column, variable in enumerate(variables)
@@ -184,6 +187,16 @@ class Solution:
                            "take the column of p, v or multipliers")
         known = self._ipython_key_completions_()
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
+
+    def _recorded(self, name: Any) -> np.ndarray | None:
+        """A measure of the record, or a component of one; None: that is not there."""
+        if not self.outputs or not isinstance(name, str):
+            return None
+        if name in self.outputs:
+            return self.outputs[name]
+        base, _, axis = name.rpartition(".")
+        vector, component = self.outputs.get(base), AXES.get(axis, -1)
+        return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
 
     def unique(self, name: str) -> Any:
         """Whether a measure of a mechanism does not depend on which of all admissible multipliers are taken.
@@ -292,15 +305,7 @@ class Solution:
         """
         path = Path(path)
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
-        description = {name: value for name, value in values.items() if name not in arrays}
-        for name in EVENTS:
-            arrays |= {f"{name}.{i}": array for i, array in enumerate(values[name] or ())}
-            description[name] = None if values[name] is None else len(values[name])
-        description["system"] = self.system._described()
-        description["settings"] = {name: _to_json(value) for name, value in self.settings.items()}
-        np.savez_compressed(path, zerodrift=np.array(json.dumps(description)), **arrays)
+        write(path, {each.name: getattr(self, each.name) for each in fields(self)})
         return path
 
 
@@ -321,66 +326,10 @@ def load(path: str | Path) -> Solution:
     >>> bool((again.p == sol.p).all())
     True
     """
-    arrays = _read_arrays(path)
-    if "zerodrift" not in arrays:
+    values = read(path)
+    if values is None:
         raise ValueError(f"{path} is no solution saved by zerodrift")
-    description = json.loads(str(arrays.pop("zerodrift")))
-    description["t_span"] = tuple(description["t_span"])
-    for name in EVENTS:
-        if (count := description.get(name)) is not None:
-            description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
-    description["system"] = _restored_system(description["system"])
-    description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
-    return Solution(**arrays, **description)
-
-
-def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
-    """The arrays of an NPZ file; none where it is another kind of file."""
-    with open(path, "rb") as file:
-        if file.read(2) != b"PK":       # of any ZIP file; NumPy would try to read other files in other ways
-            return {}
-    with np.load(path, allow_pickle=False) as file:
-        return dict(file)
-
-
-def _to_json(value: Any) -> Any:
-    """A setting as JSON."""
-    if isinstance(value, tuple):
-        return [_to_json(each) for each in value]
-    if isinstance(value, RowSettings):
-        return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
-    return value.tolist() if isinstance(value, np.ndarray) else value
-
-
-def _from_json(value: Any) -> Any:
-    if isinstance(value, dict):
-        return CARDS[value.pop("kind")].settings(**value)
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        return tuple(map(_from_json, value))
-    return np.array(value) if isinstance(value, list) else value
-
-
-class Described(BaseSystem):
-    """A system of which only the description was saved: enough for tables and plots, not for another run."""
-
-    def __init__(self, description: dict[str, Any]) -> None:
-        self.name, self.parameters = description["name"], {}
-        for group in ("coordinates", "velocities", "constraints"):
-            setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
-
-    m = property(lambda self: len(self.constraints), doc="Number of constraints.")
-
-    def __repr__(self) -> str:
-        return f"<description of {self.name}>"
-
-    def __str__(self) -> str:
-        return repr(self)       # sizes, rows and parameters were not saved
-
-
-def _restored_system(description: dict[str, Any]) -> BaseSystem:
-    if "parameters" in description and description["name"] in FACTORIES:
-        return BuiltIn(description["name"], description["parameters"])
-    return Described(description)
+    return Solution(**values)
 
 
 def _duration(seconds: float) -> str:

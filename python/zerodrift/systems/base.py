@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import Variable
 from .structure import Structure, of_core
+from .watching import Watching
 
 
 class Terms:
@@ -211,18 +213,33 @@ class BaseSystem:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return None
 
+    @property
+    def _measuring(self) -> _gateway.CoreSystem | None:
+        """The core's system that has the measures; None where only a description is left."""
+        return getattr(self, "_core", None)
+
+    @functools.cached_property
+    def _watching(self) -> Watching:
+        return Watching(self._measuring)
+
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """A measure at every row of a solution; None where nothing is measured by that name."""
-        return None
+        return self._watching.values(getattr(name, "name", name), solution)
 
     def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
-        """A function of (t, p, v) that reads a coordinate or a velocity by its name, or whatever else a system measures."""
+        """A function of (t, p, v) that reads a scalar measure of positions or velocities, or a coordinate or a velocity."""
+        place, core = self._watching.find(name), self._measuring
+        if place is not None:
+            is_scalar = place.component is not None or core.measure_size(place.number) == 1
+            if not is_scalar or core.measure_depends(place.number) == "accelerations":
+                raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
+            return lambda t, p, v: float(self._watching.at(place, t, p, v))
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
-            place = coordinates.index(name)
-            return lambda t, p, v: float(p[place])
-        place = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
-        return lambda t, p, v: float(v[place])
+            column = coordinates.index(name)
+            return lambda t, p, v: float(p[column])
+        column = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
+        return lambda t, p, v: float(v[column])
 
     def _advice_on_mass(self) -> str | None:
         """What helps where the mass matrix is not positive definite; None: nothing is known of it."""
@@ -230,11 +247,13 @@ class BaseSystem:
 
     def _names_of_measures(self) -> list[str]:
         """What is measured by names of its own."""
-        return []
+        return list(self._watching.number)
 
     def _unique(self, name: Any, solution: Any) -> Any:
         """Which components of a measure are the same whatever admissible multipliers there are."""
-        raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
+        if not self._watching.number:
+            raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
+        return self._watching.unique(getattr(name, "name", name), solution)
 
     def _described(self) -> dict[str, Any]:
         """What a saved solution says of its system, as JSON."""

@@ -3,45 +3,63 @@
 from __future__ import annotations
 
 import weakref
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway.mechanisms import MechanismCore
+from .._gateway import CoreSystem
 
+AXES = {"x": 0, "y": 1, "z": 2}     # names of components
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
 DEPENDENT = 1e-9        # of the largest singular value: rows that follow from others
 
 
-class Watching:
-    """Reads the measures of a mechanism, by their names, off solutions; `core` is the system with all of them."""
+class Place(NamedTuple):
+    """Where a measure is found: its number, and which of its components is meant; None: all of them."""
 
-    def __init__(self, core: MechanismCore) -> None:
-        self._core, self.names = core, tuple(row.name for row in core.measures)
-        self.number = {name: i for i, name in enumerate(self.names)}
+    number: int
+    component: int | None
+
+    def pick(self, values: np.ndarray) -> np.ndarray:
+        """What is meant of values (k, size): (k,) of a scalar or a component, (k, size) of a vector."""
+        if self.component is not None:
+            return values[:, self.component]
+        return values[:, 0] if values.shape[1] == 1 else values
+
+
+class Watching:
+    """Reads the measures of a system, by their names, off solutions; `core` is the one that brings them, None: there is none."""
+
+    def __init__(self, core: CoreSystem | None) -> None:
+        self.core, self._measures = core, core.measures if core else ()
+        self.number = {measure.name: i for i, measure in enumerate(self._measures)}
         self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
 
-    def find(self, name: str) -> tuple[int, int | None] | None:
-        """The number of a measure, and of the component that is meant."""
+    def find(self, name: Any) -> Place | None:
+        """Where a measure is, or a component of one; None: there is none of that name."""
+        if not isinstance(name, str):
+            return None
         if name in self.number:
-            return self.number[name], None
+            return Place(self.number[name], None)
         base, _, axis = name.rpartition(".")
-        if base in self.number and axis in ("x", "y"):
-            return self.number[base], "xy".index(axis)
+        component = AXES.get(axis, -1)
+        if base in self.number and 0 <= component < self._measures[self.number[base]].size > 1:
+            return Place(self.number[base], component)
         return None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Watching, (self.core,)       # what is known of solutions is found again
 
     def values(self, name: str, solution: Any) -> np.ndarray | None:
         """A measure at all rows: (k,) of a scalar or a component, (k, 2) of a vector; None: there is none of that name."""
         found = self.find(name)
         if found is None:
             return None
-        number, component = found
-        return _component(self._evaluate(number, solution, solution.multipliers), component)
+        return found.pick(self._evaluate(found.number, solution, solution.multipliers))
 
     def _evaluate(self, number: int, solution: Any, multipliers: np.ndarray) -> np.ndarray:
-        core = self._core
-        t, p, v = (np.ascontiguousarray(array) for array in (solution.t, solution.p, solution.v))
+        core, (t, p, v) = self.core, _states(solution)
         if core.measure_depends(number) != "accelerations":
             return core.measure(number, t, p, v)
         return core.measure(number, t, p, v, self._accelerate(solution), np.ascontiguousarray(multipliers))
@@ -50,8 +68,8 @@ class Watching:
         """The accelerations (k, nv) at all rows."""
         known = self._accelerations.get(solution)
         if known is None:
-            rows = [_acceleration(self._core, solution, row) for row in range(len(solution.t))]
-            known = self._accelerations[solution] = np.array(rows).reshape(len(rows), self._core.nv)
+            known = _gateway.accelerations(self.core, _formulation(solution.settings["formulation"]), 1, *_states(solution))
+            self._accelerations[solution] = known
         return known
 
     def unique(self, name: str, solution: Any) -> Any:
@@ -62,33 +80,31 @@ class Watching:
         number, component = found
         values = self._evaluate(number, solution, solution.multipliers)
         same = np.ones(values.shape[1], dtype=bool)
-        if self._core.measure_depends(number) == "accelerations":
-            for shift in _shifts(self._core, solution):
+        if self.core.measure_depends(number) == "accelerations":
+            for shift in _shifts(self.core, solution):
                 moved = self._evaluate(number, solution, solution.multipliers + shift)
                 same &= np.abs(moved - values).max(axis=0, initial=0.0) < SAME
         same = same if component is None else same[component : component + 1]
         return bool(same[0]) if same.size == 1 else same
 
-    def at(self, name: str, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def at(self, place: Place, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """A measure of positions or velocities at one state."""
-        number, component = self.find(name)
-        found = self._core.measure_at(number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))
-        return _component(found["value"][None], component)[0]
+        value = self.core.measure_at(place.number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))["value"]
+        return place.pick(value[None])[0]
 
 
-def _component(values: np.ndarray, component: int | None) -> np.ndarray:
-    if component is not None:
-        return values[:, component]
-    return values[:, 0] if values.shape[1] == 1 else values
+def _formulation(given: Any) -> int:
+    """The core's number of a formulation that is given by its name or its settings."""
+    name = given if isinstance(given, str) else given.card.name
+    return [card.name for card in _gateway.cards("formulations")].index(name)
 
 
-def _acceleration(core: MechanismCore, solution: Any, row: int) -> np.ndarray:
-    formulation = [card.name for card in _gateway.cards("formulations")].index(solution.settings["formulation"])
-    p, v = np.ascontiguousarray(solution.p[row]), np.ascontiguousarray(solution.v[row])
-    return _gateway.acceleration(core, formulation, 1, float(solution.t[row]), p, v)[0]
+def _states(solution: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """T (k,), p (k, nq), v (k, nv) of all rows, as the core takes them."""
+    return tuple(np.ascontiguousarray(array) for array in (solution.t, solution.p, solution.v))
 
 
-def _shifts(core: MechanismCore, solution: Any) -> list[np.ndarray]:
+def _shifts(core: CoreSystem, solution: Any) -> list[np.ndarray]:
     """Multipliers (k, m) that act on nothing: a basis of them at each row, filled up with zeros where there are fewer."""
     bases = []
     for t, p, v in zip(solution.t, solution.p, solution.v, strict=True):

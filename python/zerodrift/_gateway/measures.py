@@ -1,0 +1,109 @@
+"""Measures: named functions of the motion that a system of the core brings, evaluated at saved states."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import doubles, text
+
+DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
+
+
+class Named(NamedTuple):
+    """A measure by its name, its unit and the number of its components."""
+
+    name: str
+    unit: str
+    size: int
+
+
+class Measuring:
+    """What a `CoreSystem` knows of its measures; they are called by their numbers."""
+
+    c: Any
+    nq: int
+    nv: int
+    m: int
+    error: BaseException | None
+
+    @functools.cached_property
+    def measures(self) -> tuple[Any, ...]:
+        """All of them by name; empty where there are none."""
+        all_of = self.c.measures
+        rows = [all_of.measure[i] for i in range(all_of.count)] if all_of else []
+        return tuple(Named(text(row.name), text(row.unit), row.size) for row in rows)
+
+    def for_run(self) -> Any:
+        """The system for one run."""
+        raise NotImplementedError
+
+    def measure_size(self, index: int) -> int:
+        """How many components a measure has."""
+        return self.c.measures.measure[index].size
+
+    def measure_depends(self, index: int) -> str:
+        """On what a measure depends: "positions", "velocities" or "accelerations"."""
+        return DEPENDS[self.c.measures.measure[index].depends]
+
+    def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
+                multipliers: np.ndarray | None = None) -> np.ndarray:
+        """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
+
+        vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
+        """
+        core, k = self.for_run(), len(t)
+        values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
+        status = lib.zd_measure_states(core.c, index, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv),
+                                       given(vdot, k * self.nv), given(multipliers, k * self.m),
+                                       doubles(values, values.size, writable=True),
+                                       doubles(scratch, scratch.size, writable=True))
+        if status:
+            raise core.error or self._lacks(index)
+        return values
+
+    def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """Value (size,), rate (size,), row (size, nv) and bias (size,) of a measure of positions or velocities at one state."""
+        core, size = self.for_run(), self.measure_size(index)
+        arrays = {"value": np.zeros(size), "rate": np.zeros(size), "row": np.zeros((size, self.nv)), "bias": np.zeros(size)}
+        out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
+        scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
+        at = doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL
+        status = core.c.measures.evaluate(core.c.data, index, t, *at, out, scratch)
+        if status:
+            raise core.error or self._lacks(index)
+        return arrays
+
+    def _lacks(self, index: int) -> ValueError:
+        return ValueError(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers")
+
+
+class Outputs:
+    """Measures that a run records: their numbers, of the system that is run, or of one with the same equations."""
+
+    def __init__(self, measures: Sequence[int], of: Any, run: Any) -> None:
+        self._of, self.measures = None if of is run else of.for_run(), tuple(measures)
+        self.sizes = tuple(of.measure_size(index) for index in self.measures)
+        self.width = sum(self.sizes)
+        self._numbers = ffi.new("int[]", self.measures)
+        whose = self._of.c if self._of else ffi.NULL
+        self.c = ffi.new("zd_outputs *", {"of": whose, "count": len(self.measures), "measure": self._numbers})
+
+    @property
+    def error(self) -> BaseException | None:
+        """What was raised while they were recorded; what the system that is run raised, that one knows."""
+        return self._of.error if self._of else None
+
+    def split(self, rows: np.ndarray) -> list[np.ndarray]:
+        """Each measure's own array (k, size) of the recorded rows (k, width)."""
+        ends = np.cumsum(self.sizes)[:-1]
+        return [np.ascontiguousarray(part) for part in np.split(rows, ends, axis=1)]
+
+
+def given(array: np.ndarray | None, size: int) -> Any:
+    """A pointer to an array that may be left out."""
+    return ffi.NULL if array is None else doubles(array, size)

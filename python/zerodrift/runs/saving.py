@@ -1,0 +1,97 @@
+"""Solutions in files: arrays in an NPZ file, and beside them a description in JSON; no pickle."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _gateway
+from ..systems.base import BaseSystem
+from ..systems.builtin import FACTORIES, BuiltIn
+from .rows import CARDS, RowSettings
+
+EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
+
+
+def write(path: Path, values: Mapping[str, Any]) -> None:
+    """Writes the fields of a solution."""
+    arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
+    description = {name: value for name, value in values.items() if name not in arrays}
+    for name in EVENTS:
+        arrays |= {f"{name}.{i}": array for i, array in enumerate(values[name] or ())}
+        description[name] = None if values[name] is None else len(values[name])
+    arrays |= {f"outputs.{i}": array for i, array in enumerate(values["outputs"].values())}
+    description["outputs"] = list(values["outputs"])
+    description["system"] = values["system"]._described()
+    description["settings"] = {name: _to_json(value) for name, value in values["settings"].items()}
+    np.savez_compressed(path, zerodrift=np.array(json.dumps(description)), **arrays)
+
+
+def read(path: str | Path) -> dict[str, Any] | None:
+    """The fields of the solution in a file; None where there is none in it."""
+    arrays = _read_arrays(path)
+    if "zerodrift" not in arrays:
+        return None
+    description = json.loads(str(arrays.pop("zerodrift")))
+    description["t_span"] = tuple(description["t_span"])
+    for name in EVENTS:
+        if (count := description.get(name)) is not None:
+            description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
+    description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))}
+    description["system"] = _restored_system(description["system"])
+    description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
+    return arrays | description
+
+
+def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
+    """The arrays of an NPZ file; none where it is another kind of file."""
+    with open(path, "rb") as file:
+        if file.read(2) != b"PK":       # of any ZIP file; NumPy would try to read other files in other ways
+            return {}
+    with np.load(path, allow_pickle=False) as file:
+        return dict(file)
+
+
+def _to_json(value: Any) -> Any:
+    """A setting as JSON."""
+    if isinstance(value, tuple):
+        return [_to_json(each) for each in value]
+    if isinstance(value, RowSettings):
+        return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def _from_json(value: Any) -> Any:
+    if isinstance(value, dict):
+        return CARDS[value.pop("kind")].settings(**value)
+    if isinstance(value, list) and value and isinstance(value[0], dict | str):
+        return tuple(map(_from_json, value))
+    return np.array(value) if isinstance(value, list) else value
+
+
+class Described(BaseSystem):
+    """A system of which only the description was saved: enough for tables and plots, not for another run."""
+
+    def __init__(self, description: dict[str, Any]) -> None:
+        self.name, self.parameters = description["name"], {}
+        for group in ("coordinates", "velocities", "constraints"):
+            setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
+
+    m = property(lambda self: len(self.constraints), doc="Number of constraints.")
+
+    def __repr__(self) -> str:
+        return f"<description of {self.name}>"
+
+    def __str__(self) -> str:
+        return repr(self)       # sizes, rows and parameters were not saved
+
+
+def _restored_system(description: dict[str, Any]) -> BaseSystem:
+    if "parameters" in description and description["name"] in FACTORIES:
+        return BuiltIn(description["name"], description["parameters"])
+    return Described(description)
