@@ -14,29 +14,31 @@
  * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
 static const double WORSE = 1.1;
 
-zd_complement zd_complement_take(zd_arena *arena, const zd_system *system)
+zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, double *workspace)
 {
-    size_t n = (size_t)system->nv;
-    int m = zd_constraints(system), own = (system->provides & ZD_COMPLEMENT) != 0;
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), r = n - m;
+    int own = (system->provides & ZD_COMPLEMENT) != 0;
     return (zd_complement){
         .n = (int)n,
-        .m = m,
-        .r = (int)n - m,
+        .m = (int)m,
+        .r = (int)r,
+        .room = (int)r,
         .brought = own,
         .own = own,
         .order = zd_take(arena, n * sizeof(int)),
         .pivots = zd_take(arena, n * sizeof(int)),
-        .memory = zd_take_dense(arena, system, (size_t)m * n),
-        .D = zd_take_doubles(arena, n * n),
-        .K = zd_take_doubles(arena, n * n),
-        .gram = zd_take_doubles(arena, own ? n * n : 0),
-        .work = zd_take_doubles(arena, (n + 1) * n),
+        .memory = zd_take_dense(arena, system, m * n),
+        .D = zd_take_doubles(arena, n * r),
+        .K = zd_take_doubles(arena, own ? n * n : m * m),
+        .gram = zd_take_doubles(arena, own ? r * r : 0),
+        .work = zd_take_doubles(arena, 2 * n),
+        .choice = workspace,
     };
 }
 
 void zd_complement_lend(const zd_complement *self, double **Q, double **G)
 {
-    *Q = self->work;
+    *Q = self->choice;
     *G = self->K;
 }
 
@@ -46,8 +48,8 @@ static int choose(zd_complement *self, zd_point *point)
 {
     for (int k = 0; k < self->m; k++)       /* in natural units */
         for (int j = 0; j < self->n; j++)
-            self->work[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
-    int rank = zd_choose_columns(self->m, self->n, 0, self->work, self->order);
+            self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
+    int rank = zd_choose_columns(self->m, self->n, 0, self->choice, self->order);
     point->failed_index = rank;
     self->chosen = rank == self->m;
     self->reference = 0;
@@ -122,13 +124,31 @@ static int adopt(zd_complement *self, zd_point *point)
     return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
-static void take_rows(zd_complement *self, const zd_point *point)
+static void *take_D(zd_arena *arena, const void *of)
+{
+    const zd_complement *self = of;
+    return zd_take_doubles(arena, (size_t)(self->n * self->n));
+}
+
+/* Memory for as many columns as there may ever be, once there are more than where all rows count. */
+static int need_room(zd_complement *self, const zd_point *point)
+{
+    if (self->r <= self->room) return ZD_DONE;
+    double *D = zd_store_take(point->rank->store, take_D, self);
+    if (!D) return ZD_NO_MEMORY;
+    self->D = D;
+    self->room = self->n;
+    return ZD_DONE;
+}
+
+static int take_rows(zd_complement *self, const zd_point *point)
 {
     if (point->rows != self->m) self->chosen = 0;
     self->m = point->rows;
     self->C = zd_dense_C(point, self->memory);
     self->r = self->n - self->m;
     self->own = self->brought && zd_rank_is_full(point);
+    return need_room(self, point);
 }
 
 int zd_complement_at(zd_complement *self, zd_point *point)
@@ -136,7 +156,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, self->brought ? ZD_C | ZD_COMPLEMENT : ZD_C);
     if (!status) status = zd_rows_find(point);
-    if (!status) take_rows(self, point);
+    if (!status) status = take_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
     return status;

@@ -18,18 +18,21 @@ typedef struct zd_complement {
     int chosen;         /* whether u has been */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */
+    int room;           /* columns of D that there is memory for: as many as where all rows count, until fewer do */
     double *memory;     /* (m, n): of C, where the system's own is packed */
     const double *C;    /* (m, n): the rows that count */
     double *D;          /* (n, r) */
     double *K;          /* factored: W (m, m), or for an own D: [C; D^T] (n, n) */
     double *gram;       /* (r, r): Cholesky factor of D^T D, for an own D */
-    double *work;       /* (n + 1, n) */
+    double *work;       /* (2, n) */
+    double *choice;     /* (m, n): where u is chosen */
     double largest;     /* entry of W^-1 U in natural units: how well the partition is conditioned here */
     double reference;   /* the same where it was chosen; 0: just chosen */
 } zd_complement;
 
-zd_complement zd_complement_take(zd_arena *arena, const zd_system *system);
-/* Memory (n, n) each that is free as long as it is not known which rows count. */
+/* `workspace` (m, n) serves while D is not known at the point, and anything else at other times. */
+zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, double *workspace);
+/* Memory (m, n) and (m, m) that is free as long as it is not known which rows count. */
 void zd_complement_lend(const zd_complement *self, double **Q, double **G);
 /* D and K at the point, once for each (t, p). */
 int zd_complement_at(zd_complement *self, zd_point *point);

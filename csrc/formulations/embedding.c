@@ -27,6 +27,8 @@ static const double WORSE = 1.1;      /* q is chosen anew when the response of p
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh, k = nv - mh;
+    /* Entries of p are only chosen where nq is nv. K is made anew once q is chosen. */
+    double *choice = zd_take_doubles(arena, nv * (nv + (size_t)zd_constraints(system)));
     return (zd_embedding){
         .nq = (int)nq,
         .nv = (int)nv,
@@ -37,12 +39,17 @@ zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
         .increments = zd_increments_take(arena, system),
         .order = zd_take(arena, (mh + nq) * sizeof(int)),
         .memory = zd_take_dense(arena, system, (size_t)zd_constraints(system) * nv),
-        .K = zd_take_doubles(arena, nv * nv),
+        .K = choice,
         .pivots = zd_take(arena, nv * sizeof(int)),
-        .work = zd_take_doubles(arena, nv * (mh + nq)),
+        .choice = choice,
         .delta = zd_take_doubles(arena, nv),
         .p = zd_take_doubles(arena, nq),
     };
+}
+
+double *zd_embedding_workspace(const zd_embedding *self)
+{
+    return self->K ? self->K + self->nv * self->nv : NULL;
 }
 
 /* ---- q ---- */
@@ -244,8 +251,8 @@ static int choose_increments(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh;
     for (int i = 0; i < mh; i++)
         for (int j = 0; j < nv; j++)
-            self->work[i * nv + j] = self->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
-    point->failed_index = zd_choose_columns(mh, nv, 0, self->work, self->order);
+            self->choice[i * nv + j] = self->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
+    point->failed_index = zd_choose_columns(mh, nv, 0, self->choice, self->order);
     if (point->failed_index < mh) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k];
     return ZD_DONE;
@@ -257,9 +264,9 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->work[j * columns + i] = point->unit[j] * (i < mh ? self->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
+            self->choice[j * columns + i] = point->unit[j] * (i < mh ? self->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
                                                                    : zd_entry_of_A(point, i - mh, j) * point->inverse_unit_p[i - mh]);
-    point->failed_index = zd_choose_columns(nv, columns, mh, self->work, self->order);
+    point->failed_index = zd_choose_columns(nv, columns, mh, self->choice, self->order);
     if (point->failed_index < nv) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;
     return ZD_DONE;
@@ -272,9 +279,11 @@ static int choose_anew(zd_embedding *self, zd_point *point, int *changed)
     if (status) return status;
     if (self->embed && system->independent) memcpy(self->index, system->independent, (size_t)self->k * sizeof(int));
     else status = has_increments(self) ? choose_increments(self, point) : choose(self, point);
+    const int was_chosen = self->chosen;
+    self->chosen = 0;       /* K is lost */
     if (!status) status = factor(self, point);
     if (status) return status;
-    if (self->chosen) point->statistics->repartitions++;
+    if (was_chosen) point->statistics->repartitions++;
     self->reference = response(self, point);
     self->chosen = *changed = 1;
     return ZD_DONE;

@@ -17,12 +17,14 @@ typedef struct zd_embedding {
     const double *C;        /* (m, nv): the rows that count */
     double *K;              /* (nv, nv): [C_H; A_q], factored, where A_q gives qdot of v */
     int *pivots;            /* (nv,) */
-    double *work;           /* (nv, mh + nq) */
+    double *choice;         /* (nv, mh + nq): where q is chosen, K and what follows it */
     double *delta;          /* (nv,) */
     double *p;              /* (nq,) */
 } zd_embedding;
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system);
+/* Memory (m, nv) that is free but while q is chosen. */
+double *zd_embedding_workspace(const zd_embedding *self);
 /* q (k,) where the point is, and its rate where p has that. */
 void zd_embedding_coordinates(const zd_embedding *self, const zd_point *point, double *q);
 void zd_embedding_rates(const zd_embedding *self, const double *pdot, double *qdot);

@@ -21,9 +21,10 @@ static int suits(const zd_system *system) { return system->nq == system->nv + sy
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
+    zd_embedding embedding = zd_embedding_take(arena, system);
     independent self = {
-        .minimal = zd_minimal_take(arena, system),
-        .embedding = zd_embedding_take(arena, system),
+        .minimal = zd_minimal_take(arena, system, zd_embedding_workspace(&embedding)),
+        .embedding = embedding,
         .pdot = zd_take_doubles(arena, (size_t)system->nq),
     };
     return zd_take_filled(arena, &self, sizeof self);

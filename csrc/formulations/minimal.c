@@ -18,14 +18,15 @@ enum { MAX_ITERATIONS = 12 };
 static const double SETTLED = 0x1p-46;  /* of the speed: the velocity is found if it changes by no more */
 static const double NEARLY = 0x1p-30;   /* of the speed: a change so small that no longer halves is rounding */
 
-zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system)
+zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace)
 {
-    size_t n = (size_t)system->nv;
+    size_t n = (size_t)system->nv, r = n - (size_t)zd_constraints(system);
     return (zd_minimal){
-        .complement = zd_complement_take(arena, system),
+        .complement = zd_complement_take(arena, system, workspace),
         .memory = zd_take_dense(arena, system, n * n),
-        .Mu = zd_take_doubles(arena, n * n),
-        .size = system->nv - zd_constraints(system),
+        .Mu = zd_take_doubles(arena, r * r),
+        .room = (int)r,
+        .size = (int)r,
         .u = zd_take_doubles(arena, n),
         .b = zd_take_doubles(arena, n),
         .du = zd_take_doubles(arena, n),
@@ -38,14 +39,32 @@ void zd_minimal_lend(void *memory, double **Q, double **G)
     zd_complement_lend(&self->complement, Q, G);
 }
 
+static void *take_Mu(zd_arena *arena, const void *of)
+{
+    const zd_minimal *self = of;
+    return zd_take_doubles(arena, (size_t)(self->complement.n * self->complement.n));
+}
+
+/* As the complement has it. */
+static int need_room(zd_minimal *self, const zd_point *point)
+{
+    if (self->complement.r <= self->room) return ZD_DONE;
+    double *Mu = zd_store_take(point->rank->store, take_Mu, self);
+    if (!Mu) return ZD_NO_MEMORY;
+    self->Mu = Mu;
+    self->room = self->complement.n;
+    return ZD_DONE;
+}
+
 int zd_minimal_factor(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
-    int r = self->complement.r;
     int status = zd_complement_at(&self->complement, point);
+    if (!status) status = need_room(self, point);
     if (status) return status;
     self->M = zd_dense_M(point, self->memory);
     zd_complement_mass(&self->complement, self->M, self->Mu);
+    const int r = self->complement.r;
     point->failed_index = ZD_SIZED(zd_cholesky, r, self->Mu, self->Mu);
     return point->failed_index < r ? ZD_NOT_DEFINITE : ZD_DONE;
 }

@@ -9,6 +9,7 @@ typedef struct zd_minimal {
     double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *Mu;         /* (r, r): Cholesky factor of D^T M D */
+    int room;           /* rows of it that there is memory for */
     int size;           /* of the u in the state */
     double *u;          /* (size,): that */
     double *b;          /* (n,) */
@@ -16,7 +17,8 @@ typedef struct zd_minimal {
     double lead_time;   /* s: from where the point's acceleration was computed to where it is wanted; 0: it is not known */
 } zd_minimal;
 
-zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system);
+/* `workspace` (m, n) as the complement's. */
+zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace);
 void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);

@@ -9,7 +9,8 @@
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    zd_minimal self = zd_minimal_take(arena, system);
+    double *workspace = zd_take_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
+    zd_minimal self = zd_minimal_take(arena, system, workspace);
     return zd_take_filled(arena, &self, sizeof self);
 }
 

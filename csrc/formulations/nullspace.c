@@ -29,10 +29,11 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     size_t n = (size_t)system->nv;
+    double *H = zd_take_doubles(arena, n * n);      /* made once D is known */
     nullspace self = {
-        .complement = zd_complement_take(arena, system),
+        .complement = zd_complement_take(arena, system, H),
         .memory = zd_take_dense(arena, system, n * n),
-        .H = zd_take_doubles(arena, n * n),
+        .H = H,
         .scale = zd_take_doubles(arena, n),
         .order = zd_take(arena, n * sizeof(int)),
         .b = zd_take_doubles(arena, n),
