@@ -229,7 +229,7 @@ static int direct_residual(void *context, double *size)
     zd_point *point = problem->motion->point;
     const zd_elimination *order = problem->motion->road.order;
     problem->motion->statistics.evaluations++;
-    int status = order->correct(point->system->data, point->t, point->p, point->v, point->terms.Phi, self->change, self->x);
+    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, self->change, self->x);
     if (status) return ZD_CALLBACK;
     *size = zd_point_violation(point);
     return ZD_DONE;

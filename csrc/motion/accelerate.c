@@ -28,7 +28,7 @@ static int accelerate_directly(zd_motion *motion)
         added = point->rhs;
     }
     motion->statistics.evaluations++;
-    status = road->order->accelerate(point->system->data, point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
+    status = road->order->accelerate(point->system->data, &point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
                                      motion->balance.input ? &road->power : NULL, road->pivots);
     if (status) return ZD_CALLBACK;
     point->known |= ZD_ACCELERATED;
@@ -104,6 +104,6 @@ int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot
     motion->statistics.evaluations++;
     if (!point->terms.A) ZD_SIZED(zd_copy, nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = motion->road.order->accelerate(point->system->data, t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
+    int status = motion->road.order->accelerate(point->system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }

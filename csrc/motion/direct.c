@@ -25,7 +25,7 @@ static const double LONG = 1;               /* in natural units: a longer path i
 static const zd_direct *of_one(const zd_system *system)
 {
     for (int i = 0; i < system->directs; i++)
-        if (system->direct[i].lanes == 1) return &system->direct[i];
+        if (system->direct[i].unit == ZD_BASELINE && system->direct[i].lanes == 1) return &system->direct[i];
     return NULL;
 }
 

@@ -125,17 +125,20 @@ static int check_orders(const zd_system *system, int set, text message)
 
 static int check_direct(const zd_system *system, text message)
 {
-    int lanes = 0;
-    if (system->directs < 0 || system->directs > 4 || (system->directs > 0) != (system->direct != NULL))
-        return refuse(message, "direct: there are %d sets of direct functions, and may be one for each number of lanes", system->directs);
+    int known[ZD_AVX512 + 1] = {0};
+    if (system->directs < 0 || system->directs > 12 || (system->directs > 0) != (system->direct != NULL))
+        return refuse(message, "direct: there are %d sets of direct functions, and may be one for each vector unit and number of lanes", system->directs);
     for (int i = 0; i < system->directs; i++) {
         const zd_direct *direct = &system->direct[i];
         if (direct->orders < 1 || direct->orders > 4)
             return refuse(message, "direct: set %d has %d orders of elimination, and has 1 to 4", i, direct->orders);
         if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
             return refuse(message, "direct: set %d has %d lanes, and has 1, 2, 4 or 8", i, direct->lanes);
-        if (lanes & direct->lanes) return refuse(message, "direct: set %d is the second of %d lanes", i, direct->lanes);
-        lanes |= direct->lanes;
+        if ((unsigned)direct->unit > ZD_AVX512)
+            return refuse(message, "direct: set %d is for vector unit %d, and there are 0 to 2", i, (int)direct->unit);
+        if (known[direct->unit] & direct->lanes)
+            return refuse(message, "direct: set %d is the second of %d lanes for its vector unit", i, direct->lanes);
+        known[direct->unit] |= direct->lanes;
         int status = direct->order ? check_orders(system, i, message) : refuse(message, "direct: set %d has no orders of elimination", i);
         if (status) return status;
     }

@@ -178,7 +178,7 @@ class Failing:
         inner = getattr(order, member)
 
         def function(data, t, *rest):
-            return fails(t) or inner(data, t, *rest)
+            return fails(t[0]) or inner(data, t, *rest)
 
         self.function = ffi.callback(dict(ffi.typeof("zd_elimination").fields)[member].type, function)
         setattr(self.order[0], member, self.function)

@@ -58,7 +58,7 @@ def doubles(*shape):
 
 
 def of(array):
-    return ffi.from_buffer("double[]", np.ascontiguousarray(array))
+    return ffi.from_buffer("double[]", np.atleast_1d(np.ascontiguousarray(array, float)))
 
 
 class Direct:
@@ -74,14 +74,14 @@ class Direct:
         order = self.direct.order[i]
         found = {"pdot": doubles(core.nq), "vdot": doubles(core.nv), "lambda": doubles(core.m), "power": doubles(1),
                  "pivots": doubles(order.solves + core.nv - core.m)}
-        status = order.accelerate(core.c.data, t, of(p), of(v), ffi.NULL if added is None else of(added),
+        status = order.accelerate(core.c.data, of(t), of(p), of(v), ffi.NULL if added is None else of(added),
                                   *(memory for _, memory in found.values()))
         assert status == 0
         return {name: array for name, (array, _) in found.items()}
 
     def correct(self, i, t, p, v):
         found = {"Phi": doubles(self.core.mh), "dp": doubles(self.core.nq), "dv": doubles(self.core.nv)}
-        assert self.direct.order[i].correct(self.core.c.data, t, of(p), of(v), *(memory for _, memory in found.values())) == 0
+        assert self.direct.order[i].correct(self.core.c.data, of(t), of(p), of(v), *(memory for _, memory in found.values())) == 0
         return {name: array for name, (array, _) in found.items()}
 
     def smallest(self, i, pivots, C):

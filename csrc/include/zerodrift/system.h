@@ -164,15 +164,25 @@ typedef struct zd_elimination {
     const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
     /* vdot at the state, with `added` (m,) on the right side of (6), NULL: zero. pdot is written by systems with A alone; lambda, power and
      * pivots may be NULL: not wanted. The power is that of (28): ZD_POWER, and what moving constraints do, lambda^T Phi_t. */
-    int (*accelerate)(const void *data, double t, const double *p, const double *v, const double *added, double *pdot, double *vdot,
+    int (*accelerate)(const void *data, const double *t, const double *p, const double *v, const double *added, double *pdot, double *vdot,
                       double *lambda, double *power, double *pivots);
     /* Phi (3), and Newton's steps in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v) and to
      * be subtracted. NULL where there are no constraints. */
-    int (*correct)(const void *data, double t, const double *p, const double *v, double *Phi, double *dp, double *dv);
+    int (*correct)(const void *data, const double *t, const double *p, const double *v, double *Phi, double *dp, double *dv);
 } zd_elimination;
 
+/* The processors' vector units: a processor that has one has those before it. */
+enum zd_unit {
+    ZD_BASELINE,            /* what every processor of its kind has: no product and sum is contracted to one operation */
+    ZD_AVX2,                /* AVX2 and FMA: contracted */
+    ZD_AVX512               /* AVX-512 F, DQ and VL: contracted, too */
+};
+
+/* Functions for one unit and number of lanes. */
 typedef struct zd_direct {
-    int lanes;              /* trajectories at once, 1, 2, 4 or 8: entries of every array come in groups of so many */
+    enum zd_unit unit;      /* that they are compiled for */
+    int lanes;              /* trajectories at once, 1, 2, 4 or 8: entries of every array come in groups of so many, t and the doubles of `data`,
+                             * too; and what the functions return has a bit for each trajectory that they do not know */
     int orders;             /* at most 4: the first whose pivots are large enough is taken, which depends on the state alone */
     const zd_elimination *order;    /* (orders,) */
 } zd_direct;
@@ -244,7 +254,7 @@ typedef struct zd_system {
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
-    const zd_direct *direct;        /* (directs,) */
+    const zd_direct *direct;        /* (directs,) at most one for each unit and number of lanes; those for one lane serve single runs */
     int directs;
     const zd_series *series;
     const zd_measures *measures;

@@ -11,11 +11,12 @@ void zd_chaplygin_sleigh_direct_constants(double *k)
     k[7] = k[1] + (k[0] * (k[2] * k[2]));
 }
 
-static int accelerate_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+static int accelerate_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
     double *restrict power, double *restrict pivots)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
     const double p2 = p[2];
@@ -56,10 +57,11 @@ static int accelerate_0(const void *data, double t, const double *restrict p, co
     return ZD_DONE;
 }
 
-static int correct_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    double *restrict Phi, double *restrict dp, double *restrict dv)
+static int correct_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)Phi;
     const double p2 = p[2];
@@ -87,11 +89,12 @@ static int correct_0(const void *data, double t, const double *restrict p, const
     return ZD_DONE;
 }
 
-static int accelerate_1(const void *data, double t, const double *restrict p, const double *restrict v,
-    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+static int accelerate_1(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
     double *restrict power, double *restrict pivots)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
     const double p2 = p[2];
@@ -132,10 +135,11 @@ static int accelerate_1(const void *data, double t, const double *restrict p, co
     return ZD_DONE;
 }
 
-static int correct_1(const void *data, double t, const double *restrict p, const double *restrict v,
-    double *restrict Phi, double *restrict dp, double *restrict dv)
+static int correct_1(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)Phi;
     const double p2 = p[2];
@@ -175,4 +179,4 @@ static const zd_elimination orders[] = {
     {1, solve_1, row_1, column_1, accelerate_1, correct_1},
 };
 
-const zd_direct zd_chaplygin_sleigh_direct = {1, 2, orders};
+const zd_direct zd_chaplygin_sleigh_direct = {ZD_BASELINE, 1, 2, orders};

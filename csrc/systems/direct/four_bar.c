@@ -26,11 +26,12 @@ void zd_four_bar_direct_constants(double *k)
     k[26] = 0.5 * (k[23] * k[10]);
 }
 
-static int accelerate_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+static int accelerate_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
     double *restrict power, double *restrict pivots)
 {
     const double *restrict const k = (const double *)data + 14;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
     const double p0 = p[0], p1 = p[1], p2 = p[2];
@@ -94,10 +95,11 @@ static int accelerate_0(const void *data, double t, const double *restrict p, co
     return ZD_DONE;
 }
 
-static int correct_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    double *restrict Phi, double *restrict dp, double *restrict dv)
+static int correct_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)
 {
     const double *restrict const k = (const double *)data + 14;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)Phi;
     const double p0 = p[0], p1 = p[1], p2 = p[2];
@@ -150,4 +152,4 @@ static const zd_elimination orders[] = {
     {2, solve_0, row_0, column_0, accelerate_0, correct_0},
 };
 
-const zd_direct zd_four_bar_direct = {1, 1, orders};
+const zd_direct zd_four_bar_direct = {ZD_BASELINE, 1, 1, orders};

@@ -13,11 +13,12 @@ void zd_pendulum_direct_constants(double *k)
     k[7] = k[6] * 0.5;
 }
 
-static int accelerate_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+static int accelerate_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
     double *restrict power, double *restrict pivots)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
     const double p0 = p[0], p1 = p[1];
@@ -43,10 +44,11 @@ static int accelerate_0(const void *data, double t, const double *restrict p, co
     return ZD_DONE;
 }
 
-static int correct_0(const void *data, double t, const double *restrict p, const double *restrict v,
-    double *restrict Phi, double *restrict dp, double *restrict dv)
+static int correct_0(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)Phi;
     const double p0 = p[0], p1 = p[1];
@@ -70,11 +72,12 @@ static int correct_0(const void *data, double t, const double *restrict p, const
     return ZD_DONE;
 }
 
-static int accelerate_1(const void *data, double t, const double *restrict p, const double *restrict v,
-    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
+static int accelerate_1(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,
     double *restrict power, double *restrict pivots)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)added, (void)pdot, (void)lambda, (void)power, (void)pivots;
     const double p0 = p[0], p1 = p[1];
@@ -100,10 +103,11 @@ static int accelerate_1(const void *data, double t, const double *restrict p, co
     return ZD_DONE;
 }
 
-static int correct_1(const void *data, double t, const double *restrict p, const double *restrict v,
-    double *restrict Phi, double *restrict dp, double *restrict dv)
+static int correct_1(const void *data, const double *restrict time, const double *restrict p,
+    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)
 {
     const double *restrict const k = data;
+    const double t = *time;
     (void)k, (void)t, (void)p, (void)v;
     (void)Phi;
     const double p0 = p[0], p1 = p[1];
@@ -139,4 +143,4 @@ static const zd_elimination orders[] = {
     {1, solve_1, row_1, column_1, accelerate_1, correct_1},
 };
 
-const zd_direct zd_pendulum_direct = {1, 2, orders};
+const zd_direct zd_pendulum_direct = {ZD_BASELINE, 1, 2, orders};

@@ -11,11 +11,11 @@ from .lowering import SIMPLE, Lowering
 
 MOST_OPERATIONS = 4000      # of the functions of one order
 MOST_STATEMENTS = 1000      # of one function
-ACCELERATE = ("static int {name}(const void *data, double t, const double *restrict p, const double *restrict v,",
-              "    const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,",
+ACCELERATE = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
+              "    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,",
               "    double *restrict power, double *restrict pivots)")
-CORRECT = ("static int {name}(const void *data, double t, const double *restrict p, const double *restrict v,",
-           "    double *restrict Phi, double *restrict dp, double *restrict dv)")
+CORRECT = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
+           "    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)")
 
 
 class TooLarge(Exception):
@@ -138,7 +138,7 @@ def _statements(writer: CWriter, numbers: list[int]) -> list[str]:
 def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
-    lines = [f"const double *restrict const k = {data};", "(void)k, (void)t, (void)p, (void)v;"]
+    lines = [f"const double *restrict const k = {data};", "const double t = *time;", "(void)k, (void)t, (void)p, (void)v;"]
     unused = ("added", "pdot", "lambda", "power", "pivots") if "pivots" in program.outputs else ("Phi",)
     lines.append(", ".join(f"(void){name}" for name in unused) + ";")
     for kind, value in (("p", "p[{0}]"), ("v", "v[{0}]"), ("added", "added ? added[{0}] : 0")):
@@ -159,4 +159,4 @@ def _table(orders: list[Order], symbol: str) -> list[str]:
     lines += ["", "static const zd_elimination orders[] = {"]
     lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, accelerate_{i}, {f'correct_{i}' if order else 'NULL'}}},"
               for i, order in enumerate(orders)]
-    return [*lines, "};", "", f"const zd_direct {symbol} = {{1, {len(orders)}, orders}};"]
+    return [*lines, "};", "", f"const zd_direct {symbol} = {{ZD_BASELINE, 1, {len(orders)}, orders}};"]
