@@ -185,6 +185,7 @@ int zd_run_redundant(const zd_run *run, int *rows);
  * of an angle or the mechanism's own length. */
 const double *zd_run_sizes(const zd_run *run);
 double zd_run_kinetic(const zd_run *run);                   /* J: the largest energy seen after a step */
+double zd_run_energy_error(const zd_run *run);              /* J: the largest |Psi_E| (28) of the rows saved so far */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
 /* ---- a system that is off by rounding, to see what that does to its motion ---- */

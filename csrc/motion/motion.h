@@ -23,11 +23,12 @@ typedef struct zd_rate {
     int size;               /* of the state */
 } zd_rate;
 
-/* What has happened since the last saved row. */
+/* What has happened since the last saved row, and what is known of all of them. */
 typedef struct zd_tally {
     int iterations;         /* most position iterations of a step */
     int energy_skipped;     /* energy corrections left out */
     int start_saved;        /* whether the row of the start has been saved, if it is wanted */
+    double energy_error;    /* J: the largest |Psi_E| of the saved rows; not a number if one of them is not */
 } zd_tally;
 
 /* (28): what the energy is compared with. */

@@ -1,5 +1,6 @@
 #include "record.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../point/matrices.h"
@@ -22,6 +23,11 @@ static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
     return ZD_DONE;
 }
 
+static void note_energy_error(zd_tally *tally, double error)
+{
+    if (!(error <= tally->energy_error) && !isnan(tally->energy_error)) tally->energy_error = error;
+}
+
 static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
 {
     double violation, kinetic;
@@ -36,6 +42,7 @@ static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
     record->potential[row] = zd_point_potential(motion->point);
     record->input[row] = zd_motion_input(motion);
     record->energy_violation[row] = violation;                                           /* (28) */
+    note_energy_error(motion->tally, fabs(violation));
     return ZD_DONE;
 }
 

@@ -14,4 +14,5 @@ const zd_statistics *zd_run_statistics(const zd_run *run) { return &run->motion.
 int zd_run_redundant(const zd_run *run, int *rows) { return zd_rank_redundant(run->motion.point->rank, rows); }
 const double *zd_run_sizes(const zd_run *run) { return run->motion.point->size; }
 double zd_run_kinetic(const zd_run *run) { return run->safeguards.guard.kinetic; }
+double zd_run_energy_error(const zd_run *run) { return run->tally.energy_error; }
 double zd_run_omega_h(const zd_run *run) { return zd_guard_omega_h(&run->safeguards.guard); }

@@ -24,6 +24,7 @@ def test_records_of_any_size_hold_the_same_rows(bar, times):
         assert status == _gateway.DONE
         rows.append({name: np.concatenate([part[name] for part in collected]) for name in collected[0]})
     assert len(rows[0]["t"]) == (11 if times is None else 4)
+    assert run.results().energy_error == np.abs(rows[1]["energy_violation"]).max() > 0
     for name in rows[0]:
         assert rows[0][name].tobytes() == rows[1][name].tobytes()
 
@@ -36,3 +37,19 @@ def test_saving_less_changes_no_bit(system, formulation, integrator, every):
     rows = sorted({*range(0, 101, every), 100})
     assert_same_bits(full, sparse, rows)
     assert sparse.stats["steps"] == 100
+
+
+def test_a_record_that_grows_joins_all_its_blocks(bar):
+    """The first block is one array, the others have an array for each column."""
+    grown, wide = (_gateway.Record(bar._core, capacity) for capacity in (1, 20))
+    for record in (grown, wide):
+        run = _gateway.Run(bar._core, handed(), bar.p0, bar.v0)
+        while run.advance(record, 1.0) == _gateway.FULL:
+            record.grow()
+        record.join()
+    one, other = grown.take(), wide.take()
+    assert list(one) == list(other)
+    for name in one:
+        assert one[name].dtype == other[name].dtype
+        assert one[name].shape == other[name].shape
+        assert one[name].tobytes() == other[name].tobytes(), name

@@ -31,14 +31,15 @@ from .measures import Outputs
 from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
-from .runs import Record, Run, acceleration, accelerations, count_steps, project, settings, step
+from .runs import Record, Results, Run, acceleration, accelerations, count_steps, project, settings, step
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
     "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
-    "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Run", "Variable", "Watcher", "acceleration",
-    "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find", "in_library",
+    "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
+    "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find",
+    "in_library",
     "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
     "required", "settings", "step", "terms_of",
 ]

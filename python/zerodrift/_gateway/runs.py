@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import collections
 import functools
+import itertools
 import math
 import struct
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,13 +18,17 @@ from .callbacks import Watcher
 from .measures import Outputs
 from .systems import CoreSystem
 
+# Types that every run needs: their names are read once.
+SETTINGS, RECORD, DOUBLES, INTEGERS = map(ffi.typeof, ("zd_settings *", "zd_record *", "double[]", "int *"))
+MESSAGE = ffi.typeof(f"char[{MESSAGE_SIZE}]")
+
 
 def settings(options: dict[str, Any], like: Any = None) -> Any:
     """A `zd_settings` from its members, the others as in `like`; an array `t_eval` has to outlive it.
 
     What is given of rows are their numbers, of corrections by their names.
     """
-    made, t_eval = ffi.new("zd_settings *", like[0] if like else None), None
+    made, t_eval = ffi.new(SETTINGS, like[0] if like else None), None
     for name, value in options.items():
         if name == "t_eval":
             t_eval = value
@@ -42,66 +48,112 @@ def count_steps(t0: float, t1: float, step: float) -> int:
 
 
 COUNTS = ("iterations", "energy_skipped")     # the integers of a row
-FIELDS = {name: field.type.cname for name, field in ffi.typeof("zd_statistics").fields}
-STATISTICS = tuple(FIELDS)
-_unpacked = struct.Struct("".join({"int64_t": "q", "double": "d"}[kind] for kind in FIELDS.values())).unpack
+NAMES_AND_KINDS = {name: field.type.cname for name, field in ffi.typeof("zd_statistics").fields}
+Statistics = collections.namedtuple("Statistics", NAMES_AND_KINDS)
+_unpacked = struct.Struct("".join({"int64_t": "q", "double": "d"}[kind] for kind in NAMES_AND_KINDS.values())).unpack
+
+
+class _Layout(NamedTuple):
+    """How the columns of a record stand in one array, one behind the other: counts come last, two in the place of a double."""
+
+    shapes: dict[str, tuple[int, ...]]      # of a row's numbers
+    starts: dict[str, int]                  # doubles of a row before those of this column
+    width: int                              # doubles of a row
 
 
 @functools.lru_cache
-def _shapes(nq: int, nv: int, mh: int, m: int, has_energy: bool) -> dict[str, tuple[int, ...]]:
-    """The shapes of a row's numbers."""
+def _layout(nq: int, nv: int, mh: int, m: int, has_energy: bool, outputs: int | None) -> _Layout:
     energies = {"potential": (), "input": (), "energy_violation": ()} if has_energy else {}
-    return {"t": (), "p": (nq,), "v": (nv,), "multipliers": (m,), "position_violation": (mh,), "velocity_violation": (m,),
-            "kinetic": (), **energies}
+    shapes = {"t": (), "p": (nq,), "v": (nv,), "multipliers": (m,), "position_violation": (mh,), "velocity_violation": (m,),
+              "kinetic": (), **energies, **({} if outputs is None else {"outputs": (outputs,)})}
+    ends = list(itertools.accumulate(map(math.prod, shapes.values()), initial=0))
+    return _Layout(shapes, dict(zip(shapes, ends, strict=False)), ends[-1] + 1)
 
 
 class Record:
-    """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed."""
+    """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed.
+
+    The columns of the first block are views of one array, which takes a fraction of the time of as many arrays: most runs are
+    short, and need no other. Those of further blocks are arrays of their own, which can be let go one by one.
+    """
 
     def __init__(self, core: CoreSystem, capacity: int, outputs: Outputs | None = None) -> None:
-        self._shapes = _shapes(core.nq, core.nv, core.mh, core.m, core.has_energy)
-        if outputs:
-            self._shapes = self._shapes | {"outputs": (outputs.width,)}
-        self._blocks: list[tuple[Any, dict[str, np.ndarray]]] = []
-        self._add(capacity)
+        self._layout = _layout(core.nq, core.nv, core.mh, core.m, core.has_energy, outputs.width if outputs else None)
+        self._memory = self._taken(capacity, np.empty, self._layout.width * capacity)
+        c = self.c = self._first = ffi.new(RECORD)
+        self._further: list[tuple[Any, dict[str, np.ndarray]]] = []
+        self._joined: dict[str, np.ndarray] = {}
+        c.capacity, start = capacity, ffi.from_buffer(DOUBLES, self._memory)
+        for name, doubles_before in self._layout.starts.items():
+            setattr(c, name, start + doubles_before * capacity)
+        c.iterations = ffi.cast(INTEGERS, start + (self._layout.width - 1) * capacity)
+        c.energy_skipped = c.iterations + capacity
 
-    def _add(self, capacity: int) -> None:
+    def _taken(self, capacity: int, take: Callable[..., Any], *given: Any) -> Any:
+        """Memory for so many rows."""
         try:
-            columns = self._taken(capacity)
-            counts = {name: np.empty(capacity, dtype=np.intc) for name in COUNTS}
+            return take(*given)
         except (MemoryError, ValueError):
-            columns = {}        # the traceback keeps this frame, but what it took is needed
-            size = capacity * (sum(map(math.prod, self._shapes.values())) + 0.5) * 8 / 2**30
+            size = capacity * (self._layout.width - 0.5) * 8 / 2**30
             raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
-        c = self.c = ffi.new("zd_record *")
-        c.capacity = capacity
-        for name, array in columns.items():
-            setattr(c, name, ffi.from_buffer("double[]", array, require_writable=True))
-        for name, array in counts.items():
-            setattr(c, name, ffi.from_buffer("int[]", array, require_writable=True))
-        self._blocks.append((c, columns | counts))
-
-    def _taken(self, capacity: int) -> dict[str, np.ndarray]:
-        """Arrays for so many rows."""
-        return {name: np.empty((capacity, *shape)) for name, shape in self._shapes.items()}
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
-        self._add(sum(c.capacity for c, _ in self._blocks))
+        capacity = self._first.capacity + sum(c.capacity for c, _ in self._further)
+        columns = self._taken(capacity, self._columns, capacity)
+        c = self.c = ffi.new(RECORD, {"capacity": capacity})
+        for name, array in columns.items():
+            setattr(c, name, ffi.from_buffer("int[]" if name in COUNTS else "double[]", array, require_writable=True))
+        self._further.append((c, columns))
+
+    def _columns(self, capacity: int) -> dict[str, np.ndarray]:
+        # One expression: where memory ends within it, the traceback keeps nothing of what was taken.
+        shapes = self._layout.shapes
+        return {name: np.empty((capacity, *shapes.get(name, ())), np.intc if name in COUNTS else float)
+                for name in (*shapes, *COUNTS)}
 
     def take(self) -> dict[str, np.ndarray]:
-        """The rows written so far. Several blocks are joined column by column and let go, as memory may be short."""
-        if len(self._blocks) == 1:
-            c, columns = self._blocks.pop()
-            return columns if c.rows == c.capacity else {name: array[: c.rows] for name, array in columns.items()}
-        return {name: self._joined(name) for name in (*self._shapes, *COUNTS)}
+        """The rows written so far."""
+        return self._joined or self._of_first()
 
-    def _joined(self, name: str) -> np.ndarray:
-        parts = [columns[name][: c.rows] for c, columns in self._blocks]
-        joined = np.concatenate(parts)
-        for _, columns in self._blocks:
-            del columns[name]
-        return joined
+    def _of_first(self) -> dict[str, np.ndarray]:
+        """The columns of the first block."""
+        rows, capacity, memory = self._first.rows, self._first.capacity, self._memory
+        columns = {name: memory[start * capacity:start * capacity + rows * math.prod(shape)].reshape(rows, *shape)
+                   for (name, start), shape in zip(self._layout.starts.items(), self._layout.shapes.values(), strict=True)}
+        counts = memory[(self._layout.width - 1) * capacity:].view(np.intc)
+        return columns | {"iterations": counts[:rows], "energy_skipped": counts[capacity:capacity + rows]}
+
+    def join(self) -> None:
+        """Makes one block of several, column by column, letting go of what is joined, as memory may be short."""
+        if not self._further:
+            return
+        for name, first in self._of_first().items():
+            self._joined[name] = np.concatenate([first, *(columns[name][: c.rows] for c, columns in self._further)])
+            for _, columns in self._further:
+                del columns[name]
+        self._further.clear()
+
+
+class Results(NamedTuple):
+    """What a run did."""
+
+    statistics: Any         # as the core counts
+    omega_h: float          # the largest
+    largest_kinetic: float  # J
+    energy_error: float     # J: the largest |Psi_E| of the saved rows
+    redundant: list[int]    # the constraints that follow from others wherever the system goes
+    phi_sizes: bytes     # of its rows (mh,), as doubles
+
+    def as_stats(self) -> dict[str, Any]:
+        """What `Solution.stats` has of it."""
+        return {**self.statistics._asdict(), "omega_h": self.omega_h, "largest_kinetic": self.largest_kinetic,
+                "redundant": self.redundant}
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """The sizes of the rows of Phi (mh,)."""
+        return np.ndarray(len(self.phi_sizes) // 8, float, self.phi_sizes)
 
 
 class Run:
@@ -111,12 +163,13 @@ class Run:
                  outputs: Outputs | None = None) -> None:
         self._core = core = core.for_run()
         self._watcher, self._outputs = watcher, outputs
+        options = ffi.new(SETTINGS, options[0])     # others may be at work with the same
         options.given_jacobian = core.given_jacobian
         if watcher:
             options.events = watcher.c
         if outputs:
             options.outputs = outputs.c
-        status, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
+        status, message = ffi.new(INTEGERS), ffi.new(MESSAGE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
             raise self._raised or error_of(status[0], text(message))
@@ -149,23 +202,19 @@ class Run:
         """The first failure, in one sentence."""
         return text(lib.zd_run_message(self._run))
 
-    @property
-    def redundant(self) -> list[int]:
+    def _redundant(self, rank: int) -> list[int]:
         """The constraints that follow from others wherever the system goes."""
-        rows = ffi.new("int[]", max(1, self._core.m))
+        if rank == self._core.m:
+            return []
+        rows = ffi.new("int[]", self._core.m)
         return list(rows[0:lib.zd_run_redundant(self._run, rows)])
 
-    @property
-    def statistics(self) -> dict[str, Any]:
-        """Counts of what the run did, and its largest omega h."""
-        c = lib.zd_run_statistics(self._run)
-        return dict(zip(STATISTICS, _unpacked(ffi.buffer(c)), strict=True)) | {
-            "omega_h": lib.zd_run_omega_h(self._run), "largest_kinetic": lib.zd_run_kinetic(self._run)}
-
-    @property
-    def sizes(self) -> np.ndarray:
-        """The sizes of the rows of Phi (mh,)."""
-        return np.array(ffi.unpack(lib.zd_run_sizes(self._run), self._core.mh) if self._core.mh else [], dtype=float)
+    def results(self) -> Results:
+        """What is known of the run by now, besides its rows."""
+        run, size = self._run, 8 * self._core.mh
+        statistics = Statistics._make(_unpacked(ffi.buffer(lib.zd_run_statistics(run))))
+        return Results(statistics, lib.zd_run_omega_h(run), lib.zd_run_kinetic(run), lib.zd_run_energy_error(run),
+                       self._redundant(statistics.rank), ffi.buffer(lib.zd_run_sizes(run), size)[:] if size else b"")
 
 
 def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:

@@ -24,6 +24,14 @@ TOO_COARSE = ("steps are too long for what happens in some of them; take shorter
 CATEGORIES = (AccuracyWarning, CorrectionWarning, StabilityWarning)
 
 
+def is_beyond_doubt(results: _gateway.Results) -> bool:
+    """Whether no warning is due, as most often: told from few numbers, as `doubts` takes as long as a short run."""
+    counted, kinetic = results.statistics, results.largest_kinetic
+    return (not (counted.energy_skipped or counted.too_long or counted.stiff or counted.unresolved)
+            and results.energy_error < LARGEST_ENERGY_ERROR * kinetic
+            and counted.energy_corrected <= LARGEST_ENERGY_CORRECTION * kinetic)
+
+
 def warn(solution: Solution, stacklevel: int) -> None:
     """Warn of everything that was off but did not stop the run; `stacklevel` as of `warnings.warn`, counted from the caller."""
     for category, sentence in doubts(solution):

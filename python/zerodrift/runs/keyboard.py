@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import _signal  # its functions in `signal` make members of enumerations of their results, which takes half of a short run's time
 import signal
 import threading
 from types import CodeType, FrameType
 from typing import Any
 
-# Python's own functions, without what makes members of enumerations of their results: that takes longer than a short run.
-_handler, _set_handler = (getattr(function, "__wrapped__", function) for function in (signal.getsignal, signal.signal))
+INTERRUPT = int(signal.SIGINT)
 
 
 class Keyboard:
@@ -30,13 +30,13 @@ class Keyboard:
 
     def __enter__(self) -> Keyboard:
         if (threading.current_thread() is threading.main_thread()
-                and _handler(signal.SIGINT) is signal.default_int_handler):
-            _set_handler(signal.SIGINT, self._press)
+                and _signal.getsignal(INTERRUPT) is signal.default_int_handler):
+            _signal.signal(INTERRUPT, self._press)
             self._handles_signal = True
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: Any) -> None:
         if self._handles_signal:
-            _set_handler(signal.SIGINT, signal.default_int_handler)
+            _signal.signal(INTERRUPT, signal.default_int_handler)
         if error is not None and self.pressed and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt from error

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import operator
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -100,17 +99,57 @@ FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-o
 RESOLVED = 16 * float(np.finfo(float).eps)      # of a time: no step is shorter
 
 
-def checked(system: BaseSystem, span: tuple[float, float], *, on_singular: Any, formulation: Any, integrator: Any,
-            stabilization: Any, energy: Any, correction: Any, save_every: Any, t_eval: Any, step: Any, max_steps: Any,
-            direct: Any, **tolerances: Any) -> dict[str, Any]:
-    """The arguments of `simulate`, checked, as `Solution.settings` keeps them."""
+class Plan(NamedTuple):
+    """What a run is told, checked."""
+
+    chosen: dict[str, Any]      # as `Solution.settings` keeps it
+    options: Any                # the same for the core
+    rows: int | None            # that are saved, the start included; None: not known, as steps are chosen
+    corrections: Sequence[RowSettings] = ()
+    requires: int = 0           # the bits of the terms that these require
+
+
+def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
+         first_step: Any, max_step: Any, max_steps: Any, formulation: Any, integrator: Any, stabilization: Any, energy: Any,
+         correction: Any, on_singular: Any, direct: Any) -> Plan:
+    """The arguments of `simulate`, checked."""
+    if isinstance(correction, list):
+        correction = tuple(correction)
+    given = (span, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator, stabilization, energy,
+             correction, on_singular, direct)
+    try:
+        found = _plan(*given)
+    except TypeError:       # as it comes from arguments that cannot be remembered, too: most of these are wrong
+        found = _plan.__wrapped__(*given)
+    if found.requires & ~core_of(system).provides:
+        _refuse_corrections(system, found.corrections)
+    chosen = found.chosen.copy()
+    return found._replace(chosen=chosen) if t_eval is None else _at_times(found, chosen, span, t_eval)
+
+
+# What follows from arguments is found once: else it would take as long as a short run. 1 is not True here.
+@functools.lru_cache(typed=True)
+def _plan(span: tuple[float, float], save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any,
+          max_steps: Any, formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any,
+          direct: Any) -> Plan:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
         raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
-    return {**_steps(span, step, integrator, max_steps, tolerances),
-            **_methods(system, formulation, integrator, stabilization, energy,
-                       tuple(correction) if isinstance(correction, list) else correction), **_saved(span, save_every, t_eval),
-            "on_singular": on_singular, "direct": direct}
+    tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
+    methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
+    chosen = {**_steps(span, step, integrator, max_steps, tolerances), **methods,
+              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct}
+    return Plan(chosen, core_settings(span, chosen), _saved_rows(span, chosen), corrections, requires)
+
+
+def _at_times(plan: Plan, chosen: dict[str, Any], span: tuple[float, float], t_eval: Any) -> Plan:
+    """The plan with rows at these times."""
+    if chosen["save_every"] != 1:
+        raise ValueError("save_every counts steps, and t_eval names times: give one of them")
+    times = chosen["t_eval"] = _check.increasing("t_eval", t_eval, *span)
+    times.flags.writeable = False
+    # an event may end the run between two of them
+    return plan._replace(chosen=chosen, options=_gateway.settings({"t_eval": times}, plan.options), rows=len(times) + 1)
 
 
 def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
@@ -145,25 +184,8 @@ def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict
     return found
 
 
-def _methods(system: BaseSystem, *given: Any) -> dict[str, Any]:
-    """Equations, integrator and corrections."""
-    found, corrections, requires = _remembered(_chosen_methods, *given)
-    if requires & ~core_of(system).provides:
-        _refuse_corrections(system, corrections)
-    return found
-
-
-def _remembered(function: Any, *given: Any) -> Any:
-    """What a function that has a cache says; without that where arguments cannot be remembered, as is wrong of most."""
-    with contextlib.suppress(TypeError):
-        return function(*given)
-    return function.__wrapped__(*given)
-
-
-# What follows from arguments that never change is found once: else it would take longer than a short run. 1 is not True here.
-@functools.lru_cache(typed=True)
-def _chosen_methods(formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
-                    given_correction: Any) -> tuple[dict[str, Any], list[RowSettings], int]:
+def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
+             given_correction: Any) -> tuple[dict[str, Any], list[RowSettings], int]:
     """As settings of a run, with all corrections among them, and the bits of the terms that these require."""
     name_of("formulations", formulation)
     found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
@@ -179,29 +201,15 @@ def _chosen_methods(formulation: Any, integrator: Any, given_stabilization: Any,
     return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
 
 
-def _refuse_corrections(system: BaseSystem, corrections: list[RowSettings]) -> None:
+def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) -> None:
     for name in (each.card.name for each in corrections):
         for term, row in _gateway.TERMS.items():
             if row.bit & _gateway.required(name) & ~core_of(system).provides:
                 raise ValueError(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
 
 
-def _saved(span: tuple[float, float], save_every: Any, t_eval: Any) -> dict[str, Any]:
-    """Which rows are saved."""
-    save_every = _check.count("save_every", save_every)
-    if t_eval is None:
-        return {"save_every": save_every}
-    if save_every != 1:
-        raise ValueError("save_every counts steps, and t_eval names times: give one of them")
-    times = _check.increasing("t_eval", t_eval, *span)
-    times.flags.writeable = False
-    return {"save_every": 1, "t_eval": times}
-
-
-def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
+def _saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
     """The number of rows that a run saves, its start included; None where it is not known, as steps are chosen."""
-    if "t_eval" in chosen:
-        return len(chosen["t_eval"]) + 1    # an event may end the run between two of them
     if chosen["step"] is None:
         return None
     steps = _gateway.count_steps(*span, chosen["step"])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import functools
+import itertools
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -17,6 +19,7 @@ from . import events as _events
 from . import outputs as _outputs
 from .keyboard import Keyboard
 from .progress import progress_of
+from .saving import EVENTS
 from .solution import Solution
 
 SLICE = 0.03        # seconds that the core runs before Python looks at the keyboard and shows the progress again
@@ -169,28 +172,26 @@ def simulate(
     system = system_of(system, p0, v0)
     core_of(system)
     span = _check.span(t_span)
-    chosen = settings.checked(
-        system, span, step=step, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step, max_steps=max_steps,
-        t_eval=t_eval, formulation=formulation, integrator=integrator, stabilization=stabilization, energy=energy,
-        correction=correction, save_every=save_every, on_singular=on_singular,
-        direct=direct)
+    plan = settings.plan(
+        system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
+        stabilization, energy, correction, on_singular, direct)
     core = core_of(system) if direct is False else direct_core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
     recorded = None
     if outputs is not None:
-        chosen["outputs"] = _outputs.names(outputs, system)
-        recorded = _outputs.Recorded(chosen["outputs"], system, core)
+        plan.chosen["outputs"] = _outputs.names(outputs, system)
+        recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
-    options, rows = settings.core_settings(span, chosen), settings.saved_rows(span, chosen) or FIRST_BLOCK
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
         more = recorded.core if recorded else None
-        run = _created(system, core, options, p0, v0, watcher, more)
-        record = _gateway.Record(core, rows, more)
+        run = _created(system, core, plan.options, p0, v0, watcher, more)
+        record = _gateway.Record(core, plan.rows or FIRST_BLOCK, more)
         outcome = _drive(run, record, progress, keyboard)
-        solution = _solution(system, span, chosen, run, record, watcher, outcome, recorded)
-    return _finished(solution, run, outcome, on_failure, keyboard)
+        results = run.results()
+        solution = _solution(system, span, plan.chosen, run, record, results, watcher, outcome, recorded)
+    return _finished(solution, run, results, outcome, on_failure, keyboard)
 
 
 class _Outcome(NamedTuple):
@@ -231,20 +232,27 @@ def _show(show: Callable[[float], None], part: float) -> None:
         raise
 
 
-def _solution(system, span, chosen, run, record, watcher, outcome, recorded) -> Solution:
+def _solution(system, span, chosen, run, record, results, watcher, outcome, recorded) -> Solution:
     """Everything that a run left behind."""
-    arrays = record.take()
-    t_events, p_events, v_events = _events_found(watcher)
-    return Solution._with_all(
-        t=arrays["t"], p=arrays["p"], v=arrays["v"], multipliers=arrays["multipliers"],
-        position_violation=arrays["position_violation"], velocity_violation=arrays["velocity_violation"],
-        kinetic_energy=arrays["kinetic"], potential_energy=arrays.get("potential"), energy_input=arrays.get("input"),
-        energy_violation=arrays.get("energy_violation"), iterations=arrays["iterations"],
-        energy_skipped=arrays["energy_skipped"], position_size=run.sizes,
-        stats=run.statistics | {"redundant": run.redundant, "seconds": outcome.seconds}, status=outcome.status,
+    record.join()
+    return Solution._of_run(
+        functools.partial(_arrays_and_stats, record, results, outcome.seconds, recorded), status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
-        system=system, t_span=span, t_events=t_events, p_events=p_events, v_events=v_events,
-        outputs=recorded.columns(arrays["outputs"]) if recorded and recorded.core else {})
+        system=system, t_span=span, **_events_found(watcher))
+
+
+def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
+                      recorded: _outputs.Recorded | None) -> dict[str, Any]:
+    """What a solution has of them, under its own names."""
+    arrays = record.take()
+    return {
+        "t": arrays["t"], "p": arrays["p"], "v": arrays["v"], "multipliers": arrays["multipliers"],
+        "position_violation": arrays["position_violation"], "velocity_violation": arrays["velocity_violation"],
+        "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
+        "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
+        "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
+        "stats": results.as_stats() | {"seconds": seconds},
+        "outputs": recorded.columns(arrays["outputs"]) if recorded and recorded.core else {}}
 
 
 def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
@@ -281,15 +289,17 @@ def _shown(error: BaseException) -> str:
         return type(error).__name__
 
 
-def _events_found(watcher: _gateway.Watcher | None) -> tuple[tuple[np.ndarray, ...] | None, ...]:
-    """The times t, the p and the v of all events, each with one array per event; None where no events were asked for."""
+def _events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
+    """The times t, the p and the v of all events, each with one array per event; nothing where no events were asked for."""
     if watcher is None:
-        return None, None, None
+        return {}
     arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
-    return tuple(zip(*arrays, strict=True)) or ((), (), ())
+    for array in itertools.chain(*arrays):
+        array.setflags(write=False)
+    return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))
 
 
-def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solution:
+def _finished(solution: Solution, run, results, outcome, on_failure, keyboard) -> Solution:
     """The solution, with warnings where it is doubtful; or an error that carries it."""
     interrupted = isinstance(outcome.error, KeyboardInterrupt)
     if keyboard.pressed and not interrupted:    # Ctrl-C came after the last slice, or while something else failed
@@ -298,7 +308,8 @@ def _finished(solution: Solution, run, outcome, on_failure, keyboard) -> Solutio
         raise _with_solution(outcome.error, solution)
     if on_failure == "raise" and not solution.success:
         _raise_failure(run, solution)
-    diagnosis.warn(solution, stacklevel=3)      # at the line that calls `simulate`
+    if not diagnosis.is_beyond_doubt(results):
+        diagnosis.warn(solution, stacklevel=3)      # at the line that calls `simulate`
     return solution
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -103,23 +104,38 @@ class Solution:
     outputs: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for value in vars(self).values():
+        for value in list(vars(self).values()):
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
         for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or (), self.outputs.values()):
             array.setflags(write=False)
 
     @classmethod
-    def _with_all(cls, **values: Any) -> Solution:
-        """With all fields given. A frozen class sets them one by one otherwise, which takes longer than a short run."""
+    def _of_run(cls, others: Callable[[], dict[str, Any]], **values: Any) -> Solution:
+        """With some fields, and a function that makes the others, which is asked when one of these is first wanted.
+
+        To make all of them, and to set them one by one as a frozen class does, takes longer than a short run.
+        """
         made = object.__new__(cls)
-        vars(made).update(values)
-        made.__post_init__()
+        vars(made).update(values, _others=others)
         return made
+
+    def __getattr__(self, name: str) -> Any:
+        values = vars(self)
+        if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same: they find equal ones
+            values.update(others())
+            self.__post_init__()
+            values["_others"] = None
+        if name in FIELDS and name in values:
+            return values[name]
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *FIELDS})
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles are made by __init__, so that their arrays are read-only, too.
-        return Solution, tuple(getattr(self, field.name) for field in fields(self))
+        return Solution, tuple(getattr(self, name) for name in FIELDS)
 
     def __repr__(self) -> str:
         s, stats = self.settings, self.stats
@@ -305,8 +321,11 @@ class Solution:
         """
         path = Path(path)
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
-        write(path, {each.name: getattr(self, each.name) for each in fields(self)})
+        write(path, {name: getattr(self, name) for name in FIELDS})
         return path
+
+
+FIELDS = tuple(each.name for each in fields(Solution))
 
 
 def load(path: str | Path) -> Solution:
