@@ -12,6 +12,7 @@ import pytest
 
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
+from core_objects import core_objects  # noqa: F401  (a fixture)
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 

@@ -2,44 +2,35 @@
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 
 import pytest
 
 import zerodrift as zd
+from core_objects import CC, CSRC, SOURCES, linked, needs_compiler
 from support import FORMULATIONS, ROOT
 
-SOURCES = sorted((ROOT / "csrc").rglob("*.c"))
-CC = os.environ.get("CC", "cc")
-needs_compiler = pytest.mark.skipif(not shutil.which(CC), reason="no C compiler")
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs the tools of GNU")
 ALLOCATING = ("malloc", "calloc", "realloc", "aligned_alloc")
-pytestmark = pytest.mark.skipif(not SOURCES, reason="no sources of the core")
+INPUTS = 2000       # of the fuzzer; .ci/sanitize hands in 50,000
 
 
 def compiled(tmp_path, *arguments):
     """What the compiler leaves in a folder of its own."""
-    subprocess.run([CC, "-O1", "-std=c11", "-ffp-contract=off", "-I", ROOT / "csrc", *arguments], cwd=tmp_path, check=True)
+    subprocess.run([CC, "-O1", "-std=c11", "-ffp-contract=off", "-I", CSRC, *arguments], cwd=tmp_path, check=True)
     return tmp_path
-
-
-@pytest.fixture(scope="module")
-def core(tmp_path_factory):
-    """All of it as one object."""
-    return compiled(tmp_path_factory.mktemp("core"), "-r", "-nostdlib", "-o", "core.o", *SOURCES) / "core.o"
 
 
 @needs_compiler
 @linux
-def test_ordinary_steps_allocate_nothing(tmp_path, core):
+def test_ordinary_steps_allocate_nothing(tmp_path, core_objects):
     """One allocation makes a run and another, freed at once, its start; none moves it: counted in each built-in system,
     formulation and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these see below.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
-    compiled(tmp_path, "-o", "allocations", ROOT / "tests" / "allocations.c", core, *wrap, "-lm")
-    output = subprocess.run([tmp_path / "allocations"], check=True, capture_output=True, text=True).stdout
+    program = linked(tmp_path / "allocations", ROOT / "tests" / "allocations.c", core_objects.values(), *wrap)
+    output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     lines = [line for line in output.splitlines() if line.startswith("allocations")]
     taken = sum(len(zd.integrators(getattr(zd.systems, name)())) for name in zd.systems.__all__)
     assert len(lines) == 2 * taken * len(FORMULATIONS)
@@ -49,13 +40,13 @@ def test_ordinary_steps_allocate_nothing(tmp_path, core):
 
 @needs_compiler
 @linux
-def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core):
+def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core_objects):
     """Steps near a bifurcation take memory when they first need it. Wherever it is refused, the run ends there and says so, and
     all that it had is freed. Where nothing is refused, the same run comes to its end.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ("aligned_alloc", "free")]
-    compiled(tmp_path, "-o", "rare_memory", ROOT / "tests" / "native" / "rare_memory.c", core, *wrap, "-lm")
-    output = subprocess.run([tmp_path / "rare_memory"], check=True, capture_output=True, text=True).stdout
+    program = linked(tmp_path / "rare_memory", ROOT / "tests" / "native" / "rare_memory.c", core_objects.values(), *wrap)
+    output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     lines = [line.split(" ", 4) for line in output.splitlines()]
     for name in FORMULATIONS:
         *refused, (_, granted, *last) = [line for line in lines if line[0] == name]
@@ -68,16 +59,12 @@ def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core)
 
 @needs_compiler
 @linux
-def test_only_the_workspace_allocates_and_nothing_is_global(tmp_path):
-    """By the symbols of the object files. Data that could change would be of kind B, C or D: without -fPIC, constants are R."""
-    workspace = ROOT / "csrc" / "workspace.c"
-    others = [path for path in SOURCES if path != workspace]
-    # One object each, as files of two folders may have one name.
-    for name, sources in (("workspace.o", [workspace]), ("others.o", others)):
-        compiled(tmp_path, "-fno-pic", "-r", "-nostdlib", "-o", name, *sources)
-        symbols = subprocess.run(["nm", tmp_path / name], check=True, capture_output=True, text=True).stdout
+def test_only_the_workspace_allocates_and_nothing_is_global(core_objects):
+    """By the symbols of the object files. Data that could change would be of kind B, C or D."""
+    for unit, path in core_objects.items():
+        symbols = subprocess.run(["nm", path], check=True, capture_output=True, text=True).stdout
         assert not re.findall(r".* [BbCDd] .*", symbols)
-        assert workspace in sources or not re.findall(rf" U (?:{'|'.join(ALLOCATING)}|free)$", symbols, re.MULTILINE)
+        assert unit == "workspace" or not re.findall(rf" U (?:{'|'.join(ALLOCATING)}|free)$", symbols, re.MULTILINE)
 
 
 @needs_compiler
@@ -89,10 +76,10 @@ def test_whatever_is_handed_in_does_no_harm(tmp_path):
     except subprocess.CalledProcessError:       # a compiler without them
         compiled(tmp_path, *plain)
     clean = {key: value for key, value in os.environ.items() if key != "LD_PRELOAD"}
-    command = [tmp_path / "fuzz_core", "-random", "10000", "1"]
+    command = [tmp_path / "fuzz_core", "-random", str(INPUTS), "1"]
     result = subprocess.run(command, capture_output=True, text=True, check=False, env=clean)
     assert result.returncode == 0, result.stderr
-    assert result.stdout == "10000 inputs\n"
+    assert result.stdout == f"{INPUTS} inputs\n"
 
 
 @needs_compiler

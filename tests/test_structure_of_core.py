@@ -1,6 +1,5 @@
 """The core's files and folders depend on each other one way: from the story in simulate.c down to the kernels in linalg/."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -9,16 +8,9 @@ from collections import defaultdict
 
 import pytest
 
-from support import ROOT
+from core_objects import CSRC, unit_of
 
-CSRC = ROOT / "csrc"
-CC = os.environ.get("CC", "cc")
 LONGEST = 40        # lines of a function
-
-
-def unit_of(path):
-    """A source file and its header are one: what each includes or calls, both do."""
-    return path.relative_to(CSRC).with_suffix("").as_posix()
 
 
 def includes():
@@ -66,15 +58,11 @@ def circles(pairs):
 
 
 @pytest.fixture(scope="module")
-def uses(tmp_path_factory):
+def uses(core_objects):
     """The pairs of files of which one includes the other, or uses a symbol that the other defines."""
-    if sys.platform != "linux" or not shutil.which(CC) or not shutil.which("nm"):
-        pytest.skip("needs Linux, a compiler and nm")
-    folder, objects = tmp_path_factory.mktemp("objects"), {}
-    for path in sorted(CSRC.rglob("*.c")):
-        objects[unit_of(path)] = folder / (unit_of(path).replace("/", "-") + ".o")
-        subprocess.run([CC, "-c", "-O0", "-std=c11", "-o", objects[unit_of(path)], path], check=True)
-    return includes() | symbols(objects)
+    if sys.platform != "linux" or not shutil.which("nm"):
+        pytest.skip("needs Linux and nm")
+    return includes() | symbols(core_objects)
 
 
 def test_a_circle_is_found():

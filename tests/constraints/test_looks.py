@@ -6,24 +6,20 @@ import numpy as np
 import pytest
 from scipy.linalg import qr
 
-from native_systems import COMPILER, needs_compiler
+from core_objects import linked, needs_compiler
 from support import ROOT
 
-SOURCES = sorted((ROOT / "csrc").rglob("*.c"))
 RANK_TOLERANCE = 2.0**-23       # of rank.h: rows of which less is left follow from the others
 SMALLEST, LARGEST = 7, 60    # velocities: up to six, `schur` has no look of its own
 MATRICES = 24
-pytestmark = [needs_compiler, pytest.mark.skipif(not SOURCES, reason="no sources of the core")]
+pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")
-def program(tmp_path_factory):
+def program(tmp_path_factory, core_objects):
     """What says what both looks say; it includes the file of 'schur' itself."""
-    path = tmp_path_factory.mktemp("looks") / "looks"
-    sources = [source for source in SOURCES if source.name != "schur.c"]
-    subprocess.run([COMPILER, "-O0", "-std=c11", "-ffp-contract=off", "-I", ROOT / "csrc", "-o", path,
-                    ROOT / "tests" / "native" / "looks.c", *sources, "-lm"], check=True)
-    return path
+    others = [path for unit, path in core_objects.items() if unit != "formulations/schur"]
+    return linked(tmp_path_factory.mktemp("looks") / "looks", ROOT / "tests" / "native" / "looks.c", others)
 
 
 def path_of_matrices(rng, n, m):
