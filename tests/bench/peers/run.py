@@ -11,54 +11,16 @@ and what else the machine does is not held against those that take long. The lea
 """
 
 import argparse
-import csv
-import importlib
-import math
-import os
 import sys
-from importlib import metadata
 from pathlib import Path
-from typing import NamedTuple
 
-for library in ("OMP", "OPENBLAS", "MKL"):      # matrices are tiny: threads would only get in each other's way
-    os.environ[f"{library}_NUM_THREADS"] = "1"
-
-import matplotlib  # noqa: E402
-import numpy as np  # noqa: E402
+import numpy as np
 
 HERE = Path(__file__).resolve().parent
-RESULTS = HERE.parent / "results"
-PEERS = {"zerodrift": "zerodrift", "scipy": "SciPy", "sundials": "SUNDIALS", "exudyn": "Exudyn", "pinocchio": "Pinocchio",
-         "mujoco": "MuJoCo", "heyoka": "heyoka.py", "numba": "numba", "numbalsoda": "numbalsoda"}
-DISTRIBUTIONS = {"sundials": "scikit-sundae", "pinocchio": "pin"}
-ROUNDS = 3
-LONG = 0.3              # s: what takes longer is timed once more only
-AT = (1e-3, 1e-6, 1e-9)
+sys.path.insert(0, str(HERE.parent))
+from comparing import PEERS, installed, measured, report  # noqa: E402
+
 CERTIFIED = 1e-9        # error asked of the reference, at most
-
-
-class Row(NamedTuple):
-    """What one setting of one method costs and gives."""
-
-    problem: str
-    peer: str
-    method: str
-    setting: str
-    error: float
-    seconds: float
-    message: str
-
-
-def installed(names):
-    """The modules of the peers there are, by name; the others are said to be absent."""
-    there = {}
-    for peer in names:
-        try:
-            there[peer] = importlib.import_module(f"with_{peer}")
-            print(f"{PEERS[peer]} {metadata.version(DISTRIBUTIONS.get(peer, peer))}")
-        except ImportError as error:
-            print(f"{PEERS[peer]} is absent: {error}")
-    return there
 
 
 def references(chain, peers):
@@ -71,98 +33,13 @@ def references(chain, peers):
     return exact
 
 
-def measured(chain, peers, every):
-    """All rows of one problem, of every so many settings."""
-    exact, rows = references(chain, peers), {}
-    cases = [(peer, method, setting) for peer, module in peers.items()
-             for method, settings in module.sweeps(chain).items() for setting in settings[::every]]
-    for case in cases:
-        rows[case] = first(chain, peers, case, exact)
-    for round_ in range(ROUNDS):
-        for case, row in rows.items():
-            if math.isfinite(row.error) and (row.seconds < LONG or round_ == 0):
-                seconds = peers[case[0]].solve(chain, case[2])[1]
-                rows[case] = row._replace(seconds=seconds if round_ == 0 else min(row.seconds, seconds))
-    return list(rows.values())
-
-
-def first(chain, peers, case, exact):
-    """The error of one setting; its time is that of the warm-up."""
-    peer, method, setting = case
-    text = " ".join(f"{item:.3g}" if isinstance(item, float) else str(item) for item in setting if item is not None)
-    try:
-        with np.errstate(all="ignore"):
-            p, seconds = peers[peer].solve(chain, setting)
-    except Exception as problem:      # whatever a peer raises where its method does not get through
-        return Row(chain.name, PEERS[peer], method, text, math.nan, math.nan, " ".join(str(problem).split())[:100])
-    if p.shape != exact.shape or not np.isfinite(p).all():
-        return Row(chain.name, PEERS[peer], method, text, math.nan, math.nan, "did not reach the end")
-    return Row(chain.name, PEERS[peer], method, text, np.abs(p - exact).max(), seconds, "")
-
-
-def least(rows, error):
-    """The shortest time in which an error is reached."""
-    return min((row.seconds for row in rows if row.error <= error), default=math.nan)
-
-
-def ratios(rows):
-    """Per problem, peer and method: the least time at each error, over that of the best of zerodrift's."""
-    for problem in dict.fromkeys(row.problem for row in rows):
-        here = [row for row in rows if row.problem == problem]
-        own = [least([row for row in here if row.peer == "zerodrift"], error) for error in AT]
-        yield problem, "zerodrift's best, in ms", [1e3 * seconds for seconds in own]
-        for column in ("peer", "method"):
-            for name in dict.fromkeys(getattr(row, column) for row in here):
-                of = [row for row in here if getattr(row, column) == name]
-                yield (problem, f"best of {name}" if column == "peer" else name,
-                       [least(of, error) / best for error, best in zip(AT, own, strict=True)])
-
-
-def write(path, header, rows):
-    """A table."""
-    with path.open("w", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(header)
-        table.writerows(rows)
-
-
-def draw(rows, path):
-    """Error against time, a panel for each problem, a colour for each peer."""
-    matplotlib.use("Agg")
-    from matplotlib.lines import Line2D
-
-    import zerodrift as zd
-
-    problems = list(dict.fromkeys(row.problem for row in rows))
-    figure, axes = zd.plot.panels(2, math.ceil(len(problems) / 2), width=12, height=9)
-    colours = dict(zip(PEERS.values(), zd.plot.COLOURS, strict=False))
-    markers, used = "os^Dv<>pPX*", {}
-    for problem, ax in zip(problems, axes.flat, strict=False):
-        for method in dict.fromkeys(row.method for row in rows if row.problem == problem):
-            of = [row for row in rows if (row.problem, row.method) == (problem, method) and row.error < 1]
-            if not of:
-                continue
-            mine = used.setdefault(of[0].peer, {})
-            name = method.split(": ")[-1] if of[0].peer == "zerodrift" else method
-            marker = markers[mine.setdefault(name, len(mine))]
-            ax.plot([1e3 * row.seconds for row in of], [row.error for row in of], ":" if "Python system" in method else "-",
-                    color=colours[of[0].peer], marker=marker, markersize=4, linewidth=1.8 if of[0].peer == "zerodrift" else 0.9)
-        ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |error of an angle| [rad]", title=problem,
-               ylim=(1e-12, 1))
-    handles = [Line2D([], [], color=colours[peer], marker=markers[place], markersize=4,
-                      label=name if name.startswith(peer) else f"{peer}: {name}")
-               for peer, names in used.items() for name, place in names.items()]
-    handles.append(Line2D([], [], color=colours["zerodrift"], linestyle=":", label="zerodrift: Python system"))
-    figure.legend(handles=handles, loc="outside right center", frameon=False, fontsize="small")
-    figure.savefig(path, dpi=110)
-
-
 def main():
     """Measure, print, write and draw."""
     import problems
 
+    there = [name for name in PEERS if (HERE / f"with_{name}.py").exists()]
     asked = argparse.ArgumentParser(description=__doc__)
-    asked.add_argument("peers", nargs="*", default=list(PEERS), help=f"of {', '.join(PEERS)}; zerodrift and scipy at least")
+    asked.add_argument("peers", nargs="*", default=there, help=f"of {', '.join(there)}; zerodrift and scipy at least")
     asked.add_argument("--problem", help="one of the problems alone, such as four-bar")
     asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
     asked.add_argument("--name", default="peers", help="what the files are called")
@@ -170,19 +47,8 @@ def main():
     peers, rows = installed(asked.peers), []
     for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6))):
         if asked.problem in (None, chain.name):
-            rows += measured(chain, peers, asked.every)
-    for row in rows:
-        print(f"{row.problem:12} {row.method:52} {row.setting:28} "
-              + (row.message or f"{row.error:9.1e} rad {1e3 * row.seconds:10.3f} ms"))
-    table = list(ratios(rows))
-    print(f"\ntime to reach an error, over that of zerodrift's best\n{'':66}" + "".join(f"{error:>10.0e}" for error in AT))
-    for problem, method, numbers in table:
-        print(f"{problem:12} {method:52} " + "".join(f"{number:10.3g}" for number in numbers))
-    write(RESULTS / f"{asked.name}.csv", Row._fields,
-          [(*row[:4], f"{row.error:.3g}", f"{row.seconds:.3g}", row.message) for row in rows])
-    write(RESULTS / f"{asked.name}_ratios.csv", ["problem", "method", *(f"at {error:.0e}" for error in AT)],
-          [(problem, method, *(f"{number:.3g}" for number in numbers)) for problem, method, numbers in table])
-    draw(rows, RESULTS / f"{asked.name}.png")
+            rows += measured(chain, references(chain, peers), peers, asked.every)
+    report(rows, asked.name)
 
 
 if __name__ == "__main__":
