@@ -3,7 +3,8 @@
  *     G = [M  C^T]        G [vdot; lambda] = [f - d; xi]
  *         [C   0 ]
  *
- * by Gaussian elimination with partial pivoting, which needs of M no more than that G is regular. M and the rows of C have different
+ * by Gaussian elimination with partial pivoting where that is small, and by Bunch and Kaufman's symmetric factorization with rook pivoting in
+ * half the memory where it is not. Both need of M no more than that G is regular. M and the rows of C have different
  * units; each row is scaled to the size of M first, and its multiplier back after, so that pivots are compared like with like.
  */
 #include "dependent.h"
@@ -15,13 +16,15 @@
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../linalg/symmetric.h"
 #include "../point/matrices.h"
 
 typedef struct augmented {
     int n, m;
     double *M, *C;      /* (n, n), (m, n): where the system's own are packed */
     double *scale;      /* (m,): of the rows of C in G */
-    double *G;          /* (n + m, n + m) */
+    int is_small;       /* whether G is stored whole */
+    double *G;          /* (n + m, n + m), or its upper triangle, row after row */
     double *b;          /* (n + m,) */
     int *order;         /* (n + m,) */
 } augmented;
@@ -30,13 +33,15 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
+    const int is_small = size <= ZD_UNROLLED;
     augmented self = {
         .n = (int)n,
         .m = (int)m,
         .M = zd_take_dense(arena, system, n * n),
         .C = zd_take_dense(arena, system, m * n),
         .scale = zd_take_doubles(arena, m),
-        .G = zd_take_doubles(arena, size * size),
+        .is_small = is_small,
+        .G = zd_take_doubles(arena, is_small ? size * size : zd_triangle(size)),
         .b = zd_take_doubles(arena, size),
         .order = zd_take(arena, size * sizeof(int)),
     };
@@ -46,7 +51,7 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
 static void lend_workspace(void *memory, double **Q, double **G)
 {
     const augmented *self = memory;
-    *Q = self->G;                       /* (n + m)^2 is at least m n + m^2 */
+    *Q = self->G;                       /* half of (n + m)^2 is at least m n + m^2, as m <= n */
     *G = self->G + self->m * self->n;
 }
 
@@ -73,6 +78,26 @@ static void fill(augmented *self, const double *M, const double *C)
     }
 }
 
+static void fill_triangle(augmented *self, const double *M, const double *C)
+{
+    int n = self->n, m = self->m, size = n + m;
+    for (int i = 0; i < n; i++) {
+        double *row = zd_triangle_row(size, self->G, i);
+        for (int j = i; j < n; j++) row[j] = M[i * n + j];
+        for (int k = 0; k < m; k++) row[n + k] = self->scale[k] * C[k * n + i];
+    }
+    memset(zd_triangle_row(size, self->G, n) + n, 0, zd_triangle((size_t)m) * sizeof *self->G);
+}
+
+/* Returns n + m, or the column that depends on others. */
+static int factor_filled(augmented *self)
+{
+    int size = self->n + self->m;
+    if (self->is_small) return zd_lu_factor(size, self->G, self->order);
+    int step = zd_symmetric_factor(size, self->G, self->order);
+    return step == size ? size : zd_symmetric_dependent(size, self->G, self->order, step, self->b);
+}
+
 static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
@@ -81,8 +106,9 @@ static int factor(void *memory, zd_point *point)
     self->m = point->rows;
     const double *M = zd_dense_M(point, self->M), *C = zd_dense_C(point, self->C);
     set_scales(self, M, C);
-    fill(self, M, C);                                                   /* (8) */
-    int column = zd_lu_factor(size, self->G, self->order);
+    if (self->is_small) fill(self, M, C);                               /* (8) */
+    else fill_triangle(self, M, C);
+    int column = factor_filled(self);
     if (column == size) return ZD_DONE;
     point->failed_index = column < self->n ? column : column - self->n;
     return column < self->n ? ZD_SINGULAR : ZD_DEPENDENT_ROWS;
@@ -95,7 +121,8 @@ static void solve(void *memory, const double *force, const double *rhs, double *
     double *b = self->b;
     for (int i = 0; i < n; i++) b[i] = force ? force[i] : 0;
     for (int k = 0; k < m; k++) b[n + k] = self->scale[k] * rhs[k];
-    zd_lu_solve(n + m, self->G, self->order, b);                        /* (8), (25) */
+    if (self->is_small) zd_lu_solve(n + m, self->G, self->order, b);    /* (8), (25) */
+    else zd_symmetric_solve(n + m, self->G, self->order, b);
     memcpy(x, b, (size_t)n * sizeof *x);
     if (!lambda) return;
     for (int k = 0; k < m; k++) lambda[k] = self->scale[k] * b[n + k];
@@ -106,8 +133,8 @@ const zd_formulation zd_augmented = {
         .name = "augmented",
         .summary = "Dependent variables; accelerations and multipliers at once from one symmetric matrix.",
         .equations = "(8), (25)",
-        .description = "Accelerations and multipliers come at once from one matrix with M, C and its transpose, by Gaussian "
-                       "elimination with partial pivoting. It needs of M no more than that the constraints hold what has no "
+        .description = "Accelerations and multipliers come at once from one symmetric matrix with M, C and its transpose, "
+                       "which is factored with pivoting. It needs of M no more than that the constraints hold what has no "
                        "mass, and so takes systems that have massless parts. Positions and velocities both drift from their "
                        "constraints and are corrected with the same matrix.",
         .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
