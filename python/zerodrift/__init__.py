@@ -32,11 +32,12 @@ from .errors import (
     UnsuitedIntegrator,
     ZerodriftError,
 )
+from .files import load
 from .runs.events import Event
 from .runs.operations import acceleration, assemble, project
 from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
 from .runs.simulate import simulate
-from .runs.solution import Solution, load
+from .runs.solution import Solution
 from .studies.check import check
 from .systems.callables import System
 from .systems.structure import Structure

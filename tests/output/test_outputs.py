@@ -1,4 +1,4 @@
-"""Measures recorded during a run: what reading them afterwards says, whichever rows are saved; and nothing where none are asked."""
+"""Measures recorded during a run: what reading them afterwards says, whichever rows are saved; nothing where none is asked."""
 
 import copy
 import pickle

@@ -47,7 +47,7 @@ class Elements:
     # ---- reading arguments ----
 
     def _named(self, argument: str, value: Any) -> Any:
-        """What a name stands for: an element, or the start or end of a link; what is no string is taken as it is."""
+        """What a name stands for: an element, a link's start or end, a body's center; what is no string is taken as it is."""
         if not isinstance(value, str):
             return value
         if value in self._elements:
@@ -55,6 +55,8 @@ class Elements:
         owner, _, side = value.partition(".")
         if side in ("start", "end") and isinstance(link := self._elements.get(owner), Link):
             return getattr(link, side)
+        if side == "center" and isinstance(body := self._elements.get(owner), Body):
+            return body.center
         known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
         raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {_check.closest(value, known)}")
 

@@ -12,6 +12,7 @@ from .._gateway import Variable
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
+from .describing import described
 from .drawing import Drawing, Inertias
 from .measuring import measuring
 from .numbers import Numbers
@@ -121,6 +122,14 @@ class MechanismSystem(BaseSystem):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return MechanismSystem, (self._drawing, self.layout, self._changed)
+
+    def _described(self) -> dict[str, Any]:
+        """As of any system; and the mechanism itself, or why it cannot be saved."""
+        try:
+            more = {"mechanism": described(self._drawing), "layout": self.layout, "changed": self._changed}
+        except ValueError as error:
+            more = {"not_saved": str(error)}
+        return super()._described() | more
 
     def __repr__(self) -> str:
         return (f"<system of {self.name}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} nonholonomic "

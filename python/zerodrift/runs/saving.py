@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -32,8 +32,8 @@ def write(path: Path, values: Mapping[str, Any]) -> None:
     np.savez_compressed(path, zerodrift=np.array(json.dumps(description)), **arrays)
 
 
-def read(path: str | Path) -> dict[str, Any] | None:
-    """The fields of the solution in a file; None where there is none in it."""
+def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any] | None:
+    """The fields of the solution in a file; None where there is none in it. `rebuilt` makes the system of a mechanism."""
     arrays = _read_arrays(path)
     if "zerodrift" not in arrays:
         return None
@@ -43,7 +43,7 @@ def read(path: str | Path) -> dict[str, Any] | None:
         if (count := description.get(name)) is not None:
             description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
     description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))}
-    description["system"] = _restored_system(description["system"])
+    description["system"] = _restored_system(description["system"], rebuilt)
     description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
     return arrays | description
 
@@ -79,10 +79,18 @@ class Described(BaseSystem):
 
     def __init__(self, description: dict[str, Any]) -> None:
         self.name, self.parameters = description["name"], {}
+        self._not_saved = description.get("not_saved")
         for group in ("coordinates", "velocities", "constraints"):
             setattr(self, group, tuple(_gateway.Variable(*variable) for variable in description[group]))
 
     m = property(lambda self: len(self.constraints), doc="Number of constraints.")
+
+    def _why_unknown(self, name: Any) -> str | None:
+        """Why a measure is not known here, which the mechanism would have."""
+        if not self._not_saved:
+            return None
+        return (f"{name!r} was not recorded, and {self.name} was not saved with its motion: {self._not_saved}. "
+                f"simulate(..., outputs=[{name!r}]) records it")
 
     def __repr__(self) -> str:
         return f"<description of {self.name}>"
@@ -91,7 +99,9 @@ class Described(BaseSystem):
         return repr(self)       # sizes, rows and parameters were not saved
 
 
-def _restored_system(description: dict[str, Any]) -> BaseSystem:
+def _restored_system(description: dict[str, Any], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> BaseSystem:
+    if "mechanism" in description:
+        return rebuilt(description)
     if "parameters" in description and description["name"] in FACTORIES:
         return BuiltIn(description["name"], description["parameters"])
     return Described(description)

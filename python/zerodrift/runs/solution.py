@@ -13,7 +13,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.watching import AXES
-from .saving import read, write
+from .saving import write
 from .settings import core_settings, corrections_of
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
@@ -201,6 +201,8 @@ class Solution:
         if columns:
             raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
                            "take the column of p, v or multipliers")
+        if why := self.system._why_unknown(getattr(name, "name", name)):
+            raise KeyError(why)
         known = self._ipython_key_completions_()
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
 
@@ -309,6 +311,8 @@ class Solution:
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it.
 
+        What the run recorded is kept, and a mechanism with it unless it has callables; so measures are read from it as from this.
+
         Parameters
         ----------
         path : str or Path
@@ -326,29 +330,6 @@ class Solution:
 
 
 FIELDS = tuple(each.name for each in fields(Solution))
-
-
-def load(path: str | Path) -> Solution:
-    """Read a solution that `Solution.save` wrote.
-
-    Raises
-    ------
-    ValueError
-        If the file is no saved solution.
-
-    Examples
-    --------
-    >>> import tempfile, zerodrift as zd
-    >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     again = zd.load(sol.save(folder + "/motion"))
-    >>> bool((again.p == sol.p).all())
-    True
-    """
-    values = read(path)
-    if values is None:
-        raise ValueError(f"{path} is no solution saved by zerodrift")
-    return Solution(**values)
 
 
 def _duration(seconds: float) -> str:

@@ -245,6 +245,10 @@ class BaseSystem:
         """What helps where the mass matrix is not positive definite; None: nothing is known of it."""
         return None
 
+    def _why_unknown(self, name: Any) -> str | None:
+        """What there is to say of a name that nothing has; None: it is a wrong one."""
+        return None
+
     def _names_of_measures(self) -> list[str]:
         """What is measured by names of its own."""
         return list(self._watching.number)

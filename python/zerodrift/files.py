@@ -1,0 +1,58 @@
+"""`load`: whatever was saved."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from typing import Any
+
+from .runs.saving import read
+from .runs.solution import Solution
+
+
+def load(path: str | Path) -> Any:
+    """Read what was saved: a solution, `Solution.save`, or a mechanism, `Mechanism.save`, told apart by what is in the file.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Solution or Mechanism
+
+    Raises
+    ------
+    ValueError
+        If the file is neither, or if there is something in a mechanism that this version does not know; the key and its place
+        are named.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = zd.load(sol.save(folder + "/motion"))
+    >>> bool((again.p == sol.p).all())
+    True
+    """
+    values = read(path, lambda description: _system(description, str(path)))
+    if values is not None:
+        return Solution(**values)
+    content = Path(path).read_bytes()
+    if b"zerodrift" in content and content.lstrip()[:1] == b"{":
+        rebuilding = _rebuilding()
+        description = rebuilding.parsed(content.decode(errors="replace"), str(path))
+        if description is not None:
+            return rebuilding.mechanism(description, str(path))
+    raise ValueError(f"{path} is no solution saved by zerodrift, and no mechanism")
+
+
+def _rebuilding() -> Any:
+    """What rebuilds mechanisms; imported where there is one, as `Mechanism` is."""
+    return importlib.import_module(".mechanisms.rebuilding", __package__)
+
+
+def _system(description: dict[str, Any], path: str) -> Any:
+    """The system of a mechanism that was saved with a solution."""
+    return _rebuilding().system(description, f"{path}, mechanism")

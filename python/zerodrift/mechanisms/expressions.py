@@ -1,0 +1,98 @@
+"""SymPy expressions as JSON: numbers, names of symbols, and lists of an operation and its parts, ``["*", 0.5, ["sin", "t"]]``.
+
+They are read without evaluating text as code, and only operations of the table below.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+DOUBLE = 53         # bits of the numbers that JSON keeps exactly
+SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessThan", ">": "StrictGreaterThan",
+         ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
+FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
+             "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
+CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
+
+
+@functools.cache
+def _operations() -> dict[str, Callable[..., Any]]:
+    """SymPy's classes by the words that stand for them."""
+    import sympy as sp
+
+    return {sign: getattr(sp, name) for sign, name in SIGNS.items()} | {name: getattr(sp, name) for name in FUNCTIONS}
+
+
+@functools.cache
+def _constants() -> dict[str, Any]:
+    import sympy as sp
+
+    return {word: getattr(sp.S, name, None) if name == "Exp1" else getattr(sp, name) for word, name in CONSTANTS.items()}
+
+
+def to_json(expression: Any, what: str) -> Any:
+    """The expression as lists of words and numbers; `what` it belongs to is named where that cannot be."""
+    written = _written(expression, what)
+    if _in_order(_written(from_json(written, what), what)) != _in_order(written):
+        raise ValueError(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved")
+    return written
+
+
+def _in_order(written: Any) -> Any:
+    """With terms and factors in one order, whatever is assumed of symbols."""
+    if not isinstance(written, list):
+        return written
+    word, *parts = [_in_order(part) for part in written]
+    return [word, *(sorted(parts, key=str) if word in ("+", "*", "and", "or") else parts)]
+
+
+def _written(expression: Any, what: str) -> Any:
+    words = {operation: word for word, operation in _operations().items()}
+    constants = {constant: word for word, constant in _constants().items()}
+    if expression.is_Symbol:
+        return expression.name
+    if expression.is_Integer:
+        return int(expression)
+    if expression.is_Float and expression._prec == DOUBLE:
+        return float(expression)
+    if expression.is_Rational:
+        return ["/", int(expression.p), int(expression.q)]
+    if expression in constants:
+        return [constants[expression]]
+    word = words.get(expression.func)
+    if word is None:
+        raise ValueError(f"{what} is an expression with {expression.func.__name__}, and cannot be saved: there are "
+                         f"{', '.join(map(str, words.values()))}")
+    if word == "cases":
+        return [word, *([_written(value, what), _written(condition, what)] for value, condition in expression.args)]
+    return [word, *(_written(part, what) for part in expression.args)]
+
+
+def from_json(written: Any, what: str) -> Any:
+    """The expression; an error names `what` it belongs to and the part that is none."""
+    import sympy as sp
+
+    if isinstance(written, bool) or written is None or isinstance(written, dict):
+        raise ValueError(f"{what} has {written!r}, which is no part of an expression")
+    if isinstance(written, str):
+        return sp.Symbol(written)
+    if not isinstance(written, list):
+        return sp.Integer(written) if isinstance(written, int) else sp.Float(written)
+    word, *parts = written or [None]
+    word = word if isinstance(word, str) else str(word)
+    if word in CONSTANTS and not parts:
+        return _constants()[word]
+    if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
+        return sp.Rational(*parts)
+    if word not in _operations():
+        raise ValueError(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}")
+    if word == "cases" and all(isinstance(part, list) and len(part) == 2 for part in parts):
+        read = [tuple(from_json(each, what) for each in part) for part in parts]
+    else:
+        read = [from_json(part, what) for part in parts]
+    try:
+        return _operations()[word](*read)
+    except Exception as error:      # each of SymPy's classes has its own
+        raise ValueError(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None

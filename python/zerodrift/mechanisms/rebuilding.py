@@ -1,0 +1,258 @@
+"""A mechanism from its JSON: by the same verbs, so that they check it, and with the numbers that were saved."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .bodies import Point
+from .describing import VERSION, WHAT
+from .expressions import from_json
+from .mechanism import Mechanism
+from .system import LAYOUTS, MechanismSystem
+
+UNIT = 1e-9         # how near the length of a direction is to one
+
+
+def parsed(text: str, where: str) -> dict[str, Any] | None:
+    """The JSON of a mechanism; None where the text is something else."""
+    try:
+        found = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, where), parse_constant=_refused(where))
+    except json.JSONDecodeError:
+        return None
+    return found if isinstance(found, dict) and found.get("zerodrift") == WHAT else None
+
+
+def _once(pairs: list[tuple[str, Any]], where: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"{where} has the key {key!r} twice in one place")
+        found[key] = value
+    return found
+
+
+def _refused(where: str) -> Callable[[str], Any]:
+    def refuse(number: str) -> Any:
+        raise ValueError(f"{where} has {number} where a finite number is needed")
+    return refuse
+
+
+def mechanism(description: Any, where: str) -> Mechanism:
+    """The mechanism that `describing.described` has described; `where` it stands is named in errors, with the place in it."""
+    given = _fields(_parts, description, where, skip=("zerodrift", "version"))
+    if description["version"] != VERSION:
+        raise ValueError(f"{where} is a mechanism of version {description['version']!r}, and version {VERSION} is known here")
+    return _parts(where, **given)
+
+
+def system(description: dict[str, Any], where: str) -> MechanismSystem:
+    """The system that `MechanismSystem._described` has described."""
+    drawing = mechanism(description["mechanism"], where)._drawing()
+    return MechanismSystem(drawing, _check.choice(f"layout of {where}", description["layout"], LAYOUTS), description["changed"])
+
+
+def _parts(where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any, gravity: Any, parameters: Any,
+           elements: Any, start: Any, wish: Any) -> Mechanism:
+    m = _at(where, Mechanism, name, dimension=dimension, gravity=gravity, parameters=parameters)
+    for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
+        _element(m, element, f"{where}, element {i}")
+    _at(f"{where}, start", m.start, start, wish=wish)
+    return m
+
+
+def _element(m: Mechanism, description: Any, where: str) -> None:
+    _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
+    kind, name = description.get("kind"), description.get("name")
+    if kind not in MADE:
+        raise ValueError(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(MADE)}")
+    where = f"{where} ({kind} {name!r})"
+    given = _fields(MADE[kind], description, where, skip=("kind", "name"))
+    _at(where, MADE[kind], m, name, **given)
+
+
+def _fields(function: Callable[..., Any], description: Any, where: str, skip: tuple[str, ...]) -> dict[str, Any]:
+    """What a description has, by the names that the function takes; all that it needs, and nothing else."""
+    wanted = {name: parameter for name, parameter in inspect.signature(function).parameters.items()
+              if parameter.kind is parameter.KEYWORD_ONLY}
+    known = [*skip, *(name for name in wanted if name not in skip)]
+    for key in description:
+        if key not in known:
+            raise ValueError(f"{where} has the key {key!r}, which is not known; there are {', '.join(known)}")
+    needed = [*skip, *(name for name, parameter in wanted.items() if parameter.default is parameter.empty)]
+    for key in needed:
+        if key not in description:
+            raise ValueError(f"{where} lacks the key {key!r}")
+    return {key: value for key, value in description.items() if key not in skip}
+
+
+def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    """What a function makes; its errors say where in the file it was."""
+    try:
+        return function(*given, **named)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{where}: {error}") from error
+
+
+# ---- parts of elements ----
+
+
+def _place(m: Mechanism, given: Any) -> Any:
+    """A point by its name, or by its body and where it is in that body's frame."""
+    if isinstance(given, str):
+        return m._named("a point", given)
+    if not isinstance(given, Mapping) or set(given) != {"body", "local"}:
+        raise ValueError(f"a point must be a name, or have a body and local coordinates, not {_check.shown(given)}")
+    return m._body("body", given["body"]).point(given["local"])
+
+
+def _direction(what: str, given: Any) -> np.ndarray:
+    """A direction (2,), which is kept as it is where its length is one."""
+    direction = _check.vector(what, given, 2)
+    if abs(np.hypot(*direction) - 1) > UNIT:
+        raise ValueError(f"{what} must have length 1, not {_check.shown(given)}")
+    return direction
+
+
+def _law(given: Any, what: str) -> tuple[Any, Any]:
+    """What a verb takes for a law, and for its `of`."""
+    if not isinstance(given, Mapping):
+        return given, None
+    if set(given) != {"expression", "of"}:
+        raise ValueError(f"{what} must be a number, or have an expression and of, not {_check.shown(given)}")
+    return from_json(given["expression"], what), given["of"]
+
+
+# ---- elements ----
+
+
+def _body(m: Mechanism, name: str, *, mass: Any, inertia: Any, at: Any, angle: Any, com: Any) -> None:
+    m.body(name, mass, inertia, at=at, angle=angle, com=com)
+
+
+def _link(m: Mechanism, name: str, *, start: Any, end: Any, mass: Any, length: Any = None, inertia: Any = None) -> None:
+    m.link(name, start, end, mass, length=length, inertia=inertia)
+
+
+def _particle(m: Mechanism, name: str, *, mass: Any, at: Any) -> None:
+    m.particle(name, mass, at=at if isinstance(at, list) else _place(m, at))
+
+
+def _point(m: Mechanism, name: str, *, body: Any, local: Any) -> None:
+    m.point(name, body, local)
+
+
+def _revolute(m: Mechanism, name: str, *, first: Any, second: Any, damping: Any, cut: Any) -> None:
+    m.revolute(name, _place(m, first), _place(m, second), damping=damping, cut=cut)
+
+
+def _prismatic(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any, damping: Any, cut: Any) -> None:
+    axis, sides = _direction("axis", axis), (_place(m, first), _place(m, second))
+    joint = m.prismatic(name, *sides, axis=sides[0].body.pose.direction(axis), damping=damping, cut=cut)
+    joint.axis = axis
+
+
+def _weld(m: Mechanism, name: str, *, first: Any, second: Any) -> None:
+    m.weld(name, _place(m, first), _place(m, second))
+
+
+def _rod(m: Mechanism, name: str, *, first: Any, second: Any, length: Any = None) -> None:
+    m.rod(name, _place(m, first), _place(m, second), length=length)
+
+
+def _slot(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
+    axis, line = _direction("axis", axis), _line(m, first)
+    joint = m.slot(name, line.body, _place(m, second), axis=line.body.pose.direction(axis))
+    joint.first, joint.axis = line, axis
+
+
+def _rolling(m: Mechanism, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
+    normal, line = _direction("normal", normal), _line(m, first)
+    joint = m.rolling(name, line.body, _place(m, second), radius=radius, at=line.drawn, normal=line.body.pose.direction(normal))
+    joint.first, joint.normal = line, normal
+
+
+def _knife_edge(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
+    axis, point = _direction("axis", axis), _line(m, second)
+    joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
+    joint.first, joint.axis = _line(m, first), axis
+
+
+def _line(m: Mechanism, given: Any) -> Point:
+    """A point, of which the body is wanted, too."""
+    return _check.instance("a point", _place(m, given), Point, "a point of a body")
+
+
+def _gear(m: Mechanism, name: str, *, first: Any, second: Any, ratio: Any) -> None:
+    m.gear(name, first, second, ratio=ratio)
+
+
+def _rack_pinion(m: Mechanism, name: str, *, first: Any, second: Any, ratio: Any) -> None:
+    m.rack_pinion(name, first, second, ratio=ratio)
+
+
+def _coupler(m: Mechanism, name: str, *, law: Any = None, sum: Any = None) -> None:
+    if (law is None) == (sum is None):
+        raise ValueError("it needs one of two, law or sum")
+    value, of = (sum, None) if law is None else _law(law, "law")
+    m.coupler(name, value, of=of)
+
+
+def _cam(m: Mechanism, name: str, *, cam: Any, follower: Any, profile: Any) -> None:
+    is_table = isinstance(profile, Mapping) and set(profile) == {"angles", "values"}
+    given = (profile["angles"], profile["values"]) if is_table else from_json(profile, "profile")
+    m.cam(name, cam, follower, profile=given)
+
+
+def _constraint(m: Mechanism, name: str, *, law: Any) -> None:
+    value, of = _law(law, "law")
+    m.constraint(name, value, of=of)
+
+
+def _nonholonomic(m: Mechanism, name: str, *, law: Any) -> None:
+    value, of = _law(law, "law")
+    m.nonholonomic(name, value, of=of)
+
+
+def _motor(m: Mechanism, name: str, *, joint: Any, drives: Any, law: Any) -> None:
+    value, of = _law(law, "law")
+    _check.choice("drives", drives, ("angle", "displacement", "speed", "torque", "force"))
+    m.motor(name, joint, of=of, **{drives: value})
+
+
+def _spring(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
+    m.spring(name, _place(m, first), _place(m, second), stiffness=stiffness, length=length, damping=damping)
+
+
+def _torsion_spring(m: Mechanism, name: str, *, joint: Any, stiffness: Any, angle: Any, damping: Any) -> None:
+    m.torsion_spring(name, joint, stiffness=stiffness, angle=angle, damping=damping)
+
+
+def _bushing(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, torsion: Any,
+             torsion_damping: Any) -> None:
+    m.bushing(name, _place(m, first), _place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+              torsion_damping=torsion_damping)
+
+
+def _force(m: Mechanism, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
+    along, frame, (value, of) = _direction("along", along), m._body("frame", frame), _law(value, "value")
+    force = m.force(name, _place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
+    force.along = along
+
+
+def _torque(m: Mechanism, name: str, *, body: Any, against: Any, value: Any) -> None:
+    value, of = _law(value, "value")
+    m.torque(name, body, value=value, of=of, against=against)
+
+
+MADE: dict[str, Callable[..., None]] = {
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _revolute, "prismatic": _prismatic,
+    "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
+    "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
+    "motor": _motor, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing, "force": _force,
+    "torque": _torque}
