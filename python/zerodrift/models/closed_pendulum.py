@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
@@ -58,22 +56,28 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     L, m, g, d = sp.symbols("length mass gravity span", positive=True)
     t = dynamicsymbols._t
 
-    along = [L * sp.Matrix([sp.cos(angle), sp.sin(angle)]) for angle in angles]
-    joints = [sum(along[:i], sp.zeros(2, 1)) for i in range(n + 1)]
-    middles = [(before + after) / 2 for before, after in pairwise(joints)]
-    speeds = [middle.diff(t) for middle in middles]
+    # Matrices and sums that are added to term by term would take SymPy the square of the number of links.
+    across, up = ([L * turn(angle) for angle in angles] for turn in (sp.cos, sp.sin))
+    moved = [[x.diff(t) for x in along] for along in (across, up)]
+    squares = [speed**2 for along in moved for speed in _middles(along)]
+    turning = m * L**2 / 12 * sp.Add(*(angle.diff(t)**2 for angle in angles)) / 2
+    joints = [(sp.Add(*across[:i]), sp.Add(*up[:i])) for i in range(n + 1)]
 
     system = symbolic(
         angles,
-        kinetic=sum(m * speed.dot(speed) / 2 + m * L**2 / 12 * angle.diff(t)**2 / 2
-                    for speed, angle in zip(speeds, angles, strict=True)),
-        potential=sum(m * g * middle[1] for middle in middles),
+        kinetic=m * sp.Add(*squares) / 2 + turning,
+        potential=m * g * sp.Add(*_middles(up)),
         constraints={"closed_x": joints[-1][0] - d, "closed_y": joints[-1][1]},
         parameters={L: length, m: mass, g: gravity, d: span},
-        points=[tuple(joint) for joint in joints],
+        points=joints,
         name="closed_pendulum",
     )
     # The arch ends a quarter of the chain away from the pin. In the mass metric the last links, which move most easily, would go
     # all that way and wind up; in that of the angles all of them turn a little.
     arch, evenly = np.linspace(LEAN, -0.75 * LEAN, n), Projection(metric="identity", max_iterations=100)
     return system.starting(*project(system, arch, np.zeros(n), projection=evenly))
+
+
+def _middles(along: list[sp.Expr]) -> list[sp.Expr]:
+    """Halfway along each link, of what the links are long in one direction; and of their speeds likewise."""
+    return [sp.Add(*along[:i], each / 2) for i, each in enumerate(along)]

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from .gradient import Gradient, Hessian, Slopes
 from .graph import MOVING, Graph, Node
 
 Matrix = list[list[Node]]
@@ -48,6 +49,7 @@ class Derivation:
         self.v = [graph.leaf("v", i) for i in range(given.nv)]
         self.rate = self.v if given.A is None else [graph.leaf("rate", i) for i in range(given.nq)]
         self.pdot = self.v if given.A is None else [graph.dot(row, self.v) for row in given.A]
+        self.by_position = Gradient(graph, self.p)
         self.moving = graph.derivative_along({self.t: graph.one, **dict(zip(self.p, self.pdot, strict=True))})
 
     def terms(self) -> dict[str, list[Node]]:
@@ -64,14 +66,15 @@ class Derivation:
     def _of_kinetic_energy(self) -> tuple[Matrix, list[Node]]:
         graph, A = self.graph, self.given.A
         T = graph.multiplied_out(self.given.kinetic)
-        by_rate = [graph.derivative_along({r: graph.one}) for r in self.rate]
-        momentum = [derivative(T) for derivative in by_rate]
-        T_rr = [[by_rate[max(i, j)](momentum[min(i, j)]) for j in range(len(self.rate))] for i in range(len(self.rate))]
+        by_rate = Gradient(graph, self.rate)
+        momentum = self._listed(by_rate(T), self.rate)
+        second = Hessian(graph, by_rate, T)
+        T_rr = [[second[a, b] for b in self.rate] for a in self.rate]
         if any(node.stage >= MOVING for row in T_rr for node in row):
             raise ValueError("kinetic must be quadratic in the velocities: its mass matrix depends on them")
         D = self._derivative_at_constant_v()
-        by_position = [graph.derivative_along({p: graph.one}) for p in self.p]
-        d = [graph.plus(D(moment), graph.minus(slope(T))) for moment, slope in zip(momentum, by_position, strict=True)]
+        slopes = self._listed(self.by_position(T), self.p)
+        d = [graph.plus(D(moment), graph.minus(slope)) for moment, slope in zip(momentum, slopes, strict=True)]
         if A is None:
             return T_rr, d
         at_v = graph.substitution(dict(zip(self.rate, self.pdot, strict=True)))
@@ -104,23 +107,28 @@ class Derivation:
     def _by_velocity(self, node: Node) -> list[Node]:
         """Its gradient times A."""
         graph = self.graph
-        gradient = [graph.derivative_along({p: graph.one})(node) for p in self.p]
+        gradient = self._listed(self.by_position(node), self.p)
         return gradient if self.given.A is None else [graph.dot(gradient, column) for column in _transposed(self.given.A)]
 
     def _constraints(self) -> dict[str, list[Node]]:
         graph, given = self.graph, self.given
         by_time, at_rest = graph.derivative_along({self.t: graph.one}), graph.substitution(dict.fromkeys(self.v, graph.zero))
+        by_velocity = Gradient(graph, self.v)
         C, Phi_t, Psi = [], [], []
         for Phi in given.holonomic:
             C.append(self._by_velocity(Phi))
             Phi_t.append(by_time(Phi))
             Psi.append(self.moving(Phi))
         for row in given.nonholonomic:
-            C.append([graph.derivative_along({v: graph.one})(row) for v in self.v])
+            C.append(self._listed(by_velocity(row), self.v))
             Phi_t.append(at_rest(row))
             Psi.append(row)
         xi = [graph.minus(self.moving(row)) for row in Psi]         # (6)
         return {"Phi": given.holonomic, "C": _flat(C), "Phi_t": Phi_t, "xi": xi}
+
+    def _listed(self, slopes: Slopes, leaves: list[Node]) -> list[Node]:
+        """A gradient with its zeros."""
+        return [slopes.get(leaf, self.graph.zero) for leaf in leaves]
 
     def _power(self, M: Matrix, d: Sequence[Node]) -> Node:
         graph, given = self.graph, self.given

@@ -134,7 +134,8 @@ class Graph:
         return self.sum([(node, -1)])
 
     def dot(self, a: Iterable[Node], b: Iterable[Node]) -> Node:
-        return self.plus(*(self.times(x, y) for x, y in zip(a, b, strict=True)))
+        zero = self.zero
+        return self.plus(*(self.times(x, y) for x, y in zip(a, b, strict=True) if x is not zero and y is not zero))
 
     # ---- all other kinds ----
 
