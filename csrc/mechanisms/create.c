@@ -368,9 +368,15 @@ const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return me
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism) { return mechanism->coordinate; }
 int zd_mechanism_data_size(void) { return (int)sizeof(zd_mechanism); }
 
-void zd_mechanism_with_owner(const zd_mechanism *mechanism, void *owner, void *data)
+void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double *numbers, void *data)
 {
     zd_mechanism *mine = data;
     *mine = *mechanism;
     mine->owner = owner;
+    mine->numbers = numbers;
+}
+
+zd_plan zd_mechanism_plan(const zd_mechanism *mechanism)
+{
+    return (zd_plan){mechanism->tree.link, mechanism->gauge, mechanism->term, mechanism->row, mechanism->effort};
 }

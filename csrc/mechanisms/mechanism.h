@@ -11,6 +11,7 @@
 #define ZD_MECHANISM_H
 
 #include "../joints/joint.h"
+#include "link.h"
 
 typedef struct zd_body {
     double mass, inertia;       /* kg, kg m^2 about the mass centre */
@@ -139,10 +140,23 @@ void zd_mechanism_free(zd_mechanism *mechanism);
 const zd_system *zd_mechanism_system(const zd_mechanism *mechanism);
 const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism);                       /* (m,) */
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism);         /* (nq,) */
-/* Size in bytes of the data of the system, for a copy with an owner of its own: see zd_mechanism_with_owner(). */
+/* Size in bytes of the data of the system, for a copy of it: see zd_mechanism_with(). */
 int zd_mechanism_data_size(void);
-/* Writes into `data` what the system's data is, but for the owner of the laws: each run may have its own. */
-void zd_mechanism_with_owner(const zd_mechanism *mechanism, void *owner, void *data);
+/* Writes into `data` what the system's data is, but for the owner of the laws, as each run may have its own, and for the numbers of
+ * functions that were written out from the plan: the pointer to these is what the data begins with. */
+void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double *numbers, void *data);
+
+/* What all joints and elements come down to: links of a tree, rows of gauges, and efforts along gauges. Bodies have the tree's numbers
+ * here, in which inner ones come first. */
+typedef struct zd_plan {
+    const zd_link *link;        /* (bodies + 1,) the first one, of the ground, unused */
+    const zd_gauge *gauge;
+    const zd_gauge_term *term;
+    const zd_relation *row;     /* (m,) holonomic ones first */
+    const zd_effort *effort;    /* (efforts,) */
+} zd_plan;
+
+zd_plan zd_mechanism_plan(const zd_mechanism *mechanism);
 
 /* Poses (bodies, 3) of mass centres, x, y, angle, and their rates, from the state and back. What joints of the tree forbid is not looked
  * at. `rates` and `v` may be NULL; `scratch` holds system->scratch doubles. */

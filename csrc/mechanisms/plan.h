@@ -16,6 +16,7 @@ struct zd_packing;
 
 /* Body numbers in all of these are those of the tree. */
 struct zd_mechanism {
+    const double *numbers;          /* of functions that were written out from this; first, as they look for it here */
     zd_vector gravity;
     zd_tree tree;
     int joints, relations, efforts, mh, m, longest;     /* `longest`: most terms of any relation or effort */

@@ -3,10 +3,7 @@
 #define ZD_PLANE_H
 
 #include "../linalg/small.h"
-
-typedef struct zd_vector {
-    double x, y;
-} zd_vector;
+#include "link.h"
 
 /* What acts on a body: a force at its mass centre, and a torque. */
 typedef struct zd_wrench {

@@ -7,29 +7,8 @@
 #ifndef ZD_TREE_H
 #define ZD_TREE_H
 
+#include "link.h"
 #include "plane.h"
-
-enum zd_hang {
-    ZD_HANGS_FREE,          /* coordinates x, y, angle */
-    ZD_HANGS_FREE_POINT,    /* a free particle: x, y */
-    ZD_HANGS_TURNING,       /* its angle */
-    ZD_HANGS_SLIDING,       /* its displacement */
-    ZD_HANGS_FIXED,
-    ZD_HANGS_PINNED         /* a particle at a point of the inner body */
-};
-
-typedef struct zd_link {
-    enum zd_hang hang;
-    int inner;              /* the body it hangs on */
-    int coordinate;         /* where its own coordinates begin */
-    zd_vector near;         /* from the inner mass centre to the joint, in the inner body's axes */
-    zd_vector far;          /* from the joint to its own mass centre, in its own axes */
-    zd_vector axis;         /* along which it slides, in the inner body's axes */
-    double along;           /* m: how far along the axis it is at displacement 0 */
-    double angle, cosine, sine;     /* of it less that of the inner body, where it slides or is fixed */
-    double mass, inertia;
-    double carried;         /* kg: with all bodies that hang on it */
-} zd_link;
 
 typedef struct zd_tree {
     int bodies;             /* without the ground */

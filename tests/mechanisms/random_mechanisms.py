@@ -7,10 +7,13 @@ from mechanisms.plain_mechanics import Model
 
 
 class Maker:
-    """Draws a mechanism at random: everything is consistent as drawn, so that each joint may be added anywhere."""
+    """Draws a mechanism at random: everything is consistent as drawn, so that each joint may be added anywhere.
 
-    def __init__(self, seed):
-        self.random = np.random.default_rng(seed)
+    `law(a, w)` is what a drive is given for a sin(w t); left out, a callable.
+    """
+
+    def __init__(self, seed, law=lambda a, w: lambda t: a * np.sin(w * t)):
+        self.random, self.law = np.random.default_rng(seed), law
         self.m = zd.Mechanism(f"random {seed}", gravity=(0.3, -9.81))
         self.bodies, self.poses = [], []        # of the package; of mass centres, (x, y, angle)
         self.d = {"mass": np.zeros(0), "gravity": np.array([0.3, -9.81]), "joints": [], "drives": [], "blades": [], "springs": [],
@@ -124,7 +127,7 @@ class Maker:
         self.free.remove(joint)
         a, w = self.random.uniform(0.1, 0.4), self.random.uniform(2, 5)
         quantity = "angle" if self.d["joints"][joint]["kind"] == "revolute" else "displacement"
-        self.m.motor("drive", self.joints[joint], **{quantity: lambda t: a * np.sin(w * t)})
+        self.m.motor("drive", self.joints[joint], **{quantity: self.law(a, w)})
         self.d["drives"].append({"joint": joint, "second_derivative": lambda t: -a * w**2 * np.sin(w * t)})
 
     def _spring(self):

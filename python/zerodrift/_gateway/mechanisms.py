@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE, MESSAGE_SIZE, Card, card_of, doubles, text
+from .base import MESSAGE_SIZE, TERMS, Card, card_of, doubles, text
+from .law_owner import Law, LawOwner
 from .measures import given
 from .systems import CoreSystem
 
@@ -165,9 +166,6 @@ class Coordinate(NamedTuple):
     kind: str
 
 
-Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
-
-
 def _joint_kind(number: int) -> JointKind:
     c = lib.zd_joint_kind_of(number)
     names = {value: name for name, value in GAUGES.items()}
@@ -196,33 +194,6 @@ def element_kinds() -> dict[str, ElementKind]:
     return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_element_kinds()))}
 
 
-class LawOwner:
-    """Calls the laws of one run, and keeps what they raise."""
-
-    def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
-        self.error: BaseException | None = None
-        self._law, self._sizes = law, sizes
-
-    def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
-        """The function that the core calls: `sizes` says how many gauges go in and how many numbers come out."""
-        try:
-            k, size = self._sizes[law]
-            values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
-            if values.shape != (size,):
-                raise ValueError(f"law {law} must give {size} numbers, not an array of shape {values.shape}")
-            for i, value in enumerate(values):
-                out[i] = value
-        except BaseException as error:      # raised again where the run was started
-            self.error = error
-            return CALLBACK
-        return DONE
-
-
-@ffi.def_extern(error=lib.ZD_CALLBACK)
-def zd_law_in_python(owner, law, t, x, xdot, out):
-    return ffi.from_handle(owner).evaluate(law, t, x, xdot, out)
-
-
 class MechanismCore(CoreSystem):
     """The core's system of a mechanism.
 
@@ -248,9 +219,10 @@ class MechanismCore(CoreSystem):
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
+        self._numbers = ffi.NULL
         self._written = _write(tables)
         self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
-        super().__init__(lib.zd_mechanism_system(self._mechanism), self._mechanism)
+        super().__init__(lib.zd_mechanism_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
 
     @functools.cached_property
@@ -270,12 +242,33 @@ class MechanismCore(CoreSystem):
         """The same system; with laws, one that keeps what they raise for itself."""
         if self._law is None:
             return self
+        owner = LawOwner(self._law, _law_sizes(self.tables))
+        mine = self._with_data(ffi.new_handle(owner), self._numbers)
+        mine._owner = owner
+        return mine
+
+    def _with_data(self, handle: Any, numbers: Any) -> MechanismCore:
         mine = copy.copy(self)
-        mine._owner = LawOwner(self._law, _law_sizes(self.tables))
-        handle, data = ffi.new_handle(mine._owner), ffi.new("char[]", lib.zd_mechanism_data_size())
-        lib.zd_mechanism_with_owner(self._mechanism, handle, data)
+        data = ffi.new("char[]", lib.zd_mechanism_data_size())
+        lib.zd_mechanism_with(self._mechanism, handle, numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data = data, (handle, data, self._mechanism)
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, numbers, data), numbers
+        return mine
+
+    def written(self, address: int, numbers: np.ndarray, terms: Iterable[str], *, timeless: bool, scratch: int,
+                keep: Any, direct: int | None = None) -> MechanismCore:
+        """The same system, whose terms the function at `address` computes, and whose measures are read as before.
+
+        The function's `data` begins with a pointer to `numbers`; `direct` is the address of a `zd_direct`, whose functions are
+        handed the same.
+        """
+        mine = self._with_data(ffi.NULL, doubles(numbers, numbers.size))
+        mine.c.evaluate, mine.c.scratch = ffi.cast("zd_evaluate *", address), scratch
+        mine.c.provides = sum(TERMS[name].bit for name in terms) | (lib.ZD_TIMELESS if timeless else 0)
+        mine.provides, mine.timeless = mine.c.provides & ~lib.ZD_TIMELESS, timeless
+        if direct is not None:
+            mine.c.direct, mine.c.directs = ffi.cast("const zd_direct *", direct), 1
+        mine._data = (*mine._data, keep)
         return mine
 
     @property
@@ -285,7 +278,7 @@ class MechanismCore(CoreSystem):
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
         """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
-        scratch, shape = np.zeros(max(1, self.c.scratch)), (len(self.tables.bodies), 3)
+        scratch, shape = np.zeros(max(1, lib.zd_mechanism_system(self._mechanism).scratch)), (len(self.tables.bodies), 3)
         poses, rates = np.zeros(shape), None if v is None else np.zeros(shape)
         lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(poses, poses.size),
                                given(rates, poses.size), doubles(scratch, scratch.size, writable=True))

@@ -21,6 +21,10 @@ class _Call:
         values = [float((xdot if is_rate else x)[place]) for place, is_rate in self.picks]
         return self.law.number(t, values, self.parameters)
 
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        """The node of the row, or of the effort; `values` and `rates` are those of its gauges."""
+        return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
+
 
 class Effort(_Call):
     """A force or torque."""
@@ -36,6 +40,9 @@ class Motion(_Call):
         f = self.law.jet(Jet(t, 0.0, 1.0, 0.0), (), self.parameters)
         return x[0] - f.value, 1.0, -f.first, -f.second
 
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.difference(values[0], super().written(equations, values, rates))
+
 
 class Speed(_Call):
     """The nonholonomic row xdot = f(t, x) of a drive."""
@@ -44,6 +51,9 @@ class Speed(_Call):
         at = [Jet(float(x[place]), 0.0, float(xdot[place]), 0.0) for place, _ in self.picks]
         f = self.law.jet(Jet(t, 0.0, 1.0, 0.0), at, self.parameters)
         return 0.0, 1.0, *[0.0] * (len(x) - 1), -f.value, -f.first
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.difference(rates[0], super().written(equations, values, rates))
 
 
 class Holonomic(_Call):
@@ -93,6 +103,11 @@ class Laws:
 
     def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         return self.rows[number](t, x, xdot)
+
+    def check_written(self) -> None:
+        """Refuses callables, which cannot be written out."""
+        for row in self.rows:
+            row.law.check_written()
 
     @property
     def know_time(self) -> bool:

@@ -88,6 +88,21 @@ class Law:
         value = value[()] if isinstance(value, np.ndarray) else value
         return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
 
+    def check_written(self) -> None:
+        """Refuses a callable, of which nobody but Python knows what it computes."""
+        if self._function is not None and not hasattr(self._function, "written"):
+            raise ValueError(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
+                             "place, or take compiled=False")
+
+    def written(self, equations: Any, x: Iterable[Any]) -> Any:
+        """Its node, where those of its measures are x."""
+        known = {**equations.parameters, "t": equations.t, **dict(zip(self._bound, x, strict=True))}
+        if self.constant is not None:
+            return equations.graph.number(self.constant)
+        if self.expression is not None:
+            return equations.read(self.what, self.expression, {each: known[str(each)] for each in self.expression.free_symbols})
+        return self._function.written(equations, **{name: known[name] for name in self._names})
+
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_call"}
 

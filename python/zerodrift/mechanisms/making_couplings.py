@@ -260,6 +260,10 @@ class _Sum:
     def __call__(self, **x: Any) -> Any:
         return sum(coefficient * x[f"x{i}"] for i, coefficient in enumerate(self.coefficients))
 
+    def written(self, equations: Any, **x: Any) -> Any:
+        """As a node, of nodes."""
+        return equations.graph.sum((x[f"x{i}"], coefficient) for i, coefficient in enumerate(self.coefficients))
+
 
 class _Follows:
     """What is zero where a follower is where its cam has it."""
@@ -269,6 +273,12 @@ class _Follows:
 
     def __call__(self, angle: Any, follower: Any) -> Any:
         return follower - self.profile(angle)
+
+    @property
+    def written(self) -> Any:
+        """The same as a node, of nodes; no attribute where the profile is a callable of the user's."""
+        profile = self.profile.written
+        return lambda equations, angle, follower: equations.difference(follower, profile(equations, angle))
 
 
 class _Expression:
@@ -282,6 +292,11 @@ class _Expression:
 
     def __call__(self, angle: Any) -> Any:
         return self._law.value(angle, (), {})
+
+    def written(self, equations: Any, angle: Any) -> Any:
+        """As a node, of a node."""
+        expression = self._law.expression
+        return equations.read(self._law.what, expression, dict.fromkeys(expression.free_symbols, angle))
 
 
 def _time() -> Any:

@@ -76,7 +76,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         self.gravity = np.zeros(2) if gravity is None else _check.vector("gravity", gravity, 2)
         super().__init__(parameters)
 
-    def system(self, coordinates: str | None = None) -> MechanismSystem:
+    def system(self, coordinates: str | None = None, compiled: bool = False) -> MechanismSystem:
         """The equations of the mechanism as it is now; what is added later does not change them.
 
         Parameters
@@ -85,10 +85,21 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints.
             "absolute": three coordinates a body, and all joints are constraints. None: "joint", until structured
             systems have linear cost.
+        compiled : bool
+            Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
+            several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
+            `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
+            where that changes, it is compiled anew by itself. What the user prescribes has to be numbers, tables and SymPy
+            expressions. Needs the extra `symbolic`; without a compiler the tables are interpreted, with a `NoCompilerWarning`.
 
         Returns
         -------
         MechanismSystem
+
+        Raises
+        ------
+        ValueError
+            If it is to be compiled and a law is a callable; the element is named.
 
         Examples
         --------
@@ -100,7 +111,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
         layout = LAYOUTS[0] if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
-        return MechanismSystem(self._drawing(), layout, {})
+        return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
 
     def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:
         """The system of this mechanism with some numbers changed, assembled anew.

@@ -78,3 +78,22 @@ class PeriodicSpline:
         for coefficient in self._coefficients[max(piece, 0)][::-1]:
             value = value * s + coefficient
         return value
+
+    def written(self, equations: Any, angle: Any) -> Any:
+        """As a node, of a node: the piece is chosen by its place, width and coefficients, so that one polynomial is computed."""
+        import sympy as sp
+
+        graph, first = equations.graph, float(self.angles[0])
+        turns = graph.call(sp.floor, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
+        within = graph.sum([(angle, 1), (turns, -PERIOD)])
+        conditions = [graph.comparison("<", within, graph.number(float(end))) for end in self.angles[1:]]
+
+        def chosen(numbers: np.ndarray) -> Any:
+            *cases, last = (graph.number(float(number)) for number in numbers)
+            return graph.choice(tuple(zip(conditions, cases, strict=True)), last)
+
+        s = graph.times(equations.difference(within, chosen(self.angles)), chosen(1 / self._widths))
+        value = graph.zero
+        for column in self._coefficients.T[::-1]:
+            value = graph.plus(graph.times(value, s), chosen(column))
+        return value

@@ -9,9 +9,12 @@ import numpy as np
 
 from .. import _check
 from .._gateway import Variable
+from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
+from ..symbolics.direct_functions import DirectFunctions
 from ..systems.base import BaseSystem
+from .compiled import Written
 from .describing import described
 from .drawing import Drawing, Inertias
 from .measuring import measuring
@@ -38,14 +41,21 @@ class MechanismSystem(BaseSystem):
         Every number by its path, such as ``"crank.mass"``, and the mechanism's own parameters.
     measures : tuple of str
         What ``sol[...]`` knows.
+    compiled : bool
+        Whether the equations were to be written out and compiled.
     """
 
-    def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float]) -> None:
+    def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float], compiled: bool = False,
+                 direct: tuple[str, DirectFunctions] | None = None) -> None:
         self._drawing, self.layout, self._changed, self.name = drawing, layout, changed, drawing.name
         self._numbers = Numbers(changed)
         self._tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._tables.core()
+        self.compiled, self._given_direct = compiled, direct
+        if compiled:
+            self._tables.laws.check_written()
+            self._written       # noqa: B018 - it takes its time where it was asked for
 
     # What follows is made when it is first asked for: for a hundred bodies it takes longer than all else.
 
@@ -81,8 +91,39 @@ class MechanismSystem(BaseSystem):
         return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives)
 
     @functools.cached_property
-    def _core(self) -> MechanismCore:
+    def _interpreted(self) -> MechanismCore:
         return self._started_tables.core() if self._start.has_speeds else self._first_core
+
+    @functools.cached_property
+    def _core(self) -> MechanismCore:
+        return self._written.core if self.compiled else self._interpreted
+
+    # ---- written out ----
+
+    @functools.cached_property
+    def _written(self) -> Written:
+        return Written(self._interpreted, self._started_tables.laws, self._tables.parameters, self.name)
+
+    @functools.cached_property
+    def _direct(self) -> tuple[str, DirectFunctions]:
+        """The direct functions, and the name of the code that they go with; their orders are for the numbers of the system
+        that this one was made from by changing numbers.
+        """
+        if self._given_direct is not None and self._given_direct[0] == self._written.key:
+            return self._given_direct
+        try:
+            p0 = self.p0
+        except ZerodriftError:      # whoever starts elsewhere is told nothing of it
+            p0 = None
+        is_length = np.array([is_length_of(variable) for variable in (*self.coordinates, *self.velocities)])
+        return self._written.key, self._written.direct_functions(p0, is_length)
+
+    @functools.cached_property
+    def _core_with_direct(self) -> MechanismCore:
+        return self._written.with_direct(self._direct[1])
+
+    def _direct_core(self) -> MechanismCore:
+        return self._core_with_direct if self.compiled else self._core
 
     @functools.cached_property
     def p0(self) -> np.ndarray:
@@ -118,10 +159,12 @@ class MechanismSystem(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: _checked(name, value) for name, value in changed.items()}
-        return MechanismSystem(self._drawing, self.layout, self._changed | numbers)
+        direct = self._direct if self.compiled else None
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self.compiled, direct)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return MechanismSystem, (self._drawing, self.layout, self._changed)
+        direct = self._direct if self.compiled else None
+        return MechanismSystem, (self._drawing, self.layout, self._changed, self.compiled, direct)
 
     def _described(self) -> dict[str, Any]:
         """As of any system; and the mechanism itself, or why it cannot be saved."""
@@ -132,8 +175,9 @@ class MechanismSystem(BaseSystem):
         return super()._described() | more
 
     def __repr__(self) -> str:
-        return (f"<system of {self.name}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} nonholonomic "
-                f"constraints>")
+        how = ", compiled" if self.compiled else ""
+        return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
+                f"nonholonomic constraints>")
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) in m, joined by lines where not NaN."""

@@ -21,9 +21,9 @@ class DirectFunctions:
     """
 
     def __init__(self, program: dict[str, Any] | None, sizes: tuple[int, int, int, int], values: np.ndarray,
-                 p0: np.ndarray | None, is_length: np.ndarray, offset: int) -> None:
+                 p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data") -> None:
         self._definition = program, sizes, values, p0, is_length
-        self._offset = offset
+        self._offset, self._data = offset, data     # `data` is C for the doubles of a system
         self._library: ctypes.CDLL | None = None
         self._written: tuple[str, int] | None = None
         self._is_written = program is None     # there is nothing to be written
@@ -32,7 +32,7 @@ class DirectFunctions:
         """The C source and how many constants it has; None: there is none."""
         if not self._is_written:
             from . import direct
-            self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT)
+            self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
             self._is_written = True
         return self._written
 

@@ -167,8 +167,11 @@ class CWriter(Writer):
             return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "(-INFINITY)"
         return repr(value) if value >= 0 else f"({value!r})"
 
-    def source(self, heading: list[str], parameters: int) -> tuple[str, int, int]:
-        """The C source, the number of constants it computes from the parameters, and of doubles it keeps."""
+    def source(self, heading: list[str], parameters: int, data: str = "data") -> tuple[str, int, int]:
+        """The C source, the number of constants it computes from the parameters, and of doubles it keeps.
+
+        `data` is C for the doubles of a system.
+        """
         blocks = self.blocks
         places = blocks.stored
         count = sum(number in places for number in blocks.constants)
@@ -187,13 +190,13 @@ class CWriter(Writer):
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
             "                         const zd_terms *out)",
-            "{", *indented([*self._locals(), *body, "return ZD_DONE;"]), "}", ""])
+            "{", *indented([*self._locals(data), *body, "return ZD_DONE;"]), "}", ""])
         return text, count, scratch + bool(blocks.kept)
 
-    def _locals(self) -> list[str]:
+    def _locals(self, data: str) -> list[str]:
         used = {(operation.arguments[0], operation.arguments[1]) for number, operation in enumerate(self.operations)
                 if operation.code == "leaf" and self.blocks.users[number]}
-        lines = ["const double *restrict const k = data;", "(void)k, (void)t, (void)p, (void)v;"]
+        lines = [f"const double *restrict const k = {data};", "(void)k, (void)t, (void)p, (void)v;"]
         for kind in "pv":
             indices = sorted(index for leaf, index in used if leaf == kind)
             if indices:
