@@ -111,6 +111,7 @@ static int measure_is_right(const zd_tables *tables, int i, complaint to)
     if (quantity >= ZD_VALUES && quantity <= ZD_ACCELERATIONS) count = tables->gauges, size = measure->size;
     else if (quantity >= ZD_JOINT_FORCE && quantity <= ZD_JOINT_TENSION) count = tables->joints;
     else if (quantity == ZD_EFFORT_VALUE || quantity == ZD_EFFORT_POWER) count = tables->efforts;
+    else if (quantity == ZD_EFFORT_FORCE) count = tables->efforts, size = measure->size;
     else if (quantity == ZD_DRIVE_VALUE || quantity == ZD_DRIVE_POWER) count = tables->relations;
     int terms = quantity == ZD_DRIVE_VALUE && is_in(measure->index, count) ? tables->relation[measure->index].terms : 1;
     return (size > 0 && is_in(measure->index, count) && measure->index + size <= count && is_in(measure->term, terms)) ||

@@ -14,7 +14,7 @@ typedef struct state {
 static int size_of(const zd_observed *measure)
 {
     if (measure->quantity <= ZD_ACCELERATIONS) return measure->size;
-    return measure->quantity == ZD_JOINT_FORCE ? 2 : 1;
+    return measure->quantity == ZD_JOINT_FORCE || measure->quantity == ZD_EFFORT_FORCE ? 2 : 1;
 }
 
 static enum zd_depends depends_on(const zd_observed *measure)
@@ -66,6 +66,20 @@ static int measure_effort(const zd_mechanism *self, const zd_frame *frame, const
     return status;
 }
 
+static int measure_effort_force(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+{
+    zd_vector force = {0, 0};
+    double effort;
+    int status = ZD_DONE;
+    for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
+        const zd_gauge *gauge = self->gauge + self->effort[i].gauge;
+        status = zd_effort_value(self, frame, self->effort + i, at->t, &effort, NULL);
+        force = zd_plus(force, zd_times(effort, zd_gauge_read(gauge, frame->pose).second.force));
+    }
+    value[0] = force.x, value[1] = force.y;
+    return status;
+}
+
 static int measure_drive(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
 {
     double bias;
@@ -84,6 +98,7 @@ static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, 
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
     case ZD_EFFORT_POWER: return measure_effort(self, frame, measure, at, value);
+    case ZD_EFFORT_FORCE: return measure_effort_force(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
     case ZD_DRIVE_POWER: return measure_drive(self, frame, measure, at, value);
     default: status = zd_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
@@ -95,7 +110,7 @@ static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, 
 
 static int has_what_it_needs(const zd_mechanism *self, const zd_observed *measure, const state *at)
 {
-    int is_effort = measure->quantity == ZD_EFFORT_VALUE || measure->quantity == ZD_EFFORT_POWER;
+    int quantity = measure->quantity, is_effort = quantity == ZD_EFFORT_VALUE || quantity == ZD_EFFORT_POWER || quantity == ZD_EFFORT_FORCE;
     if (measure->quantity <= ZD_RATES || is_effort) return 1;
     return at->vdot && (measure->quantity == ZD_ACCELERATIONS || at->lambda || self->m == 0);
 }

@@ -84,14 +84,15 @@ enum zd_quantity {
     ZD_EFFORT_VALUE,            /* of effort `index`: of accelerations, though it needs none */
     ZD_EFFORT_POWER,            /* W: that it puts in */
     ZD_DRIVE_VALUE,             /* of relation `index`: the effort along the gauge of its term `term`, positive where it drives it up */
-    ZD_DRIVE_POWER
+    ZD_DRIVE_POWER,
+    ZD_EFFORT_FORCE             /* (2,) N: what `size` efforts from `index` on do to their second body, in the drawing's axes */
 };
 
 typedef struct zd_observed {
     const char *name, *unit;
     int quantity;               /* enum zd_quantity */
     int index;
-    int size;                   /* of values, rates and accelerations: how many gauges; else as `quantity` says */
+    int size;                   /* of values, rates and accelerations: how many gauges; of effort forces: how many efforts */
     double scale;               /* what it is multiplied with: -1 for tensions of springs */
     int term;                   /* of drive values: which of the relation's terms; else 0 */
 } zd_observed;

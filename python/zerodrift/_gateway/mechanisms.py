@@ -25,7 +25,8 @@ EFFORTS = {"spring": lib.ZD_EFFORT_SPRING, "constant": lib.ZD_EFFORT_CONSTANT, "
 QUANTITIES = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "effort": lib.ZD_EFFORT_VALUE,
-    "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER}
+    "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
+    "effort force": lib.ZD_EFFORT_FORCE}
 COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDINATE_ANGLE: "angle",
                lib.ZD_COORDINATE_DISPLACEMENT: "displacement"}
 
@@ -134,7 +135,7 @@ class Observed(NamedTuple):
     unit: str
     quantity: str
     index: int                  # of the first gauge, the joint, effort or relation
-    size: int = 1               # of values, rates and accelerations
+    size: int = 1               # of values, rates, accelerations; of an effort force, of how many efforts
     scale: float = 1.0
     term: int = 0               # of drives: along which of the relation's gauges
 

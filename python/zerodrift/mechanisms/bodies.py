@@ -37,6 +37,7 @@ class Point:
 
     position = vector("position", "Where the point is, in the drawing's axes, in m.")
     velocity = vector("velocity", "Its velocity, in the drawing's axes, in m/s.")
+    acceleration = vector("acceleration", "Its acceleration, in the drawing's axes, in m/s^2.")
 
     @property
     def measured_name(self) -> str:
@@ -94,7 +95,9 @@ class Body:
     position = vector("position", "Where the origin of its frame is, in the drawing's axes, in m.")
     velocity = vector("velocity", "The velocity of that origin, in the drawing's axes, in m/s.")
     angle = scalar("angle", "Its orientation from the drawing's x axis, counter-clockwise, in rad; it counts turns.")
+    acceleration = vector("acceleration", "The acceleration of that origin, in the drawing's axes, in m/s^2.")
     angular_velocity = scalar("angular_velocity", "Its angular velocity in rad/s.")
+    angular_acceleration = scalar("angular_acceleration", "Its angular acceleration in rad/s^2.")
 
     @property
     def measured_name(self) -> str:
@@ -103,8 +106,8 @@ class Body:
 
     @property
     def center(self) -> Point:
-        """The centre of mass as a point."""
-        return _Center(self, self._com)
+        """The centre of mass as a point, measured as ``body.center.position``; particles put on the body do not move it."""
+        return _Center(self, self._com, f"{self.name}.center")
 
     def point(self, local: Any = None, *, at: Any = None, name: str | None = None) -> Point:
         """A point of the body.
@@ -165,6 +168,9 @@ class Ground(Body):
 class Link(Body):
     """A body between two points, `start` and `end`; `Mechanism.link` makes it.
 
+    Its frame begins at the start: `position`, `velocity` and `acceleration` are those of the start. Its middle is
+    ``link.center.position``.
+
     Attributes
     ----------
     start, end : Point
@@ -173,6 +179,9 @@ class Link(Body):
     """
 
     what = "link"
+    position = vector("position", "Where its start is, in the drawing's axes, in m; its middle is ``link.center.position``.")
+    velocity = vector("velocity", "The velocity of its start, in the drawing's axes, in m/s.")
+    acceleration = vector("acceleration", "The acceleration of its start, in the drawing's axes, in m/s^2.")
 
     def __init__(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float | None,
                  inertia: float | None) -> None:
@@ -242,7 +251,12 @@ class Particle(Body):
         """A particle has none."""
         raise AttributeError(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
 
-    angular_velocity = angle
+    angular_velocity = angular_acceleration = angle
+
+    @property
+    def center(self) -> Point:
+        """Itself as a point."""
+        return Point(self, np.zeros(2), self.name)
 
 
 def place(argument: str, value: Any) -> np.ndarray:

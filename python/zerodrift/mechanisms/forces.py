@@ -7,7 +7,7 @@ import numpy as np
 from .bodies import Body, Point
 from .joints import Joint
 from .laws import Law
-from .measures import scalar
+from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 
@@ -105,9 +105,16 @@ class Bushing:
     """A soft joint: springs and dampers along and about a frame of the first body, `Mechanism.bushing`."""
 
     kind = "bushing"
+    force = vector("force", "What the first body does to the second, at the second's point, in the drawing's axes, in N.")
+    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
 
     def __init__(self, name: str, first: Point, second: Point, values: dict[str, float]) -> None:
         self.name, self.first, self.second, self.values = name, first, second, values
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path."""

@@ -76,6 +76,7 @@ class Revolute(Joint):
     kind, own, coordinate = "revolute", 1, "angle"
     angle = scalar("angle", "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
     speed = scalar("speed", "The rate of `angle`, in rad/s.")
+    acceleration = scalar("acceleration", "The rate of `speed`, in rad/s^2.")
     torque = scalar("torque", "The moment that the first body exerts on the second through the joint, in N m; as with `force`, "
                     "without springs and couplings.")
 
@@ -86,6 +87,7 @@ class Prismatic(Joint):
     kind, own, coordinate = "prismatic", 1, "displacement"
     displacement = scalar("displacement", "How far the second's point has moved along the axis since the drawing, in m.")
     speed = scalar("speed", "The rate of `displacement`, in m/s.")
+    acceleration = scalar("acceleration", "The rate of `speed`, in m/s^2.")
     torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
 
 
@@ -122,6 +124,7 @@ class Slot(Joint):
     kind, coordinate = "slot", "displacement"
     displacement = scalar("displacement", "How far the point has moved along the line since the drawing, in m.")
     speed = scalar("speed", "The rate of `displacement`, in m/s.")
+    acceleration = scalar("acceleration", "The rate of `speed`, in m/s^2.")
 
 
 class KnifeEdge(Joint):

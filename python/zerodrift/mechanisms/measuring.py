@@ -17,11 +17,12 @@ from .tables import JOINTS, Tables
 
 
 class Position(NamedTuple):
-    """A measure of positions, its rate where that is one, too, and what makes the gauges that it reads."""
+    """A measure of positions, its first and second rate where these are measures, too, and what makes the gauges it reads."""
 
     name: str
     unit: str
     rate: str | None
+    second_rate: str | None
     gauges: Callable[[], tuple[Gauge, ...]]
 
 
@@ -36,6 +37,8 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
         observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
         if position.rate:
             observed.append(Observed(position.rate, f"{position.unit}/s", "rates", len(gauges), len(reads)))
+        if position.second_rate and wanted is None:
+            observed.append(Observed(position.second_rate, f"{position.unit}/s^2", "accelerations", len(gauges), len(reads)))
         gauges += reads
     if wanted is None:
         observed += [*_of_joints(tables), *tables.observed]
@@ -50,22 +53,23 @@ def _positions(tables: Tables) -> Iterator[Position]:
         yield _place(tables, body.name, body)
         if body.turns:
             angle = partial(tables.angle_gauge, body)
-            yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", lambda angle=angle: (angle(),))
-        for end in (body.start, body.end) if isinstance(body, Link) else ():
-            yield _place(tables, end.name, end)
+            yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
+                           lambda angle=angle: (angle(),))
+            for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
+                yield _place(tables, point.name, point)
     for point in tables.drawing.of(Point):
         yield _place(tables, point.name, point)
     for i, joint in enumerate(tables.joints):
         if has_coordinate(joint):
             unit = "rad" if joint.coordinate == "angle" else "m"
-            yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed",
+            yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
     for spring in tables.drawing.of(Spring):
-        yield Position(f"{spring.name}.length", "m", None, lambda spring=spring: (tables.length_gauge(spring),))
+        yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_gauge(spring),))
 
 
 def _place(tables: Tables, name: str, of: Body | Point) -> Position:
-    return Position(f"{name}.position", "m", f"{name}.velocity", partial(tables.place_gauges, of))
+    return Position(f"{name}.position", "m", f"{name}.velocity", f"{name}.acceleration", partial(tables.place_gauges, of))
 
 
 def _of_joints(tables: Tables) -> Iterator[Observed]:

@@ -26,7 +26,7 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
     """What a measure reads; None where it is no measure of positions or velocities, or where there is no such."""
     owner, *rest = name.split(".")
     element = elements.get(owner)
-    if isinstance(element, Link) and rest and rest[0] in ("start", "end"):
+    if rest and rest[0] in _points(element):
         element, owner, rest = getattr(element, rest[0]), f"{owner}.{rest[0]}", rest[1:]
     if element is None or not rest:
         return None
@@ -39,6 +39,13 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
             len(component) <= 1) else None
     return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def _points(element: Any) -> tuple[str, ...]:
+    """The points of an element that have measures without having been given a name."""
+    if not isinstance(element, Body) or not element.turns:
+        return ()
+    return ("start", "end", "center") if isinstance(element, Link) else ("center",)
 
 
 def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any]) -> Reading:
@@ -67,8 +74,7 @@ def readable(element: Any) -> list[str]:
     for quantity in quantities(element):
         rate = "speed" if isinstance(element, Joint) else rates.get(quantity)
         found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
-    if isinstance(element, Link):
-        found += [f"{named}.{end}.{quantity}" for end in ("start", "end") for quantity in ("position", "velocity")]
+    found += [f"{named}.{point}.{quantity}" for point in _points(element) for quantity in ("position", "velocity")]
     return found
 
 

@@ -268,6 +268,8 @@ class Tables:
         zero = {"along": float(apart[0]), "across": float(apart[1]), "angle": bushing.second.body.pose.angle - frame.angle}
         paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"),
                  "angle": ("torsion", "torsion_damping")}
+        self.observed.append(Observed(f"{bushing.name}.force", "N", "effort force", len(self.efforts), 2))
+        self.observed.append(Observed(f"{bushing.name}.torque", "N m", "effort", len(self.efforts) + 2))
         for word, (stiffness, damping) in paths.items():
             gauge = self._gauge(f"{bushing.name} {word}", Gauge(word, first, second, point1, point2, zero=zero[word]))
             self.efforts.append(rows.Effort("spring", gauge, self.numbers(bushing, stiffness, bushing.values[stiffness]),

@@ -163,14 +163,15 @@ class Solution:
             lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
         return "\n".join(lines)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: Any) -> np.ndarray:
         """A coordinate, a velocity, the multiplier of a constraint, or a measure of a mechanism, by its name, at every row.
 
         Parameters
         ----------
-        name : str or measure
+        name : str or measure, or (that, body)
             A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or one of the names in
-            ``system.coordinates``, ``system.velocities`` and ``system.constraints``.
+            ``system.coordinates``, ``system.velocities`` and ``system.constraints``. With a body or its name behind it,
+            ``sol["C.force", "crank"]``, a vector is turned into that body's axes; scalars of the plane are the same in all.
 
         Returns
         -------
@@ -189,6 +190,8 @@ class Solution:
         >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
         True
         """
+        if isinstance(name, tuple) and len(name) == 2:
+            return self._in_axes_of(*name)
         measured = self._recorded(getattr(name, "name", name))
         if measured is None:
             measured = self.system._measured(name, self)
@@ -205,6 +208,19 @@ class Solution:
             raise KeyError(why)
         known = self._ipython_key_completions_()
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
+
+    def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
+        """A measure of the plane in the axes of a body."""
+        name, body = (getattr(each, "name", each) for each in (name, body))
+        base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
+        if axis in AXES:
+            return self._in_axes_of(base, body)[:, AXES[axis]]
+        values = self[name]
+        if values.ndim == 1 or body == "ground":
+            return values
+        angle = self[f"{body}.angle"]
+        c, s = np.cos(angle), np.sin(angle)
+        return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
 
     def _recorded(self, name: Any) -> np.ndarray | None:
         """A measure of the record, or a component of one; None: that is not there."""
