@@ -20,9 +20,6 @@
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
-/* The first iteration has to reduce the violation to this share. By Kantorovich's theorem there is then one solution near its start. */
-static const double TRUSTED = 0.25;
-
 typedef struct given_projection {
     double tol, max_iterations, every, metric, positions, velocities;
 } given_projection;
@@ -71,7 +68,7 @@ static int every(const void *memory)
 static zd_hold hold(const void *memory)
 {
     const given_projection *given = memory;
-    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, given->tol, (int)given->max_iterations};
+    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, given->metric == MASS, given->tol, (int)given->max_iterations};
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *memory)
@@ -177,19 +174,16 @@ static int retreat(void *context)
 static int iterate(const zd_newton *newton, position_problem *problem)
 {
     zd_motion *motion = problem->motion;
-    zd_statistics *statistics = &motion->statistics;
     int iterations;
     int status = zd_newton_solve(newton, problem, &iterations, &motion->point->residual_left);
-    statistics->position_iterations += iterations;
-    if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
-    if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
+    zd_count_position_iterations(motion, iterations);
     return status;
 }
 
 static int correct_positions(projection *self, zd_motion *motion)
 {
     zd_newton newton = {position_residual, improve_position, self->given.tol, (int)self->given.max_iterations,
-                        motion->in_run ? TRUSTED : 0, NULL};
+                        motion->in_run ? ZD_TRUSTED_SHARE : 0, NULL};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
     /* Near a bifurcation C is small, so that a violation within the tolerance may belong to a p far from the constraints: one more
@@ -249,7 +243,7 @@ static int improve_directly(void *context)
 static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
 {
     zd_point *point = motion->point;
-    zd_newton newton = {direct_residual, improve_directly, self->given.tol, (int)self->given.max_iterations, TRUSTED, NULL};
+    zd_newton newton = {direct_residual, improve_directly, self->given.tol, (int)self->given.max_iterations, ZD_TRUSTED_SHARE, NULL};
     position_problem problem = {self, motion, 0};
     double size;
     int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
@@ -265,8 +259,12 @@ static int after_step(void *memory, zd_motion *motion)
     projection *self = memory;
     int positions = self->given.positions && (motion->corrects & ZD_PHI), velocities = self->given.velocities && (motion->corrects & ZD_C);
     int status = ZD_DONE;
-    if (zd_is_direct(motion) && !self->plain)
-        return zd_constraints(&motion->system) ? correct_directly(self, motion, positions, velocities) : ZD_DONE;
+    if (zd_is_direct(motion) && !self->plain) {
+        if (!zd_constraints(&motion->system)) return ZD_DONE;
+        zd_point *point = motion->point;
+        return motion->road.lands ? zd_direct_land(motion, point->t, point->p, point->v)
+                                  : correct_directly(self, motion, positions, velocities);
+    }
     if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
     if (motion->drifts_from & ZD_C) return velocities ? correct_velocities(self, motion) : ZD_DONE;

@@ -47,6 +47,9 @@ static const double e3[STAGES + 1] = {
 
 static const zd_tableau tableau = {STAGES, a, b, c, e5, e3};
 
+ZD_RUNGE_KUTTA_STEP
+ZD_RUNGE_KUTTA_ERROR
+
 const zd_integrator zd_dop853 = {
     .card = {
         .name = "dop853",
@@ -59,5 +62,5 @@ const zd_integrator zd_dop853 = {
                      "1993, section II.5",
     },
     .decay = 6.39,
-    ZD_RUNGE_KUTTA(tableau),
+    ZD_RUNGE_KUTTA, .error = error,
 };

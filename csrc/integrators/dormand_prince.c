@@ -18,6 +18,9 @@ static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0
 
 static const zd_tableau tableau = {6, a, b, c, e, NULL};
 
+ZD_RUNGE_KUTTA_STEP
+ZD_RUNGE_KUTTA_ERROR
+
 const zd_integrator zd_dormand_prince = {
     .card = {
         .name = "dormand_prince",
@@ -30,5 +33,5 @@ const zd_integrator zd_dormand_prince = {
                      "Applied Mathematics 6 (1980) 19-26",
     },
     .decay = 3.307,
-    ZD_RUNGE_KUTTA(tableau),
+    ZD_RUNGE_KUTTA, .error = error,
 };

@@ -9,6 +9,8 @@ static const double c[] = {0};
 
 static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
 
+ZD_RUNGE_KUTTA_STEP
+
 const zd_integrator zd_euler = {
     .card = {
         .name = "euler",
@@ -21,5 +23,5 @@ const zd_integrator zd_euler = {
                      "1993, section II.1",
     },
     .decay = 2,
-    ZD_RUNGE_KUTTA(tableau),
+    ZD_RUNGE_KUTTA,
 };

@@ -10,6 +10,8 @@ static const double c[] = {0, 1};
 
 static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
 
+ZD_RUNGE_KUTTA_STEP
+
 const zd_integrator zd_heun = {
     .card = {
         .name = "heun",
@@ -22,5 +24,5 @@ const zd_integrator zd_heun = {
                      "23-38",
     },
     .decay = 2,
-    ZD_RUNGE_KUTTA(tableau),
+    ZD_RUNGE_KUTTA,
 };

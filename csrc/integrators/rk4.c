@@ -12,6 +12,8 @@ static const double c[] = {0, 0.5, 0.5, 1};
 
 static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
 
+ZD_RUNGE_KUTTA_STEP
+
 const zd_integrator zd_rk4 = {
     .card = {
         .name = "rk4",
@@ -24,5 +26,5 @@ const zd_integrator zd_rk4 = {
                      "Mathematik und Physik 46 (1901) 435-453",
     },
     .decay = 2.785,
-    ZD_RUNGE_KUTTA(tableau),
+    ZD_RUNGE_KUTTA,
 };

@@ -1,7 +1,10 @@
-/* Explicit Runge-Kutta methods: one stepper, and a table of coefficients for each method. */
+/* Explicit Runge-Kutta methods: one stepper, and a table of coefficients for each method, which the compiler knows where it is used. */
 #ifndef ZD_RUNGE_KUTTA_H
 #define ZD_RUNGE_KUTTA_H
 
+#include <math.h>
+
+#include "../linalg/small.h"
 #include "integrator.h"
 
 /* Butcher's table, a strictly lower triangular (stages, stages):   c | a
@@ -14,12 +17,106 @@ typedef struct zd_tableau {
     const double *e3;       /* weights of a second estimate that DOP853 blends in; NULL: there is none */
 } zd_tableau;
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
-int zd_runge_kutta_step(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
-int zd_runge_kutta_error(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
-                         double *lambda_h);
+typedef struct zd_runge_kutta {
+    int size;
+    int calls;      /* of the error estimate */
+    double *k;      /* (stages, size), and for an error estimate one more */
+    double *stage, *end;    /* (size,): the last stage, the end of the step */
+} zd_runge_kutta;
 
-#define ZD_RUNGE_KUTTA(tableau) \
-    .table = &(tableau), .take = zd_runge_kutta_take, .step = zd_runge_kutta_step, .error = zd_runge_kutta_error
+/* A loop over stages, of which there are at most 13: written out, so that weights are constants, and those that are zero take no time. */
+#if defined(__clang__)
+#define ZD_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__)
+#define ZD_UNROLL _Pragma("GCC unroll 16")
+#else
+#define ZD_UNROLL
+#endif
+
+/* to <- y + h sum_j weight_j k_j, over the first `terms` of them, from one entry to another */
+ZD_INLINE void zd_combine_some(int begin, int end, const int size, const int terms, const double *weight, double h,
+                               const double *restrict k, const double *restrict y, double *restrict to)
+{
+    for (int i = begin; i < end; i++) {
+        double sum = y[i];
+        ZD_UNROLL
+        for (int j = 0; j < terms; j++)
+            if (weight[j] != 0) sum += (h * weight[j]) * k[j * size + i];
+        to[i] = sum;
+    }
+}
+
+/* In (p, v), the positions of a stage do not wait for the acceleration of the one before: so none is computed in one vector with a velocity. */
+ZD_INLINE void zd_combine(const int positions, const int size, const int terms, const double *weight, double h, const double *k,
+                          const double *y, double *to)
+{
+    zd_combine_some(0, positions, size, terms, weight, h, k, y, to);
+    zd_combine_some(positions, size, size, terms, weight, h, k, y, to);
+}
+
+ZD_INLINE int zd_runge_kutta_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
+{
+    const int size = self->size = rate->size, positions = rate->direct ? rate->system->nq : 0;      /* it may have changed */
+    double *k = self->k, *stage = self->stage;
+    int status = zd_rate_of_beginning(rate, t, y, k);
+    ZD_UNROLL
+    for (int i = 1; i < T->stages; i++) {
+        if (status) return status;
+        zd_combine(positions, size, i, T->a + i * T->stages, h, k, y, stage);
+        status = zd_rate_of_stage(rate, t + T->c[i] * h, stage, k + i * size);
+    }
+    if (status) return status;
+    zd_combine(positions, size, T->stages, T->b, h, k, y, self->end);
+    zd_copy(positions, self->end, y);
+    zd_copy(size - positions, self->end + positions, y + positions);
+    return ZD_DONE;
+}
+
+/* The sum of squares of sum_j weight_j k_j in units of scale */
+ZD_INLINE double zd_squares(const int terms, const double *weight, const zd_runge_kutta *self, const double *scale)
+{
+    double squares = 0;
+    for (int i = 0; i < self->size; i++) {
+        double sum = 0;
+        ZD_UNROLL
+        for (int j = 0; j < terms; j++)
+            if (weight[j] != 0) sum += weight[j] * self->k[j * self->size + i];
+        squares += (sum / scale[i]) * (sum / scale[i]);
+    }
+    return squares;
+}
+
+void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
+/* |lambda h| at the end of a step whose last stage is there, too; 0: not known */
+double zd_runge_kutta_lambda_h(const zd_tableau *T, const zd_runge_kutta *self, double h, const double *y, const double *scale);
+
+ZD_INLINE int zd_runge_kutta_error(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t1, double h, const double *y,
+                                   const double *scale, double *norm, double *lambda_h)
+{
+    enum { LOOK_EVERY = 32 };   /* steps between looks at stiffness, where these cost an evaluation */
+    const int looking = T->e[T->stages] != 0 || ++self->calls % LOOK_EVERY == 0;
+    int status = looking ? rate->evaluate(rate->context, t1, y, self->k + T->stages * self->size) : ZD_DONE;
+    if (status) return status;
+    double sum = zd_squares(T->stages + 1, T->e, self, scale);
+    double blend = T->e3 ? sum + 0.01 * zd_squares(T->stages + 1, T->e3, self, scale) : sum;
+    *lambda_h = looking ? zd_runge_kutta_lambda_h(T, self, h, y, scale) : 0;
+    *norm = sum > 0 ? fabs(h) * sum / sqrt(blend * self->size) : sum;       /* with e alone: the root mean square */
+    return ZD_DONE;
+}
+
+/* The functions of a method whose table is `tableau`; behind them stands what of its descriptor is the same for all. */
+#define ZD_RUNGE_KUTTA_STEP                                                                                                 \
+    static int step(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)              \
+    {                                                                                                                       \
+        if (rate->direct) statistics->evaluations += tableau.stages - 1;                                                    \
+        return zd_runge_kutta_step(&tableau, self, rate, t, h, y);                                                          \
+    }
+#define ZD_RUNGE_KUTTA_ERROR                                                                                                \
+    static int error(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale,            \
+                     double *norm, double *lambda_h)                                                                        \
+    {                                                                                                                       \
+        return zd_runge_kutta_error(&tableau, self, rate, t1, h, y, scale, norm, lambda_h);                                 \
+    }
+#define ZD_RUNGE_KUTTA .table = &tableau, .take = zd_runge_kutta_take, .step = step
 
 #endif

@@ -32,6 +32,7 @@ static int accelerate_directly(zd_motion *motion)
                                      motion->balance.input ? &road->power : NULL, road->pivots);
     if (status) return ZD_CALLBACK;
     point->known |= ZD_ACCELERATED;
+    road->smallest = 0;
     return ZD_DONE;
 }
 

@@ -10,6 +10,7 @@ typedef struct zd_motion zd_motion;     /* motion.h */
 typedef struct zd_hold {
     int positions, velocities;      /* which of the two are held */
     int every;                      /* how many steps */
+    int in_mass_metric;             /* whether nothing is moved along the manifold of the constraints */
     double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
     int max_iterations;
 } zd_hold;

@@ -40,6 +40,8 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena)
         .pivots = zd_take_doubles(arena, (size_t)system->nv),
         .before = zd_take_doubles(arena, (size_t)system->nv),
         .pdot = zd_take_doubles(arena, (size_t)system->nq),
+        .dp = zd_take_doubles(arena, (size_t)system->nq),
+        .allowed = zd_take_doubles(arena, (size_t)system->mh),
     };
 }
 
@@ -58,16 +60,20 @@ static void measure(const zd_motion *motion, const zd_elimination *order)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
 }
 
-static int are_large_enough(const zd_motion *motion, double enough)
+/* The smallest pivot of the rows at the point, in parts of what it is measured by; 0: D^T M D has lost too much, or one is no number */
+static double smallest_pivot(const zd_motion *motion)
 {
     const zd_elimination *order = motion->road.order;
     const double *pivots = motion->road.pivots, *scale = scale_of(motion, order);
-    const int freedoms = motion->system.nv - zd_constraints(&motion->system);
-    for (int k = 0; k < order->solves; k++)
-        if (!(fabs(pivots[k]) * scale[k] >= enough)) return 0;
-    for (int k = 0; k < freedoms; k++)
-        if (!(pivots[order->solves + k] >= LIGHT)) return 0;
-    return 1;
+    const int solves = order->solves, all = solves + motion->system.nv - zd_constraints(&motion->system);
+    double smallest = INFINITY;
+    for (int k = 0; k < solves; k++) {
+        const double share = fabs(pivots[k]) * scale[k];
+        if (!(share >= smallest)) smallest = share == share ? share : 0;
+    }
+    for (int k = solves; k < all; k++)
+        if (!(pivots[k] >= LIGHT)) return 0;
+    return smallest;
 }
 
 static int count_pivots(const zd_motion *motion)
@@ -75,12 +81,23 @@ static int count_pivots(const zd_motion *motion)
     return motion->road.order->solves + motion->system.nv - zd_constraints(&motion->system);
 }
 
+/* Whether nothing but the projection is done as a step ends. */
+static int only_projects(const zd_motion *motion)
+{
+    const zd_hold *hold = &motion->hold;
+    return motion->corrections == 1 && hold->positions && hold->velocities && hold->in_mass_metric && motion->corrects == (ZD_PHI | ZD_C)
+        && motion->rate.size == motion->formulation_size;
+}
+
 static void use(zd_motion *motion, const zd_elimination *order)
 {
     if (motion->road.order == order) return;
     motion->point->known &= ~ZD_ACCELERATED;
     motion->road.order = order;
+    motion->road.lands = order && order->land && only_projects(motion);
+    for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
     motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
+    motion->rate.direct = motion->is_stabilized || motion->rate.size > motion->formulation_size ? NULL : order;
 }
 
 void zd_direct_leave(zd_motion *motion)
@@ -102,6 +119,13 @@ void zd_direct_forget_energy(zd_motion *motion)
     motion->tally->energy_skipped = motion->road.skipped_since_row;
 }
 
+/* A step that begins at the point. */
+static void begin(zd_motion *motion)
+{
+    ZD_SIZED(zd_copy, count_pivots(motion), motion->road.pivots, motion->road.before);
+    remember_energy(motion);
+}
+
 /* The first order whose pivots are so large at the point, if there is one. */
 static int find_order(zd_motion *motion, double enough)
 {
@@ -111,9 +135,8 @@ static int find_order(zd_motion *motion, double enough)
         const zd_elimination *order = road->direct->order + i;
         if (m && !(*scale_of(motion, order) > 0)) measure(motion, order);
         use(motion, order);
-        if (zd_motion_accelerate(motion) || !are_large_enough(motion, enough)) continue;
-        zd_copy(count_pivots(motion), road->pivots, road->before);
-        remember_energy(motion);
+        if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) continue;
+        begin(motion);
         return 1;
     }
     return 0;
@@ -121,8 +144,11 @@ static int find_order(zd_motion *motion, double enough)
 
 void zd_direct_choose(zd_motion *motion)
 {
+    const zd_road *road = &motion->road;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
-    if (!all_count || !(find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH))) use(motion, NULL);
+    /* Mostly it is the one of the step before, whose end this is. */
+    if (all_count && road->order == road->direct->order && (motion->point->known & ZD_ACCELERATED) && road->smallest >= LARGE) begin(motion);
+    else if (!all_count || !(find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH))) use(motion, NULL);
 }
 
 int zd_direct_compare(zd_motion *motion, double moved)
@@ -130,9 +156,12 @@ int zd_direct_compare(zd_motion *motion, double moved)
     zd_road *road = &motion->road;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
-    if (!(moved <= LONG * LONG) || !are_large_enough(motion, SMALL)) return ZD_SINGULAR;
-    for (int k = 0; k < count_pivots(motion); k++)      /* one that has changed its sign has shrunk, too */
+    const double smallest = smallest_pivot(motion);
+    if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
+    const int count = count_pivots(motion);
+    for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
         if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
+    road->smallest = smallest;
     road->was_taken = 1;
     return ZD_DONE;
 }

@@ -21,7 +21,31 @@ typedef struct zd_rate {
     int (*evaluate)(void *context, double t, const double *y, double *ydot);
     void *context;
     int size;               /* of the state */
+    /* Where the state is (p, v) and nothing but a direct function is behind it, that function; else NULL. */
+    const zd_elimination *direct;
+    const zd_system *system;
+    const double *vdot;     /* (nv,): where it is known already for the state at which a step begins; else NULL */
 } zd_rate;
+
+/* The rate of the state at which a step begins, and of a stage between its ends */
+static inline int zd_rate_of_beginning(const zd_rate *rate, double t, const double *restrict y, double *restrict ydot)
+{
+    if (!rate->vdot) return rate->evaluate(rate->context, t, y, ydot);
+    const int n = rate->system->nv;
+    for (int i = 0; i < n; i++) ydot[i] = y[n + i], ydot[n + i] = rate->vdot[i];
+    return ZD_DONE;
+}
+
+static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *restrict y, double *restrict ydot)
+{
+    if (!rate->direct) return rate->evaluate(rate->context, t, y, ydot);
+    const zd_system *system = rate->system;
+    const int nq = system->nq;
+    if (!(system->provides & ZD_A))
+        for (int i = 0; i < nq; i++) ydot[i] = y[nq + i];
+    int status = rate->direct->accelerate(system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
+    return status ? ZD_CALLBACK : ZD_DONE;
+}
 
 /* What has happened since the last saved row, and what is known of all of them. */
 typedef struct zd_tally {
@@ -44,8 +68,12 @@ typedef struct zd_road {
     const zd_elimination *order;    /* that this step is made with; NULL: it takes the general road */
     int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
     double *scale;          /* (orders, m): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
+    double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
     double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began */
     double *pdot;           /* (nq,): at the point, of a system with A */
+    double *dp;             /* (nq,): of an iteration onto the constraints */
+    double *allowed;        /* (mh,): of Phi, so that the projection's tolerance is kept */
+    int lands;              /* whether what ends a step is one function: its acceleration is then that of the end */
     int64_t energy_skipped; /* where the step began, as the statistics have them: a step that leaves the road is made again */
     double energy_corrected;
     int skipped_since_row;
@@ -122,6 +150,21 @@ void zd_direct_forget_energy(zd_motion *motion);
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);
 static inline int zd_is_direct(const zd_motion *motion) { return motion->road.order != NULL; }
+
+/* land.c: the projection of p and v at the end t of a step on the direct road, and the point's acceleration there, by one function, where
+ * road.lands says so. Both are the point's own, or have to be copied there. */
+int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
+
+/* The first iteration of a position correction has to reduce the violation to this share: by Kantorovich's theorem there is then one
+ * solution near its start. */
+#define ZD_TRUSTED_SHARE 0.25
+static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
+{
+    zd_statistics *statistics = &motion->statistics;
+    statistics->position_iterations += iterations;
+    if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
+    if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
+}
 
 /* correct.c: those that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);

@@ -13,6 +13,7 @@
 
 #include "passage.h"
 #include "road.h"
+#include "short_step.h"
 #include "variables.h"
 
 enum {
@@ -93,7 +94,8 @@ static void watch_stiffness(zd_course *course, double lambda_h)
 static int attempt(zd_course *course, double h, double t1, double *norm)
 {
     zd_stepper *stepper = course->stepper;
-    int status = zd_stepper_integrate(stepper, h);
+    const int is_short = zd_is_short(course);
+    int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(stepper, h);
     if (status) return status;
     set_scale(course, stepper->last.y, stepper->y);
     double lambda_h;
@@ -102,7 +104,7 @@ static int attempt(zd_course *course, double h, double t1, double *norm)
     if (isnan(*norm)) return ZD_NOT_FINITE;
     if (!(*norm <= 1)) return ZD_DONE;
     watch_stiffness(course, lambda_h);
-    return zd_passage_land(course, t1);
+    return is_short ? zd_short_land(course, t1) : zd_passage_land(course, t1);
 }
 
 /* Where the direct road is left, the step has been looked at for stiffness once already. */

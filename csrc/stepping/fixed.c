@@ -4,14 +4,16 @@
 #include "clock.h"
 #include "passage.h"
 #include "road.h"
+#include "short_step.h"
 #include "variables.h"
 
 enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
 
 static int integrate_and_land(zd_course *course, double h, double t1)
 {
-    int status = zd_stepper_integrate(course->stepper, h);
-    return status ? status : zd_passage_land(course, t1);
+    const int is_short = zd_is_short(course);
+    int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(course->stepper, h);
+    return status ? status : is_short ? zd_short_land(course, t1) : zd_passage_land(course, t1);
 }
 
 static int make_step(zd_course *course, double h, double t1)

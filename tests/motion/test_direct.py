@@ -181,6 +181,8 @@ class Failing:
             return fails(t[0]) or inner(data, t, *rest)
 
         self.function = ffi.callback(dict(ffi.typeof("zd_elimination").fields)[member].type, function)
+        if member == "correct":     # which is called where nothing lands
+            self.order[0].land = ffi.NULL
         setattr(self.order[0], member, self.function)
         self.direct = ffi.new("zd_direct[1]", [{"lanes": 1, "orders": 1, "order": self.order}])
         self.system = system("four_bar").starting()
@@ -190,7 +192,7 @@ class Failing:
 
 @pytest.mark.parametrize("options", [
     {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
-@pytest.mark.parametrize("member", ["accelerate", "correct"])
+@pytest.mark.parametrize("member", ["accelerate", "correct", "land"])
 def test_functions_that_do_not_know_are_done_without(member, options):
     failing = Failing(member, lambda t: 0.1 < t < 0.2)
     sol = zd.simulate(failing.system, 0.4, **options)
@@ -201,8 +203,9 @@ def test_functions_that_do_not_know_are_done_without(member, options):
     assert_close(sol.multipliers[-1], general.multipliers[-1], 1e-6)
 
 
-def test_a_single_step_does_without_them_too():
-    failing = Failing("correct", lambda t: t > 0.105)
+@pytest.mark.parametrize("member", ["correct", "land"])
+def test_a_single_step_does_without_them_too(member):
+    failing = Failing(member, lambda t: t > 0.105)
     sol = zd.simulate(system("four_bar"), 0.2, step=0.01)
     other = zd.simulate(failing.system, 0.2, step=0.01)
     assert other.stats["direct_steps"] == 10

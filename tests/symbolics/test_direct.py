@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from zerodrift._core import ffi
+from zerodrift._core import ffi, lib
 
 import tolerances as tol
 import zerodrift as zd
@@ -84,6 +84,15 @@ class Direct:
         assert self.direct.order[i].correct(self.core.c.data, of(t), of(p), of(v), *(memory for _, memory in found.values())) == 0
         return {name: array for name, (array, _) in found.items()}
 
+    def land(self, i, t, p, v, allowed):
+        core = self.core
+        order, landed = self.direct.order[i], np.array(v)
+        found = {"Phi": doubles(core.mh), "dp": doubles(core.nq), "pdot": doubles(core.nq), "vdot": doubles(core.nv),
+                 "lambda": doubles(core.m), "power": doubles(1), "pivots": doubles(order.solves + core.nv - core.m)}
+        status = order.land(core.c.data, ffi.new("double *", t), of(p), ffi.from_buffer("double[]", landed),
+                            of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
+        return status, landed, {name: array for name, (array, _) in found.items()}
+
     def smallest(self, i, pivots, C):
         """The smallest pivot of the rows, in parts of the largest entries of these."""
         order, relative = self.direct.order[i], np.abs(pivots[: self.direct.order[i].solves])
@@ -109,6 +118,22 @@ def states(system, seed, count=5):
 
 def assert_near(found, expected, size):
     assert np.abs(found - expected).max(initial=0.0) <= size * max(1.0, np.abs(expected).max(initial=0.0))
+
+
+def assert_lands(direct, i, t, p, v, corrected):
+    """What ends a step is a correction, and then the acceleration with what that leaves of the velocities."""
+    status, landed, found = direct.land(i, t, p, v, np.inf)
+    assert status == 0
+    assert_near(landed, v - corrected["dv"], tol.SAME)
+    expected = direct.accelerate(i, t, p, landed)
+    for name in ("vdot", "lambda", "power", "pivots"):
+        assert_near(found[name], expected[name], tol.SAME)
+    assert_near(found["Phi"], corrected["Phi"], tol.SAME)
+    if corrected["Phi"].size:
+        status, landed, found = direct.land(i, t, p, v, -1.0)
+        assert status == lib.ZD_NO_CONVERGENCE
+        assert (landed == v).all()
+        assert_near(found["dp"], corrected["dp"], tol.SAME)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -144,6 +169,7 @@ def test_direct_functions_solve_the_equations(seed):
             zero = np.zeros(system.nv)
             assert_near(c["dv"], solved(e, zero, e.C @ v + e.Phi_t)[0], error)
             assert_near(c["dp"], e.A @ solved(e, zero, np.concatenate([e.Phi, np.zeros(system.mn)]))[0], error)
+            assert_lands(direct, i, t, p, v, c)
     assert compared >= 3
 
 

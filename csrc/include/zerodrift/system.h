@@ -169,6 +169,10 @@ typedef struct zd_elimination {
     /* Phi (3), and Newton's steps in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v) and to
      * be subtracted. NULL where there are no constraints. */
     int (*correct)(const void *data, const double *t, const double *p, const double *v, double *Phi, double *dp, double *dv);
+    /* Both at once, for the end of a step: Phi, and where every |Phi| is as small as `allowed` (mh,), v less that dv, and what accelerate() has
+     * there with nothing added. Else only dp, v stays, and it returns ZD_NO_CONVERGENCE. NULL: the core calls both of the others. */
+    int (*land)(const void *data, const double *t, const double *p, double *v, const double *allowed, double *Phi, double *dp, double *pdot,
+                double *vdot, double *lambda, double *power, double *pivots);
 } zd_elimination;
 
 /* The processors' vector units: a processor that has one has those before it. */

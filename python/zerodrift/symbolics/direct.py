@@ -47,7 +47,8 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
     chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
     try:
         eliminations = [Elimination(lowering, terms, sizes, order) for order in chosen]
-        functions = [{"accelerate": each.accelerations(), "correct": each.corrections() if each.order else {}}
+        functions = [{"accelerate": each.accelerations()} | ({"correct": each.corrections(), "land": each.landing()}
+                                                             if each.order else {"correct": {}, "land": {}})
                      for each in eliminations]
         return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
                                       heading=HEADING if heading is None else heading, data=data) if chosen else None

@@ -12,10 +12,15 @@ from .lowering import SIMPLE, Lowering
 MOST_OPERATIONS = 4000      # of the functions of one order
 MOST_STATEMENTS = 1000      # of one function
 ACCELERATE = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
-              "    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot, double *restrict lambda,",
-              "    double *restrict power, double *restrict pivots)")
+              "    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot,",
+              "    double *restrict lambda, double *restrict power, double *restrict pivots)")
 CORRECT = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
            "    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)")
+LAND = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
+        "    double *restrict v, const double *restrict allowed, double *restrict Phi, double *restrict dp,",
+        "    double *restrict pdot, double *restrict vdot, double *restrict lambda, double *restrict power, double *restrict pivots)")
+OPTIONAL = ("lambda", "power"), ("pivots",)     # outputs that may not be wanted, those together that share something
+HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND}
 
 
 class TooLarge(Exception):
@@ -64,15 +69,16 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
            symbol: str, heading: list[str], data: str = "data") -> tuple[str, int]:
     """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
 
-    `functions` has, for each order, the outputs of "accelerate" and of "correct"; `data` is C for the doubles of a system.
+    `functions` has, for each order, the outputs of "accelerate", "correct" and "land"; `data` is C for the doubles of a system.
     """
     stored = _constants(lowering, functions)
     lines = [*heading, "", *_constants_function(lowering, stored, offset, symbol)]
     for i, of in enumerate(functions):
-        for name, head in (("accelerate", ACCELERATE), ("correct", CORRECT)):
+        for name, head in HEADS.items():
             if of[name]:
+                write = _landing if name == "land" else _function
                 signature = [line.format(name=f"{name}_{i}") for line in head]
-                lines += ["", *_function(_Program(lowering, of[name], stored), signature, offset, data)]
+                lines += ["", *write(_Program(lowering, of[name], stored), signature, offset, data)]
     return "\n".join([*lines, "", *_table([each.order for each in eliminations], symbol), ""]), len(stored)
 
 
@@ -111,22 +117,72 @@ def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int,
             *indented(body or ["(void)k;"]), "}"]
 
 
-def _function(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+def _writer(program: _Program, offset: int) -> CWriter:
     writer = CWriter(program)
     writer.names |= {number: f"k[{offset + place}]" for number, place in program.stored.items()}
-    first = [name for name in program.outputs if name not in ("lambda", "power", "pivots")]
+    return writer
+
+
+def _function(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+    writer = _writer(program, offset)
+    first = [name for name in program.outputs if name not in (*OPTIONAL[0], *OPTIONAL[1])]
     done = program.needed(first)
     body = _statements(writer, done) + [line for name in first for line in writer._entries(name, program.outputs[name])]
-    for names in (("lambda", "power"), ("pivots",)):
+    body += _optional(program, writer, done)
+    return _whole(head, [*_locals(program, data), *body])
+
+
+def _whole(head: list[str], body: list[str]) -> list[str]:
+    if len(body) > MOST_STATEMENTS:
+        raise TooLarge
+    return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
+
+
+def _optional(program: _Program, writer: CWriter, done: list[int]) -> list[str]:
+    """What is written where it is wanted."""
+    body = []
+    for names in OPTIONAL:
         names = [name for name in names if program.outputs.get(name)]
         if names:
             more = _statements(writer, [number for number in program.needed(names) if number not in set(done)])
             entries = [line if len(names) == 1 else f"if ({name}) {line}"
                        for name in names for line in writer._entries(name, program.outputs[name])]
             body += [f"if ({' || '.join(names)}) {{", *indented([*more, *entries]), "}"]
-    if len(body) > MOST_STATEMENTS:
-        raise TooLarge
-    return [*head, "{", *indented([*_locals(program, data), *body, "return ZD_DONE;"]), "}"]
+    return body
+
+
+def _landing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+    """Phi is looked at first; where it is small, velocities are corrected, and what follows depends on these."""
+    writer, outputs = _writer(program, offset), program.outputs
+    done = program.needed(["Phi"])
+    body = _statements(writer, done) + writer._entries("Phi", outputs["Phi"])
+    if outputs["Phi"]:
+        aside = _apart(program, writer, done, ["dp"])
+        large = " || ".join(f"!(fabs(Phi[{k}]) <= allowed[{k}])" for k in range(len(outputs["Phi"])))
+        body += [f"if ({large}) {{", *indented([*aside, "return ZD_NO_CONVERGENCE;"]), "}"]
+    more = _further(program, writer, done, ["dv"])
+    velocities = [writer.value(number) for number in outputs["dv"]]
+    body += [*more, *(f"const double v{i} = before{i} - {value};" for i, value in enumerate(velocities))]
+    rest = [name for name in ("pdot", "vdot") if outputs.get(name)]
+    body += _further(program, writer, done, rest) + [f"v[{i}] = v{i};" for i in range(len(velocities))]
+    body += [line for name in rest for line in writer._entries(name, outputs[name])] + _optional(program, writer, done)
+    return _whole(head, [*_locals(program, data), *body])
+
+
+def _further(program: _Program, writer: CWriter, done: list[int], names: list[str]) -> list[str]:
+    """Statements of what these outputs need besides what is done, which it then is, too."""
+    more = [number for number in program.needed(names) if number not in set(done)]
+    done += more
+    return _statements(writer, more)
+
+
+def _apart(program: _Program, writer: CWriter, done: list[int], names: list[str]) -> list[str]:
+    """The same in a block of its own, after which nothing of it is known."""
+    known, turned = dict(writer.names), dict(writer.turned)
+    lines = _further(program, writer, list(done), names)
+    entries = [line for name in names for line in writer._entries(name, program.outputs[name])]
+    writer.names, writer.turned = known, turned
+    return lines + entries
 
 
 def _statements(writer: CWriter, numbers: list[int]) -> list[str]:
@@ -139,10 +195,13 @@ def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
     lines = [f"const double *restrict const k = {data};", "const double t = *time;", "(void)k, (void)t, (void)p, (void)v;"]
-    unused = ("added", "pdot", "lambda", "power", "pivots") if "pivots" in program.outputs else ("Phi",)
+    lands = "Phi" in program.outputs and "vdot" in program.outputs
+    unused = (("allowed", "Phi", "dp", "pdot", "lambda", "power", "pivots") if lands else
+              ("added", "pdot", "lambda", "power", "pivots") if "pivots" in program.outputs else ("Phi",))
     lines.append(", ".join(f"(void){name}" for name in unused) + ";")
-    for kind, value in (("p", "p[{0}]"), ("v", "v[{0}]"), ("added", "added ? added[{0}] : 0")):
-        indices = sorted(index for leaf, index in used if leaf == kind)
+    for kind, value in (("p", "p[{0}]"), ("before" if lands else "v", "v[{0}]"), ("added", "added ? added[{0}] : 0")):
+        indices = (range(len(program.outputs["dv"])) if kind == "before" else
+                   sorted(index for leaf, index in used if leaf == kind))
         if indices:
             lines.append("const double " + ", ".join(f"{kind}{i} = {value.format(i)}" for i in indices) + ";")
     return lines
@@ -157,6 +216,6 @@ def _table(orders: list[Order], symbol: str) -> list[str]:
         lines += [f"static const int {name}_{i}[] = {{{', '.join(map(str, values or [0]))}}};"
                   for name, values in columns.items()]
     lines += ["", "static const zd_elimination orders[] = {"]
-    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, accelerate_{i}, {f'correct_{i}' if order else 'NULL'}}},"
-              for i, order in enumerate(orders)]
+    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, accelerate_{i}, "
+              f"{f'correct_{i}, land_{i}' if order else 'NULL, NULL'}}}," for i, order in enumerate(orders)]
     return [*lines, "};", "", f"const zd_direct {symbol} = {{ZD_BASELINE, 1, {len(orders)}, orders}};"]

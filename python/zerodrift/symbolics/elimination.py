@@ -255,10 +255,13 @@ class Elimination:
 
     def accelerations(self) -> dict[str, Vector]:
         """The pdot of systems with A, vdot, lambda, power and pivots."""
-        do, lowering = self.do, self.do.lowering
-        v = [lowering.emit("leaf", "v", i) for i in range(self.nv)]
+        added = [self.do.lowering.emit("leaf", "added", k) for k in range(self.m)]
+        return self._accelerations([self.do.plus(*each) for each in zip(self._vector("xi", self.m), added, strict=True)])
+
+    def _accelerations(self, right: Vector) -> dict[str, Vector]:
+        do = self.do
+        v = self._leaves("v")
         force = [do.difference(f, d) for f, d in zip(self._vector("f", self.nv), self._vector("d", self.nv), strict=True)]
-        right = [do.plus(xi, lowering.emit("leaf", "added", k)) for k, xi in enumerate(self._vector("xi", self.m))]
         vdot = self.solution(force, right)
         rest = [do.difference(f, do.dot(row, vdot)) for f, row in zip(force, self.M, strict=True)]
         multipliers = self.multipliers(rest)
@@ -268,8 +271,17 @@ class Elimination:
 
     def corrections(self) -> dict[str, Vector]:
         """Phi, dp and dv."""
-        do, lowering = self.do, self.do.lowering
-        v = [lowering.emit("leaf", "v", i) for i in range(self.nv)]
+        return self._corrections(self._leaves("v"))
+
+    def landing(self) -> dict[str, Vector]:
+        """Phi, dp, the dv of the velocities before, and what accelerations there are with the velocities after it."""
+        return self._corrections(self._leaves("before")) | self._accelerations(self._vector("xi", self.m))
+
+    def _leaves(self, kind: str) -> Vector:
+        return [self.do.lowering.emit("leaf", kind, i) for i in range(self.nv)]
+
+    def _corrections(self, v: Vector) -> dict[str, Vector]:
+        do = self.do
         Phi = self._vector("Phi", self.mh)
         Psi = [do.plus(do.dot(row, v), by_time) for row, by_time in zip(self.C, self._vector("Phi_t", self.m), strict=True)]
         dp = self.solution(None, Phi + [do.zero] * (self.m - self.mh)) if self.mh else [do.zero] * self.nv

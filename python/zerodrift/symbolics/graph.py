@@ -13,7 +13,7 @@ from typing import Any
 
 Number = int | float | Fraction
 FIXED, PLACED, MOVING = 0, 1, 2     # stages: depends on parameters alone, on t and p too, on v too
-LEAVES = {"parameter": FIXED, "t": PLACED, "p": PLACED, "v": MOVING, "rate": MOVING, "added": MOVING}
+LEAVES = {"parameter": FIXED, "t": PLACED, "p": PLACED, "v": MOVING, "rate": MOVING, "added": MOVING, "before": MOVING}
 
 
 class Node:

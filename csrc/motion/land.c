@@ -1,0 +1,49 @@
+/* The end of a step on the direct road, where nothing but the projection is made there: positions are iterated onto the constraints,
+ *
+ *     p <- p - dp     (25a), (26a), (27a)     until every |Phi| is small enough
+ *
+ * and the call that finds them there takes out of the velocities what violates (5), as (25b) ... (27b) do, and has the acceleration of the
+ * next step's first stage. Sines and pivots are so computed once for all three.
+ */
+#include <math.h>
+
+#include "../linalg/small.h"
+#include "../point/quaternions.h"
+#include "../point/units.h"
+#include "motion.h"
+
+/* Whether an iteration may follow, and p after it */
+static int improve(zd_motion *motion, int iteration, double *first, double *p)
+{
+    zd_point *point = motion->point;
+    const double residual = point->residual_left = zd_point_violation(point);
+    if (!isfinite(residual)) return ZD_NOT_FINITE;
+    if (iteration == motion->hold.max_iterations) return ZD_NO_CONVERGENCE;
+    if (iteration == 0) *first = residual;
+    if (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first)) return ZD_NO_CONVERGENCE;
+    ZD_SIZED(zd_subtract, point->system->nq, p, motion->road.dp, p);    /* (25a), (26a), (27a) */
+    zd_quaternions_normalise(point->system, p);
+    return ZD_DONE;
+}
+
+int zd_direct_land(zd_motion *motion, double t, double *p, double *v)
+{
+    zd_point *point = motion->point;
+    zd_road *road = &motion->road;
+    const zd_system *system = &motion->system;
+    double first = 0;
+    int iterations = 0, status;
+    for (;; iterations++) {
+        status = road->order->land(system->data, &t, p, v, road->allowed, point->terms.Phi, road->dp, road->pdot,
+                                   point->vdot, point->lambda, NULL, road->pivots);
+        if (status != ZD_NO_CONVERGENCE) break;
+        status = improve(motion, iterations, &first, p);
+        if (status) break;
+    }
+    motion->statistics.evaluations += iterations + 1;
+    zd_count_position_iterations(motion, iterations);
+    point->known = status ? 0 : ZD_ACCELERATED;
+    if (status) return status == ZD_NOT_FINITE || status == ZD_NO_CONVERGENCE ? status : ZD_CALLBACK;
+    motion->statistics.velocity_corrections++;
+    return ZD_DONE;
+}

@@ -1,0 +1,58 @@
+#include "short_step.h"
+
+#include "../constraints/rank.h"
+#include "../linalg/small.h"
+
+/* Zero times what is not finite is not a number; the sum has no branches. */
+ZD_INLINE int is_finite(const int n, const double *y)
+{
+    double zero = 0;
+    for (int i = 0; i < 2 * n; i++) zero += 0 * y[i];
+    return zero == 0;
+}
+
+ZD_INLINE void remember(const int n, zd_stepper *stepper)
+{
+    zd_copy(n, stepper->y, stepper->last.y);
+    zd_copy(n, stepper->y + n, stepper->last.y + n);
+    zd_copy(n, stepper->y, stepper->last.p);
+    zd_copy(n, stepper->y + n, stepper->last.v);
+}
+
+ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
+{
+    zd_motion *motion = stepper->motion;
+    remember(n, stepper);
+    motion->rate.vdot = motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
+    int status = stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
+    motion->rate.vdot = NULL;
+    return status ? status : is_finite(n, stepper->y) ? ZD_DONE : ZD_NOT_FINITE;
+}
+
+int zd_short_integrate(zd_course *course, double h)
+{
+    zd_stepper *stepper = course->stepper;
+    const zd_point *point = course->motion->point;
+    stepper->last.t = stepper->t;
+    stepper->last.h = h;
+    point->rank->was_ill_conditioned = 0;
+    return ZD_SIZED(integrate, point->system->nv, stepper, h);
+}
+
+ZD_INLINE int land(const int n, zd_stepper *stepper, double t1)
+{
+    zd_point *point = stepper->motion->point;
+    point->t = stepper->t = t1;
+    int status = zd_direct_land(stepper->motion, t1, stepper->y, stepper->y + n);
+    zd_copy(n, stepper->y, point->p);
+    zd_copy(n, stepper->y + n, point->v);
+    return status ? status : is_finite(n, stepper->y) ? ZD_DONE : ZD_NOT_FINITE;
+}
+
+int zd_short_land(zd_course *course, double t1)
+{
+    zd_stepper *stepper = course->stepper;
+    const double h = stepper->last.h;
+    int status = ZD_SIZED(land, course->motion->system.nv, stepper, t1);
+    return status ? status : zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts);
+}

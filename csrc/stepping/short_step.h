@@ -1,0 +1,18 @@
+/* Steps on the direct road at the ends of which nothing but the projection is made: they go from the state to the state without detours. */
+#ifndef ZD_SHORT_STEP_H
+#define ZD_SHORT_STEP_H
+
+#include "course.h"
+
+/* Whether the step is made so. Its state is p and v, of as many entries, and they are those of the point. */
+static inline int zd_is_short(const zd_course *course)
+{
+    const zd_motion *motion = course->motion;
+    return motion->road.lands && motion->hold.every == 1 && motion->rate.direct && !motion->point->terms.A && !motion->system.quaternions;
+}
+
+/* What zd_stepper_integrate() and zd_passage_land() do of any step. */
+int zd_short_integrate(zd_course *course, double h);
+int zd_short_land(zd_course *course, double t1);
+
+#endif
