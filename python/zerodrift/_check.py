@@ -87,8 +87,19 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
     return words
 
 
+DOUBLE = np.dtype(np.float64)
+FEW = 64        # of so many numbers, Python asks sooner than NumPy whether they are finite
+
+
+def _is_plain(value: Any) -> bool:
+    """Whether it is an array of doubles, as most are that come here: then few questions are left."""
+    return type(value) is np.ndarray and value.dtype is DOUBLE
+
+
 def vector(name: str, value: Any, size: int) -> np.ndarray:
     """A fresh, contiguous float64 array of shape (size,), all finite."""
+    if _is_plain(value) and value.shape == (size,) and size <= FEW and all(map(math.isfinite, value.tolist())):
+        return value.copy()
     shape = f"{name} must have shape ({size},), not"
     array = real(f"{name} must hold", value, ragged=f"{shape} be")
     if array.shape != (size,):
@@ -107,6 +118,9 @@ def times(name: str, value: Any, first: float, last: float) -> np.ndarray:
 
 def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
     """A fresh float64 array (k,) of times that increase, between the first and the last."""
+    if _is_plain(value) and value.ndim == 1 and value.size and first <= value[0] and value[-1] <= last and (
+            np.logical_and.reduce(value[1:] > value[:-1])):
+        return value.copy()
     array = times(name, value, first, last)
     if array.ndim != 1:
         raise ValueError(f"{name} must have shape (k,), not {array.shape}")
@@ -203,7 +217,7 @@ def tell(error: BaseException, note: str) -> None:
 
 def span(value: Any) -> tuple[float, float]:
     """`t_span`: an end time, or (t0, t1)."""
-    if isinstance(value, Real):
+    if type(value) is float or isinstance(value, Real):     # the second question takes longer than all else here
         t0, t1 = 0.0, number("t_span", value)
     else:
         try:

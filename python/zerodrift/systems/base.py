@@ -138,8 +138,8 @@ class BaseSystem:
         if p is None and self.p0 is None:
             raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
         p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
-        if v is None:
-            v = np.zeros(self.nv) if self.v0 is None else self.v0
+        if v is None:       # what is the system's own was checked when it was made
+            return p, np.zeros(self.nv) if self.v0 is None else self.v0
         return p, _check.vector(v_name, v, self.nv)
 
     def with_parameters(self, changes: Mapping[str, Any] | None = None, /, **changed: Any) -> Any:
