@@ -32,14 +32,11 @@ from .errors import (
     UnsuitedIntegrator,
     ZerodriftError,
 )
-from .files import load
 from .runs.events import Event
 from .runs.operations import acceleration, assemble, project
-from .runs.rows import Baumgarte, EnergyCorrection, Projection, corrections, formulations, integrators
+from .runs.rows import corrections, formulations, integrators
 from .runs.simulate import simulate
 from .runs.solution import Solution
-from .studies.check import check
-from .systems.callables import System
 from .systems.structure import Structure
 
 __version__ = "0.1.0"
@@ -52,11 +49,12 @@ __all__ = [
     "inertia", "integrators", "load", "models", "native", "numba_signature", "plot", "project", "reference", "simulate",
     "stability_map", "symbolic", "systems", "tune", "work_precision",
 ]
-_LATER = {      # imported at first use
-    "Mechanism": "mechanisms.mechanism", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
-    "native": "systems.native", "numba_signature": "systems.native", "reference": "studies.reference",
-    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "tune": "studies.tune",
-    "work_precision": "studies.work_precision",
+_LATER = {      # imported, or made, at first use
+    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
+    "System": "systems.callables", "check": "studies.check", "from_mechanics": "symbolics.mechanics",
+    "get_include": "systems.native", "load": "files", "native": "systems.native", "numba_signature": "systems.native",
+    "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
+    "tune": "studies.tune", "work_precision": "studies.work_precision",
 }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import difflib
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral, Real
@@ -69,6 +68,8 @@ def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
     known = list(dict.fromkeys(known))
     if len(known) <= 2 * most:
         return f"there are {', '.join(known)}"
+    import difflib  # rarely needed, and slow to import
+
     close = difflib.get_close_matches(str(name).lower(), {each.lower() for each in known}, n=most, cutoff=0.5)
     found = [each for lower in close for each in known if each.lower() == lower]
     return f"the closest of {len(known)} names are {', '.join(found)}" if found else (

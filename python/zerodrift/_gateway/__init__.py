@@ -3,6 +3,9 @@
 Its module `mechanisms` is imported by whoever makes mechanisms, and by nobody else.
 """
 
+import importlib
+from typing import Any
+
 from .base import (
     CALLBACK,
     DONE,
@@ -26,9 +29,7 @@ from .base import (
     required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
-from .functions import Function, InLibrary, address_of, find, in_library, load_data, numba_signature
 from .measures import Outputs
-from .native import VERSION, NativeCore, kind_at, probe, terms_of
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
 from .runs import Record, Results, Run, acceleration, accelerations, count_steps, project, settings, step
@@ -39,9 +40,22 @@ __all__ = [
     "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
     "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
     "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find",
-    "in_library",
-    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
+    "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
     "required", "settings", "step", "terms_of",
 ]
+
+# Imported at first use: most people have no compiled systems of their own.
+_LATER = {
+    "functions": ("Function", "InLibrary", "address_of", "find", "in_library", "load_data", "numba_signature"),
+    "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _LATER.items():
+        if name in names:
+            return getattr(importlib.import_module(f".{module}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 check_fingerprint()

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import builtins
+import os
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import errors
 from .._core import ffi, lib
-from .._fingerprint import core_fingerprint
 
 TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
@@ -82,11 +81,16 @@ RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "n
 
 def check_fingerprint() -> None:
     """In a source tree, refuses a compiled core that does not belong to the sources beside it."""
-    root = Path(__file__).resolve().parents[3]
-    if not (root / "python" / "build_core.py").is_file():
+    root = os.path.realpath(__file__)
+    for _ in range(4):
+        root = os.path.dirname(root)
+    if not os.path.isfile(os.path.join(root, "python", "build_core.py")):
         return
+    from .._fingerprint import core_fingerprint  # where nothing is developed, that is not imported
+
     if core_fingerprint(root) != text(lib.zd_fingerprint):
-        raise errors.StaleCore(f"the compiled core is older than {root / 'csrc'}; rebuild it with: pip install -e {root}")
+        sources = os.path.join(root, "csrc")
+        raise errors.StaleCore(f"the compiled core is older than {sources}; rebuild it with: pip install -e {root}")
 
 
 def text(characters: Any) -> str:

@@ -10,7 +10,6 @@ import numpy as np
 
 from .. import _check
 from ..systems.base import BaseSystem
-from ..systems.callables import arguments
 
 
 @dataclass(frozen=True)
@@ -62,6 +61,8 @@ class _Called:
     """A function that is handed what it names."""
 
     def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: dict[str, Any], level: float) -> None:
+        from ..systems.callables import arguments  # slow to import
+
         parameters = {key: value for key, value in system.parameters.items() if key.isidentifier()}
         names = arguments(name, function, [*_check.STATE, *parameters, *bound])
         self._function, self._level = function, level

@@ -147,7 +147,7 @@ def _documentation(table: str, card: Row, name: str) -> str:
             lines += [_kind(parameter), *_paragraph(parameter.text, "    ")[:-1]]
     lines += ["", "Notes", "-----", *_paragraph(_source(card), "")]
     argument = ARGUMENTS.get(card.name, "correction") if table == "corrections" else table.removesuffix("s")
-    known = name if name in ("Projection", "Baumgarte", "EnergyCorrection") else f'{table}()["{card.name}"].settings'
+    known = name if name in CLASSES else f'{table}()["{card.name}"].settings'
     return "\n".join([*lines, "Examples", "--------", ">>> import zerodrift as zd",
                       f">>> sol = zd.simulate(zd.systems.four_bar(), 8.0, step=0.01, {argument}=zd.{known}())"])
 
@@ -180,9 +180,13 @@ def _again(table: str, name: str, *values: Any) -> RowSettings:
 
 
 CARDS = {_class_name(card): card for cards in TABLES.values() for card in cards.values()}       # by the names of their classes
-Projection = TABLES["corrections"]["projection"].settings
-Baumgarte = TABLES["corrections"]["baumgarte"].settings
-EnergyCorrection = TABLES["corrections"]["energy"].settings
+CLASSES = ("Projection", "Baumgarte", "EnergyCorrection")       # of this module, and of the package
+
+
+def __getattr__(name: str) -> Any:
+    if name in CLASSES:
+        return CARDS[name].settings
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def formulations(system: BaseSystem | None = None) -> dict[str, Row]:

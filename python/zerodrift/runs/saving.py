@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,11 +13,16 @@ from ..systems.base import BaseSystem
 from ..systems.builtin import FACTORIES, BuiltIn
 from .rows import CARDS, RowSettings
 
+if TYPE_CHECKING:
+    from pathlib import Path  # slow to import, as json is
+
 EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for each event
 
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
+    import json
+
     arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
     description = {name: value for name, value in values.items() if name not in arrays}
     for name in EVENTS:
@@ -37,6 +40,8 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     arrays = _read_arrays(path)
     if "zerodrift" not in arrays:
         return None
+    import json
+
     description = json.loads(str(arrays.pop("zerodrift")))
     description["t_span"] = tuple(description["t_span"])
     for name in EVENTS:

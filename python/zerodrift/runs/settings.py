@@ -11,12 +11,10 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
+from . import rows
 from .rows import (
     ARGUMENTS,
     TABLES,
-    Baumgarte,
-    EnergyCorrection,
-    Projection,
     RowSettings,
     formulations,  # noqa: F401, as studies ask for it here
     integrators,
@@ -25,29 +23,40 @@ from .rows import (
 )
 
 CORRECTIONS = TABLES["corrections"]
-STABILIZATIONS = {name: CORRECTIONS[name].settings for name, argument in ARGUMENTS.items() if argument == "stabilization"}
-Stabilization = Projection | Baumgarte | None
+STABILIZATIONS = tuple(name for name, argument in ARGUMENTS.items() if argument == "stabilization")
+Stabilization = RowSettings | None
 # What is taken where nothing else is asked for.
 FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
 
 
+def __getattr__(name: str) -> Any:
+    if name in rows.CLASSES:
+        return getattr(rows, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def _are_settings(value: Any, *corrections: str) -> bool:
+    """Whether they are settings of one of these corrections."""
+    return isinstance(value, RowSettings) and value.table == "corrections" and value.card.name in corrections
+
+
 def stabilization(value: Any) -> Stabilization:
     """The argument `stabilization` of `simulate`: None, a word, or settings."""
-    if value is None or isinstance(value, tuple(STABILIZATIONS.values())):
+    if value is None or _are_settings(value, *STABILIZATIONS):
         return value
     if isinstance(value, str):
-        return STABILIZATIONS[_check.choice("stabilization", value, STABILIZATIONS)]()
+        return CORRECTIONS[_check.choice("stabilization", value, STABILIZATIONS)].settings()
     raise TypeError(f"stabilization must be None, {', '.join(map(repr, STABILIZATIONS))}, zd.Projection(...) "
                     f"or zd.Baumgarte(...), not {value!r}")
 
 
-def energy(value: Any) -> EnergyCorrection | None:
+def energy(value: Any) -> RowSettings | None:
     """The argument `energy` of `simulate`."""
     if value is None or value is False:
         return None
     if value is True:
-        return EnergyCorrection()
-    if isinstance(value, EnergyCorrection):
+        return rows.EnergyCorrection()
+    if _are_settings(value, "energy"):
         return value
     raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
 

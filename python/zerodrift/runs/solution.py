@@ -5,8 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +14,9 @@ from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.watching import AXES
 from .saving import write
 from .settings import core_settings, corrections_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 
@@ -339,6 +341,8 @@ class Solution:
         Path
             Where it was written.
         """
+        from pathlib import Path  # slow to import
+
         path = Path(path)
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
         write(path, {name: getattr(self, name) for name in FIELDS})
