@@ -16,5 +16,11 @@ struct zd_look {
 zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G);
 /* Whether any row at the point might follow from those before it; C is known there. */
 int zd_look_is_doubtful(zd_look *self, zd_point *point);
+/* Whether rows may have come to lie reversed, of a structure whose pivots have told that all of them count. */
+static inline void zd_look_compare(zd_point *point)
+{
+    const zd_rank *rank = point->rank;
+    if (point->layout && rank->look && rank->most_rows == rank->m && rank->m <= rank->n) (void)zd_look_is_doubtful(rank->look, point);
+}
 
 #endif

@@ -24,7 +24,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int may_be_large)
 {
     size_t m = (size_t)zd_constraints(system);
     zd_rank self = {
@@ -33,6 +33,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system)
         .mh = system->mh,
         .most_rows = (int)m,
         .most_holonomic = system->mh,
+        .is_large = may_be_large && zd_rank_is_of_many(system),
         .start_square = zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &self, sizeof self);
@@ -202,8 +203,8 @@ static void set_shares(zd_selection *self, int rank)
 
 void zd_rank_use_all(zd_point *point)
 {
-    point->rows = point->rank->m;
-    point->holonomic = point->rank->mh;
+    point->rows = point->rank->is_large ? point->rank->most_rows : point->rank->m;
+    point->holonomic = point->rank->is_large ? point->rank->most_holonomic : point->rank->mh;
     point->C = point->terms.C;
     point->rank->lost = 0;
 }
@@ -279,8 +280,8 @@ void zd_rank_share_out(zd_selection *self, double *lambda)
 int zd_rank_redundant(const zd_rank *self, int *rows)
 {
     int count = 0;
-    for (int k = 0; self->selection && k < self->m; k++)
-        if (self->selection->redundant[k]) rows[count++] = k;
+    for (int k = 0; k < self->m; k++)
+        if ((self->selection && self->selection->redundant[k]) || (self->left_out && self->left_out[k])) rows[count++] = k;
     return count;
 }
 

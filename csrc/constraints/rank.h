@@ -15,6 +15,8 @@ typedef struct zd_selection zd_selection;
 struct zd_rank {
     int n, m, mh;
     int most_rows, most_holonomic;  /* that count anywhere, of all and of the holonomic: less than m, mh where some are redundant */
+    int is_large;           /* whether there are so many rows, of a declared structure, that none is looked at: see ZD_LOOKED_ROWS */
+    unsigned char *left_out;    /* (m,) of such, whether the row followed from others at the start; NULL: none did */
     int may_be_deficient;   /* whether fewer than that may count at a point; else that is ZD_BIFURCATION */
     int is_started;         /* whether it is known which rows are redundant */
     int was_deficient;      /* whether fewer than that have counted at a point of this step */
@@ -62,10 +64,21 @@ struct zd_selection {
 /* Where less than this share of a row is left, it determines velocities with noticeably fewer digits: see stepping/variables.c. */
 #define ZD_ILL_CONDITIONED 0x1p-6
 
+/* Of a system that declares its structure and has more rows, dense matrices would cost more than all else, and what is small anywhere in
+ * it says nothing of the whole: bifurcations are not looked for, and rows that follow from others at the start are left out for good. */
+enum { ZD_LOOKED_ROWS = 40 };
+static inline int zd_rank_is_of_many(const zd_system *system)
+{
+    int rows = 0;
+    for (int g = 0; system->structure && g < system->structure->groups && rows <= ZD_LOOKED_ROWS; g++) rows += system->structure->rows[g];
+    return rows > ZD_LOOKED_ROWS;
+}
+
 /* Of the diagonal of M: smaller pivots make M^-1 no metric. */
 #define ZD_LEAST_PIVOT 0x1p-44
 
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system);
+/* `may_be_large`: whether the formulation can do without dense matrices. */
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int may_be_large);
 /* Has the memory for a choice; ZD_NO_MEMORY if there is none. */
 int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Chooses the rows that count at the point, with so much of their length left; C and M are known there. */

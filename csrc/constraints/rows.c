@@ -72,10 +72,11 @@ static int is_doubtful(zd_point *point)
 int zd_rows_are_long(const zd_point *point)
 {
     const zd_rank *self = point->rank;
-    const int n = self->n;
     int are_long = 1;
     for (int k = 0; k < self->m; k++) {
-        const double *c = point->terms.C + k * n;
+        const zd_row_of_C row = zd_point_row(point, k);
+        const double *c = row.x;
+        const int n = row.count;
         double squares[4] = {0, 0, 0, 0};
         int i = 0;
         for (; i + 4 <= n; i += 4)
@@ -98,6 +99,10 @@ int zd_rows_find(zd_point *point)
     if (point->known & ZD_RANKED) return ZD_DONE;
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
+    if (self->is_large) {
+        zd_rows_use_all(point);
+        return ZD_DONE;
+    }
     if (self->most_rows < self->m || self->m > self->n) return reduce(point);
     status = need_look(self, point->system);
     if (status) return status;

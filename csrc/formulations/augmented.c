@@ -18,9 +18,11 @@
 #include "../linalg/small.h"
 #include "../linalg/symmetric.h"
 #include "../point/matrices.h"
+#include "structured.h"
 
 typedef struct augmented {
     int n, m;
+    zd_structured *many;    /* in place of all that follows, where a declared structure has many rows */
     double *M, *C;      /* (n, n), (m, n): where the system's own are packed */
     double *scale;      /* (m,): of the rows of C in G */
     int is_small;       /* whether G is stored whole */
@@ -29,7 +31,7 @@ typedef struct augmented {
     int *order;         /* (n + m,) */
 } augmented;
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *take_dense(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
@@ -45,6 +47,13 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
         .b = zd_take_doubles(arena, size),
         .order = zd_take(arena, size * sizeof(int)),
     };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static void *take(zd_arena *arena, const zd_system *system, const void *given)
+{
+    if (!zd_rank_is_of_many(system)) return take_dense(arena, system, given);
+    augmented self = {.many = zd_structured_take(arena, system)};
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -101,6 +110,7 @@ static int factor_filled(augmented *self)
 static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
+    if (self->many) return zd_structured_factor(self->many, point, 0);
     int status = zd_rows_find(point), size = self->n + point->rows;
     if (status) return status;
     self->m = point->rows;
@@ -119,6 +129,10 @@ static void solve(void *memory, const double *force, const double *rhs, double *
     augmented *self = memory;
     int n = self->n, m = self->m;
     double *b = self->b;
+    if (self->many) {
+        zd_structured_solve(self->many, force, rhs, x, lambda);
+        return;
+    }
     for (int i = 0; i < n; i++) b[i] = force ? force[i] : 0;
     for (int k = 0; k < m; k++) b[n + k] = self->scale[k] * rhs[k];
     if (self->is_small) zd_lu_solve(n + m, self->G, self->order, b);    /* (8), (25) */
@@ -140,8 +154,17 @@ const zd_formulation zd_augmented = {
         .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
     },
     ZD_DEPENDENT_STATE,
+    .takes_many_rows = 1,
     .take = take,
     .lend_workspace = lend_workspace,
+    .factor = factor,
+    .solve = solve,
+};
+
+/* For motions whose own formulation takes no structure of many rows. */
+const zd_formulation zd_augmented_dense = {
+    ZD_DEPENDENT_STATE,
+    .take = take_dense,
     .factor = factor,
     .solve = solve,
 };

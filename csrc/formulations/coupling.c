@@ -1,26 +1,34 @@
-/* (13) without dense matrices but one, the coupling of the rows:
+/* (13) without dense matrices:
  *
- *     M_b = L D L^T                           each block by itself
- *     Y = C L^-T                              has entries where C has
- *     S = C M^-1 C^T = Y D^-1 Y^T             rows of two groups are coupled by the blocks that both touch
- *     S lambda = Y D^-1 y - xi,   vdot = L^-T D^-1 (y - Y^T lambda),   y = L^-1 (f - d)
+ *     W = M^-1                                each block by itself
+ *     S = C W C^T                             blocks of groups of rows that touch a body both: point/weighted.c
+ *     S lambda = C W (f - d) - xi,   vdot = W (f - d - C^T lambda)
  *
- * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids. But C vdot = xi shows what that has cost,
- * and is corrected with the same factors until nothing is left of it: with the smallest pivots that are allowed, each time leaves a
- * thousandth or so. Where pivots are smaller, as masses are far apart, schur.c orthogonalizes after all.
+ * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids; and W enlarges the rounding of large reactions
+ * that meet in a light body. Both show: in a small pivot of S, and in a row of C to which its bodies contribute unequally. Where either is so,
+ * the solution is compared with C vdot = xi and corrected with the same factors until nothing is left of it.
  */
 #include "coupling.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/gram.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
 enum { MAX_REFINEMENTS = 4 };
-static const double SMALL = 0x1p-36;           /* of the diagonal of S: a smaller pivot has lost too many digits */
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
+static const double GOOD = 0x1p-6;              /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
+
+static int is_constant(const zd_structure *structure)
+{
+    for (int b = 0; b < structure->blocks; b++)
+        if (!structure->mass || !(structure->mass[b] & ZD_CONSTANT)) return 0;
+    return 1;
+}
 
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 {
@@ -28,102 +36,102 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
     int rows = 0;
     for (int g = 0; structure && g < structure->groups; g++) rows += structure->rows[g];
     if (!structure || rows != zd_constraints(system)) return NULL;
-    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    size_t n = (size_t)system->nv, m = (size_t)rows;
     zd_coupling self = {
         .n = (int)n,
         .m = (int)m,
-        .L = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-        .D = zd_take_doubles(arena, n),
-        .Y = zd_take_doubles(arena, (size_t)zd_size_of_C(system)),
-        .S = zd_take_doubles(arena, m * m),
-        .y = zd_take_doubles(arena, n),
-        .z = zd_take_doubles(arena, n),
+        .W = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
+        .is_constant = is_constant(structure),
+        .force = zd_take_doubles(arena, n),
         .lambda = zd_take_doubles(arena, m),
         .rest = zd_take_doubles(arena, m),
-        .step = zd_take_doubles(arena, m),
+        .step = zd_take_doubles(arena, n),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
 
 /* ---- factors ---- */
 
-static int block_size(const zd_layout *layout, int b) { return layout->velocity_at[b + 1] - layout->velocity_at[b]; }
-
-static void keep_diagonal(zd_coupling *self)
+/* What a body contributes to the diagonal of S in a row: c W c^T; W is its diagonal. */
+static double contribution(const zd_coupling *self, const zd_piece *piece, int row)
 {
-    const zd_layout *layout = self->layout;
-    for (int b = 0; b < layout->blocks; b++) {
-        int n = block_size(layout, b);
-        for (int i = 0; i < n; i++)
-            self->D[layout->velocity_at[b] + i] = self->L[layout->M_at[b] + (layout->is_diagonal[b] ? i : i * (n + 1))];
-    }
+    const double *c = self->C + piece->C + row * piece->stride, *W = self->W + piece->W;
+    double sum = 0;
+    for (int i = 0; i < piece->n; i++) sum += c[i] * W[i] * c[i];
+    return sum;
 }
 
-/* Y <- C L^-T, in the columns of one block that a group touches */
-static void transform(zd_coupling *self, int b, int toucher)
+/* Whether bodies contribute alike to each row, W is all in its diagonal, and no body is taken as several. */
+static int are_alike(zd_coupling *self)
 {
-    const zd_layout *layout = self->layout;
-    const int g = layout->toucher[toucher], n = block_size(layout, b), width = layout->width[g];
-    const int at = layout->C_at[g] + layout->toucher_offset[toucher];
-    const double *c = self->C + at, *L = self->L + layout->M_at[b];
-    double *y = self->Y + at;
-    for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++, c += width, y += width)
-        if (layout->is_diagonal[b]) ZD_SIZED(zd_copy, n, c, y);
-        else ZD_SIZED(zd_forward, n, L, c, y);
+    const zd_weighted *weighted = self->weighted;
+    double *least = self->rest, *most = self->lambda;
+    if (zd_weighted_has_welds(weighted)) return 0;
+    for (int k = 0; k < self->m; k++) least[k] = INFINITY, most[k] = 0;
+    for (const zd_piece *piece = weighted->piece; piece < weighted->piece + weighted->pieces; piece++)
+        for (int i = 0; i < piece->rows; i++) {
+            if (!piece->is_diagonal) return 0;
+            const int k = piece->row + i;
+            const double share = contribution(self, piece, i);
+            if (!(share > 0)) continue;
+            least[k] = fmin(least[k], share);
+            most[k] = fmax(most[k], share);
+        }
+    for (int k = 0; k < self->m; k++)
+        if (most[k] > UNEQUAL * least[k]) return 0;
+    return 1;
+}
+
+static int invert_mass(zd_coupling *self, zd_point *point)
+{
+    if (self->is_known && self->is_constant) return ZD_DONE;
+    point->failed_index = zd_mass_factor(point, self->W);
+    if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
+    zd_mass_invert(point->layout, self->W);
+    self->is_accurate = are_alike(self);
+    self->is_known = 1;
+    return ZD_DONE;
 }
 
 int zd_coupling_factor(zd_coupling *self, zd_point *point)
 {
-    const zd_layout *layout = self->layout = point->layout;
+    if (!self->weighted) self->weighted = zd_weighted_create(point->rank->store, point->layout);
+    if (!self->weighted) return ZD_NO_MEMORY;
+    self->layout = point->layout;
     self->C = point->terms.C;
-    point->failed_index = zd_mass_factor(point, self->L);
-    if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    keep_diagonal(self);
-    for (int b = 0; b < layout->blocks; b++)
-        for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) transform(self, b, i);
-    zd_gram(layout, self->Y, self->D, self->S);
-    double *diagonal = self->rest;
-    for (int k = 0; k < self->m; k++) diagonal[k] = self->S[k * (self->m + 1)];
-    int factored = ZD_SIZED(zd_cholesky, self->m, self->S, self->S);
-    for (int k = factored; k-- > 0;)
-        if (!(1 > SMALL * diagonal[k] * self->S[k * (self->m + 1)])) factored = k;
-    point->failed_index = factored;
-    return factored < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
+    int status = invert_mass(self, point);
+    if (status) return status;
+    const zd_pivots pivots = zd_weighted_factor(self->weighted, self->C, self->W);
+    self->share = pivots.pivot / pivots.diagonal;
+    if (pivots.failed < 0) return ZD_DONE;
+    point->failed_index = zd_weighted_row(self->weighted, pivots.failed);
+    return ZD_DEPENDENT_ROWS;
 }
 
 /* ---- solution ---- */
 
-/* y <- L^-1 force */
-static void forward(const zd_coupling *self, const double *force, double *y)
+/* x <- W y */
+static void times_W(const zd_coupling *self, const double *y, double *x)
 {
     const zd_layout *layout = self->layout;
     for (int b = 0; b < layout->blocks; b++) {
-        int n = block_size(layout, b), first = layout->velocity_at[b];
-        if (layout->is_diagonal[b]) zd_copy(n, force + first, y + first);
-        else ZD_SIZED(zd_forward, n, self->L + layout->M_at[b], force + first, y + first);
+        const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+        const double *W = self->W + layout->M_at[b];
+        for (int i = 0; i < n; i++) x[first + i] = layout->is_diagonal[b] ? W[i] * y[first + i] : zd_dot(n, W + i * n, y + first);
     }
 }
 
-/* x <- L^-T D^-1 y */
-static void backward(const zd_coupling *self, const double *y, double *x)
+/* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */
+static void exchange(zd_coupling *self, const double *force, const double *rhs, double *x)
 {
-    const zd_layout *layout = self->layout;
-    for (int b = 0; b < layout->blocks; b++) {
-        int n = block_size(layout, b), first = layout->velocity_at[b];
-        if (!layout->is_diagonal[b]) ZD_SIZED(zd_backward, n, self->L + layout->M_at[b], y + first, x + first);
-        for (int i = first; layout->is_diagonal[b] && i < first + n; i++) x[i] = self->D[i] * y[i];
-    }
-}
-
-/* lambda <- S^-1 lambda, y <- y - Y^T lambda */
-static void exchange(const zd_coupling *self, double *lambda, double *y)
-{
-    ZD_SIZED(zd_forward, self->m, self->S, lambda, lambda);
-    ZD_SIZED(zd_backward, self->m, self->S, lambda, lambda);
-    for (int k = 0; k < self->m; k++) {
-        zd_row_of_C row = zd_packed_row(self->layout, self->Y, k);
-        for (int j = 0; j < row.count; j++) y[row.column[j]] -= lambda[k] * row.x[j];
-    }
+    double *y = self->weighted->blocks->x;
+    if (force) times_W(self, force, x);
+    zd_weighted_times(self->weighted, self->C, force ? x : NULL, rhs, y);
+    zd_weighted_solve(self->weighted, y);
+    if (force) memcpy(self->force, force, (size_t)self->n * sizeof *force);
+    else memset(self->force, 0, (size_t)self->n * sizeof *force);
+    zd_weighted_subtract_transposed(self->weighted, self->C, y, self->force);
+    times_W(self, self->force, x);                                      /* (13), (27) */
 }
 
 /* rest <- rhs - C x; returns whether it is more than the rounding of x makes it */
@@ -144,30 +152,24 @@ static int is_left(const zd_coupling *self, const double *rhs, const double *x, 
     return left;
 }
 
-static void refine(zd_coupling *self, const double *rhs, double *x)
+static void add_multipliers(zd_coupling *self, double *lambda)
+{
+    zd_weighted_scatter(self->weighted, self->weighted->blocks->x, self->rest);
+    for (int k = 0; k < self->m; k++) lambda[k] += self->rest[k];
+}
+
+static void refine(zd_coupling *self, const double *rhs, double *x, double *lambda)
 {
     for (int i = 0; i < MAX_REFINEMENTS && is_left(self, rhs, x, self->rest); i++) {
-        memset(self->y, 0, (size_t)self->n * sizeof(double));
-        for (int k = 0; k < self->m; k++) self->step[k] = -self->rest[k];
-        exchange(self, self->step, self->y);
-        backward(self, self->y, self->z);
-        for (int j = 0; j < self->n; j++) x[j] += self->z[j];
-        for (int k = 0; k < self->m; k++) self->lambda[k] += self->step[k];
+        exchange(self, NULL, self->rest, self->step);
+        for (int j = 0; j < self->n; j++) x[j] += self->step[j];
+        if (lambda) add_multipliers(self, lambda);
     }
 }
 
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
 {
-    double *y = self->y, *z = self->z;
-    if (force) forward(self, force, y);
-    else memset(y, 0, (size_t)self->n * sizeof *y);
-    for (int i = 0; i < self->n; i++) z[i] = self->D[i] * y[i];
-    for (int k = 0; k < self->m; k++) {
-        zd_row_of_C row = zd_packed_row(self->layout, self->Y, k);
-        self->lambda[k] = (force ? zd_row_times(&row, z) : 0) - rhs[k];
-    }
-    exchange(self, self->lambda, y);
-    backward(self, y, x);                                               /* (13), (27) */
-    refine(self, rhs, x);
-    if (lambda) memcpy(lambda, self->lambda, (size_t)self->m * sizeof *lambda);
+    exchange(self, force, rhs, x);
+    if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
+    if (!self->is_accurate || self->share < GOOD) refine(self, rhs, x, lambda);
 }

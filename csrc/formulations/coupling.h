@@ -3,16 +3,19 @@
 #define ZD_COUPLING_H
 
 #include "../point/point.h"
+#include "../point/weighted.h"
 
 typedef struct zd_coupling {
     int n, m;
-    double *L;              /* stored as M is: its Cholesky factors */
-    double *D;              /* (n,): their diagonal, in reciprocals */
-    double *Y;              /* stored as C is: C L^-T */
-    double *S;              /* (m, m): factored */
-    double *y, *z;          /* (n,), (n,) */
+    zd_weighted *weighted;  /* S(M^-1); NULL until it is first wanted */
+    double *W;              /* stored as M is: M^-1 */
+    int is_constant;        /* whether M is, by what the system declares, and so W once it is known: */
+    int is_known;
+    double share;           /* of its diagonal entry: the smallest pivot where it was factored */
+    int is_accurate;        /* whether neither pivots nor masses there are such that the solution has to be looked at */
+    double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */
-    double *rest, *step;    /* (m,), (m,): what is left of C x = rhs, and the multipliers that remove it */
+    double *rest, *step;    /* (m,), (n,): what is left of C x = rhs, and what removes it */
     const zd_layout *layout;    /* of the point where it was factored, as its C */
     const double *C;
 } zd_coupling;

@@ -14,8 +14,10 @@
 #include "../point/matrices.h"
 #include "complement.h"
 #include "dependent.h"
+#include "structured.h"
 
 typedef struct nullspace {
+    zd_structured *many;    /* in place of all that follows, where a declared structure has many rows */
     zd_complement complement;
     double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */
@@ -28,6 +30,10 @@ typedef struct nullspace {
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
+    if (zd_rank_is_of_many(system)) {
+        nullspace self = {.many = zd_structured_take(arena, system)};
+        return zd_take_filled(arena, &self, sizeof self);
+    }
     size_t n = (size_t)system->nv;
     double *H = zd_take_doubles(arena, n * n);      /* made once D is known */
     nullspace self = {
@@ -74,6 +80,7 @@ static void fill(nullspace *self, const double *M, const double *C)
 static int factor(void *memory, zd_point *point)
 {
     nullspace *self = memory;
+    if (self->many) return zd_structured_factor(self->many, point, 0);
     int n = self->complement.n;
     int status = zd_complement_review(&self->complement, point);
     if (status) return status;
@@ -87,6 +94,10 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 {
     nullspace *self = memory;
     int n = self->complement.n, m = self->complement.m, r = self->complement.r;
+    if (self->many) {
+        zd_structured_solve(self->many, force, rhs, x, lambda);
+        return;
+    }
     if (force) zd_complement_project(&self->complement, force, x);
     for (int a = 0; !force && a < r; a++) x[a] = 0;
     for (int k = 0; k < m; k++) x[r + k] = rhs[k];
@@ -113,6 +124,7 @@ const zd_formulation zd_nullspace = {
         .reference = "W. Blajer, A geometric unification of constrained system dynamics, Multibody System Dynamics 1 (1997) 3-21",
     },
     ZD_DEPENDENT_STATE,
+    .takes_many_rows = 1,
     .take = take,
     .lend_workspace = lend_workspace,
     .factor = factor,

@@ -21,15 +21,17 @@
 #include "../linalg/orthogonal.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
-#include "coupling.h"
+#include "structured.h"
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
+static const double SMALL = 0x1p-36;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
 static const double TURNED = 0.25;      /* of the squared sines by which Q turns: with less, Q1 Q0^T + Q0 Q1^T is still positive definite */
 
 typedef struct schur {
     int n, m;
     int most;           /* rows that there is memory for */
+    zd_structured *many;        /* in place of all that follows, where the structure has many rows */
     zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count */
     int is_coupled;             /* whether that was factored */
     double *dense_C;    /* (m, n): where the system's own is packed */
@@ -57,7 +59,8 @@ static void take_matrices(zd_arena *arena, schur *self)
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .coupling = zd_coupling_take(arena, system)};
+    schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_take(arena, system)};
+    if (!zd_rank_is_of_many(system)) self.coupling = zd_coupling_take(arena, system);
     if (!system->structure) take_matrices(arena, &self);
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -96,7 +99,7 @@ ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(facto
 
 static int finds_rows(const zd_system *system)
 {
-    return system->nv > ZD_UNROLLED && zd_constraints(system) > ZD_FEW_ROWS && !system->structure;
+    return system->structure != NULL || (system->nv > ZD_UNROLLED && zd_constraints(system) > ZD_FEW_ROWS);
 }
 
 static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const double *C)
@@ -158,18 +161,34 @@ static void *take_all(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+/* Where its pivots tell that all rows count, or that is known. */
+static int is_told(const schur *self, const zd_point *point)
+{
+    if (point->known & ZD_RANKED) return 1;
+    return self->coupling->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_rows_are_long(point);
+}
+
+/* By C M^-1 C^T, where all rows count and it keeps enough digits. */
+static int factor_coupled(schur *self, zd_point *point)
+{
+    const zd_rank *rank = point->rank;
+    int status = ZD_DEPENDENT_ROWS;
+    if (self->coupling && rank->most_rows == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
+        status = zd_coupling_factor(self->coupling, point);
+    if (status && status != ZD_DEPENDENT_ROWS) return status;
+    self->is_coupled = !status && self->coupling->share > SMALL;
+    if (self->is_coupled && is_told(self, point)) zd_rows_use_all(point);
+    status = zd_rows_find(point);
+    if (!status) self->is_coupled &= zd_rank_is_full(point);
+    return status;
+}
+
 /* Matrices are dense, in memory that is taken when it is first needed, where rows are left out, or where C M^-1 C^T has lost too many
  * digits. */
 static int factor_packed(schur *self, zd_point *point)
 {
-    int status = zd_rows_find(point);
-    self->is_coupled = 0;
-    if (!status && zd_rank_is_full(point)) {
-        status = zd_coupling_factor(self->coupling, point);
-        self->is_coupled = !status;
-        if (status != ZD_DEPENDENT_ROWS) return status;
-    }
-    if (status && status != ZD_DEPENDENT_ROWS) return status;
+    int status = factor_coupled(self, point);
+    if (status || self->is_coupled) return status;
     if (!self->L) {
         const schur *all = zd_store_take(point->rank->store, take_all, self);
         if (!all) return ZD_NO_MEMORY;
@@ -180,7 +199,9 @@ static int factor_packed(schur *self, zd_point *point)
 
 static int factor(void *memory, zd_point *point)
 {
-    return point->layout ? factor_packed(memory, point) : factor_dense(memory, point, point->terms.M);
+    schur *self = memory;
+    if (self->many) return zd_structured_factor(self->many, point, 1);
+    return point->layout ? factor_packed(self, point) : factor_dense(self, point, point->terms.M);
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */
@@ -234,17 +255,20 @@ static void refine(const schur *self, const double *rhs, double *x)
     for (int k = 0; k < self->m; k++) self->b[k] += rest[k];
 }
 
-static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
+static void solve_dense(schur *self, const double *force, const double *rhs, double *x, double *lambda)
 {
-    schur *self = memory;
-    if (self->is_coupled) {
-        zd_coupling_solve(self->coupling, force, rhs, x, lambda);
-        return;
-    }
     ZD_SIZED(zd_forward, self->m, self->G, rhs, self->b);                   /* z */
     ZD_SIZED(exchange, self->n, self, force, self->b, x);
     if (force) refine(self, rhs, x);
     if (lambda) ZD_SIZED(zd_backward, self->m, self->G, self->b, lambda);
+}
+
+static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
+{
+    schur *self = memory;
+    if (self->many) zd_structured_solve(self->many, force, rhs, x, lambda);
+    else if (self->is_coupled) zd_coupling_solve(self->coupling, force, rhs, x, lambda);
+    else solve_dense(self, force, rhs, x, lambda);
 }
 
 const zd_formulation zd_schur = {
@@ -260,6 +284,7 @@ const zd_formulation zd_schur = {
     },
     ZD_DEPENDENT_STATE,
     .inverts_mass = 1,
+    .takes_many_rows = 1,
     .take = take,
     .finds_rows = finds_rows,
     .factor = factor,

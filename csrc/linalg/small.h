@@ -145,6 +145,26 @@ ZD_INLINE int zd_cholesky(const int n, const double *M, double *L)
     return n;
 }
 
+/* L^-T D^-1 L^-1 in place of these factors, both triangles. Where a pivot is left out, its reciprocal and what is below it being zero, so
+ * are its row and column. */
+ZD_INLINE void zd_invert(const int n, double *L)
+{
+    for (int j = 0; j < n; j++)             /* L^-1 in place of L */
+        for (int i = j + 1; i < n; i++) {
+            double sum = -L[i * n + j];
+            for (int k = j + 1; k < i; k++) sum -= L[i * n + k] * L[k * n + j];
+            L[i * n + j] = sum;
+        }
+    for (int i = 0; i < n; i++)             /* and the product, whose row i needs those below it alone */
+        for (int j = 0; j <= i; j++) {
+            double sum = L[i * n + i] * (i == j ? 1 : L[i * n + j]);
+            for (int k = i + 1; k < n; k++) sum += L[k * n + i] * L[k * n + k] * L[k * n + j];
+            L[j * n + i] = sum;
+        }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) L[i * n + j] = L[j * n + i];
+}
+
 /* x <- L^-1 b; x may be b */
 ZD_INLINE void zd_forward(const int n, const double *L, const double *b, double *x)
 {

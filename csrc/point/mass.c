@@ -29,3 +29,12 @@ int zd_mass_factor(const zd_point *point, double *L)
     }
     return n;
 }
+
+/* A diagonal block is its own reciprocals already. */
+void zd_mass_invert(const zd_layout *layout, double *L)
+{
+    for (int b = 0; b < layout->blocks; b++) {
+        int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
+        if (!layout->is_diagonal[b]) ZD_SIZED(zd_invert, n, L + layout->M_at[b]);
+    }
+}

@@ -30,9 +30,12 @@ static int lacks(const zd_system *system, int terms) { return (system->provides 
 static const char *wrong_system(const zd_system *system)
 {
     int nq = system->nq, nv = system->nv, mh = system->mh, mn = system->mn;
+    const int largest = system->structure ? ZD_LARGEST_PACKED : ZD_LARGEST;
     const rule rules[] = {
-        {!(nq >= 1 && nq <= ZD_LARGEST && nv >= 1 && nv <= ZD_LARGEST), "a system has 1 to 8192 coordinates, and as many velocities"},
-        {!(mh >= 0 && mh <= ZD_LARGEST && mn >= 0 && mn <= ZD_LARGEST), "a system has at most 8192 constraints of each kind"},
+        {!(nq >= 1 && nq <= largest && nv >= 1 && nv <= largest), "a system has 1 to 8192 coordinates, and as many velocities; "
+         "1048576 where its structure is declared"},
+        {!(mh >= 0 && mh <= largest && mn >= 0 && mn <= largest), "a system has at most 8192 constraints of each kind; 1048576 where its structure "
+         "is declared"},
         {!lacks(system, ZD_COMPLEMENT) && (double)mh + mn > nv, "a complement is for at most as many constraints as velocities"},
         {system->scratch < 0 || system->scratch > ZD_LARGEST * ZD_LARGEST, "the scratch of a system is no size"},
         {!system->evaluate || lacks(system, ZD_M), "a system has a function that evaluates it, and a mass matrix"},
@@ -153,6 +156,12 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     int status = zd_check_system(system, message, size);
     if (!status) status = refuse(wrong_rows(settings), message, size);
     if (!status) status = check_given(system, settings, message, size);
+    if (!status && !zd_formulation_of(settings->formulation)->takes_many_rows && zd_is_too_large(system)) {
+        snprintf(message, (size_t)size, "'%s' has dense matrices: it takes systems that declare their structure up to %d velocities, and here there "
+                 "are %d; 'schur', 'augmented' and 'nullspace' take them at a cost that follows the bodies",
+                 zd_formulation_of(settings->formulation)->card.name, ZD_MOST_IMPLICIT, system->nv);
+        return ZD_UNSUITED;
+    }
     return status ? status : refuse(wrong_events(settings->events), message, size);
 }
 

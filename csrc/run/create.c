@@ -87,7 +87,7 @@ static int find_rank(zd_motion *motion, enum zd_on_singular on_singular)
 {
     if (!zd_constraints(&motion->system)) return ZD_DONE;
     int status = zd_redundancy_prepare(motion->point);
-    if (!status) status = zd_motion_find_rows(motion);
+    if (!status && !motion->point->rank->is_large) status = zd_motion_find_rows(motion);
     return status == ZD_CALLBACK ? status : zd_redundancy_find(motion->point, on_singular);
 }
 

@@ -21,6 +21,8 @@ static int refuse(text message, const char *sentence, ...)
     return ZD_BAD_ARGUMENT;
 }
 
+static const double LARGEST_MATRICES = 0x1p28;      /* so that places in them are ints */
+
 static int is_no_size(int scratch) { return scratch < 0 || scratch > ZD_LARGEST * ZD_LARGEST; }
 
 static int is_no_count(int count) { return count < 0 || count > ZD_LARGEST; }
@@ -81,12 +83,28 @@ static int check_groups_of_rows(const zd_system *system, text message)
     return refuse(message, "structure: its groups have %d rows, and the system has %d", rows, m);
 }
 
+/* In all blocks of A, M and C; each may be larger than an int has room for. */
+static double numbers_in(const zd_structure *structure)
+{
+    double numbers = 0;
+    for (int b = 0; b < structure->blocks; b++)
+        numbers += ((double)structure->coordinates[b] + structure->velocities[b]) * structure->velocities[b];
+    for (int g = 0; g < structure->groups; g++)
+        for (int i = structure->first[g]; i < structure->first[g + 1]; i++)
+            numbers += (double)structure->rows[g] * structure->velocities[structure->block[i]];
+    return numbers;
+}
+
 static int check_structure(const zd_system *system, text message)
 {
     if (!system->structure) return ZD_DONE;
     if (system->provides & ZD_COMPLEMENT) return refuse(message, "structure: a system with structure has no complement D of its own");
     int status = check_blocks(system, message);
-    return status ? status : check_groups_of_rows(system, message);
+    if (!status) status = check_groups_of_rows(system, message);
+    if (!status && numbers_in(system->structure) > LARGEST_MATRICES)
+        return refuse(message, "structure: blocks and groups have %.3g numbers in all, and may have %.3g", numbers_in(system->structure),
+                      LARGEST_MATRICES);
+    return status;
 }
 
 /* ---- what else there is ---- */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "../constraints/rows.h"
+#include "../constraints/surplus.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/mass.h"
@@ -125,6 +126,22 @@ static int check_singular_mass(zd_run *run, double *factor)
     return ZD_NOT_DEFINITE;
 }
 
+/* The same of a structure with many rows, whose leading matrix is definite where what has no mass is held. */
+static int check_blocks(zd_run *run)
+{
+    const zd_point *point = run->motion.point;
+    for (int i = 0; i < run->motion.system.nv; i++) {
+        if (zd_entry_of_M(point, i, i) >= 0) continue;
+        run->motion.point->failed_index = i;
+        return ZD_NOT_DEFINITE;
+    }
+    const int status = zd_motion_factor(&run->motion);
+    if (status == ZD_NOT_DEFINITE)
+        snprintf(run->outcome.message, sizeof run->outcome.message, "the mass matrix is singular, and no constraint holds what has no mass "
+                 "(first seen at velocity %d)", point->failed_index);
+    return status;
+}
+
 static int check_mass(zd_run *run, double *factor)
 {
     zd_point *point = run->motion.point;
@@ -134,6 +151,7 @@ static int check_mass(zd_run *run, double *factor)
     point->failed_index = zd_mass_factor(point, factor);
     if (point->failed_index == n) return ZD_DONE;
     if (run->motion.formulation->inverts_mass) return ZD_NOT_DEFINITE;
+    if (point->rank->is_large) return check_blocks(run);
     double *dense = zd_allocate((size_t)n * (size_t)n * sizeof *dense);
     status = dense ? check_singular_mass(run, dense) : ZD_NO_MEMORY;
     zd_release(dense);
@@ -171,6 +189,7 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);
     if (!status) status = zd_motion_accelerate(motion);
+    if (!status && zd_constraints(&motion->system)) status = zd_surplus_check(motion->point);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (!status && run->settings.events) status = zd_watch_start(&run->watch);

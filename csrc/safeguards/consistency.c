@@ -78,9 +78,7 @@ static double scattered(uint64_t place)
 /* What goes with a step of one in the direction of velocity i, or of time, which is the last: so much that all of them weigh alike. */
 static double unit(const zd_consistency *self, int i)
 {
-    const zd_point *point = self->motion->point;
-    if (i < self->motion->system.nv) return point->unit[i];
-    return 1 / (zd_max_scaled(self->motion->system.nv, point->v, point->inverse_unit) + self->slowest);
+    return i < self->motion->system.nv ? self->motion->point->unit[i] : self->of_time;
 }
 
 /* Phi, on its own memory, at so much of the direction from where the point is: which stays as it is. */
@@ -179,6 +177,7 @@ int zd_consistency_jacobian(zd_consistency *self, int64_t step)
     if (!self->compares) return ZD_DONE;
     int n = self->motion->system.nv, status = zd_point_need(self->motion->point, ZD_A | ZD_C | ZD_PHI_T);
     if (status) return status;
+    self->of_time = 1 / (zd_max_scaled(n, self->motion->point->v, self->motion->point->inverse_unit) + self->slowest);
     for (int i = 0; i <= n; i++) self->direction[i] = unit(self, i) * scattered((uint64_t)step * (uint64_t)(n + 1) + (uint64_t)i);
     set_rates(self);
     status = differentiate(self, -SHORT, SHORT);

@@ -8,6 +8,7 @@ typedef struct zd_consistency {
     zd_motion *motion;
     int compares;           /* whether derivatives of Phi are compared with those that are given; else there is no memory for it */
     double slowest;         /* 1/s: of the rates, in natural units, that count: one unit over the whole run */
+    double of_time;         /* what goes with a step of one in the direction of time, see consistency.c */
     double *direction;      /* (nv + 1,): w, s */
     double *pdot, *p;       /* (nq,): A w; displaced */
     double *Phi, *quotient, *central;   /* (mh,) */

@@ -17,6 +17,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/look.h"
 #include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
@@ -30,7 +31,9 @@ static const double NEARBY = 1e-3;  /* in natural units: a larger violation says
 
 static void *take_memory(zd_arena *arena, const void *of)
 {
-    const zd_system *system = of;
+    const zd_motion *motion = of;
+    const zd_system *system = &motion->system;
+    const int has_turn = !motion->formulation->takes_many_rows || !zd_rank_is_of_many(system);
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     zd_crossing_memory self = {
         .C = zd_take_doubles(arena, stored),
@@ -38,7 +41,7 @@ static void *take_memory(zd_arena *arena, const void *of)
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .p1 = zd_take_doubles(arena, (size_t)system->nq),
         .v1 = zd_take_doubles(arena, n),
-        .turn = zd_take_doubles(arena, m * m),
+        .turn = zd_take_doubles(arena, has_turn ? m * m : 0),
         .order = zd_take(arena, m * sizeof(int)),
         .scratch = zd_take_doubles(arena, (size_t)system->scratch),
     };
@@ -50,7 +53,7 @@ static int are_few(const zd_system *system) { return zd_constraints(system) <= Z
 zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
     const zd_system *system = &motion->system;
-    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? take_memory(arena, system) : NULL};
+    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? take_memory(arena, motion) : NULL};
 }
 
 int zd_crossing_is_at_one(const zd_point *point)
@@ -80,7 +83,7 @@ static void store_rows(const zd_point *point, double *C)
 
 static int need_memory(zd_crossing *self)
 {
-    if (!self->memory) self->memory = zd_store_take(&self->motion->store, take_memory, &self->motion->system);
+    if (!self->memory) self->memory = zd_store_take(&self->motion->store, take_memory, self->motion);
     return self->memory ? ZD_DONE : ZD_NO_MEMORY;
 }
 
@@ -211,7 +214,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
 {
     zd_motion *motion = self->motion;
     zd_point *point = motion->point;
-    if (!point->rank->m) return ZD_DONE;
+    if (!point->rank->m || point->rank->is_large) return ZD_DONE;
     int is_kept = 1;
     /* What the next step begins with is evaluated at once. */
     int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, motion->acceleration_needs);
@@ -221,6 +224,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
         self->has_begun = self->has_rows = 0;
         return ZD_DONE;
     }
+    zd_look_compare(point);
     const int may_differ = point->rank->was_turned || moved > LONG * LONG || are_few(&motion->system);
     if (self->has_begun && !self->may_pass && may_differ) status = compare(self, h, moved, &is_kept);
     if (!status && !is_kept) status = judge(self);

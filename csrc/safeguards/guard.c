@@ -19,6 +19,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
@@ -158,6 +159,16 @@ ZD_INLINE void keep(zd_guard *guard, double speed, int64_t next_step)
     guard->has_begun = 1;
 }
 
+/* The most that a coordinate has moved: of many, all together move far in any step. */
+static double largest_move(const zd_guard *guard)
+{
+    const zd_point *point = guard->motion->point;
+    double largest = 0;
+    for (int i = 0; i < point->system->nq; i++)
+        largest = fmax(largest, fabs(point->p[i] - guard->last->p[i]) * point->inverse_unit_p[i]);
+    return largest;
+}
+
 int zd_guard_begin(zd_guard *guard, int64_t step)
 {
     const zd_point *point = guard->motion->point;
@@ -176,7 +187,7 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
     if (!guard->checks_branch) return ZD_DONE;
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
-    if (sum.moved <= LONG * LONG) return ZD_DONE;
+    if (sum.moved <= LONG * LONG || (point->rank->is_large && largest_move(guard) <= LONG)) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
     return status ? status : unresolved ? ZD_BRANCH : ZD_DONE;
 }

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-extern const zd_formulation zd_augmented;
+extern const zd_formulation zd_augmented_dense;
 
 static int is_held(const zd_hold *hold)
 {
@@ -23,7 +23,7 @@ zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integ
 {
     int loses = motion->formulation->settle && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&motion->hold)) return (zd_variables){NULL, NULL, 0};
-    return (zd_variables){&zd_augmented, NULL, zd_augmented.state_size(independent)};
+    return (zd_variables){&zd_augmented_dense, NULL, zd_augmented_dense.state_size(independent)};
 }
 
 /* In place of the others; of the state, what is integrated along. */
@@ -43,7 +43,7 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
 
 static void *take_solver(zd_arena *arena, const void *independent)
 {
-    return zd_augmented.take(arena, independent, NULL);
+    return zd_augmented_dense.take(arena, independent, NULL);
 }
 
 int zd_variables_use_dependent(zd_stepper *stepper)

@@ -65,6 +65,8 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     It is to write the terms it is said to have, all of each, and nothing else.
     """
     shapes = {name: core.stored(name) for name in TERMS} | {"scratch": (core.c.scratch,)}
+    if core.c.structure:        # then there is no D, which would be dense
+        shapes["D"] = (0,)
     memory = {name: np.full(int(np.prod(shape)) + 2 * GUARD, UNWRITTEN) for name, shape in shapes.items()}
     terms = ffi.new("zd_terms *")
     for name, array in memory.items():

@@ -1,0 +1,137 @@
+/* Rows that follow from others at the start, of a structure with many rows, at a cost that follows these.
+ *
+ * In the metric of natural units, pivots of S = C U^2 C^T are the squares of what is left of each row once those eliminated before are taken
+ * out: of a row that follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random
+ * velocity is projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that
+ * follows from them, too, and with probability one no other.
+ */
+#include "surplus.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../point/matrices.h"
+#include "../point/weighted.h"
+
+enum { PROJECTIONS = 6 };
+static const double LITTLE = 0x1p-20;   /* of the square of a row: what is left of one that may follow from others */
+static const double MOVED = 0x1p-28;    /* of what its terms are: a row that the projected velocity satisfies */
+static const double AGREES = 0x1p-20;   /* of the terms of (6): the accelerations satisfy it */
+
+typedef struct search {
+    zd_store store;
+    zd_weighted *weighted;
+    double *U;              /* stored as M is: squares of the natural units */
+    double *x, *change;     /* (nv,) */
+    unsigned char *aside;   /* (m,) */
+} search;
+
+static void *take(zd_arena *arena, const void *of)
+{
+    const zd_system *system = of;
+    search self = {
+        .U = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
+        .x = zd_take_doubles(arena, (size_t)system->nv),
+        .change = zd_take_doubles(arena, (size_t)system->nv),
+        .aside = zd_take(arena, (size_t)zd_constraints(system)),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static void set_metric(const zd_point *point, double *U)
+{
+    const zd_layout *layout = point->layout;
+    zd_set_identity(point->system, U);
+    for (int b = 0; b < layout->blocks; b++) {
+        const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+        for (int i = 0; i < n; i++) U[layout->M_at[b] + (layout->is_diagonal[b] ? i : i * (n + 1))] = point->unit[first + i] * point->unit[first + i];
+    }
+}
+
+/* x <- x - U^2 C^T S^-1 C x, with the rows that are not aside */
+static void project(search *self, const zd_point *point)
+{
+    double *y = self->weighted->blocks->x;
+    const int n = point->system->nv;
+    zd_weighted_times(self->weighted, point->terms.C, self->x, NULL, y);
+    zd_weighted_solve(self->weighted, y);
+    memset(self->change, 0, (size_t)n * sizeof *self->change);
+    zd_weighted_subtract_transposed(self->weighted, point->terms.C, y, self->change);
+    for (int i = 0; i < n; i++) self->x[i] += point->unit[i] * point->unit[i] * self->change[i];
+}
+
+/* Whether x satisfies the row. */
+static int is_satisfied(const zd_row_of_C *row, const double *x, double target, double share)
+{
+    double sum = -target, size = fabs(target);
+    for (int j = 0; j < row->count; j++) {
+        sum += row->x[j] * x[row->column[j]];
+        size += fabs(row->x[j] * x[row->column[j]]);
+    }
+    return fabs(sum) <= share * size;
+}
+
+/* Puts rows back that the projected velocity does not satisfy; returns how many are left aside. */
+static int judge(search *self, const zd_point *point, int *holonomic)
+{
+    int count = *holonomic = 0;
+    for (int k = 0; k < zd_constraints(point->system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        if (!is_satisfied(&row, self->x, 0, MOVED)) self->aside[k] = 0;
+        count += self->aside[k];
+        *holonomic += self->aside[k] && k < point->system->mh;
+    }
+    return count;
+}
+
+static void *take_note(zd_arena *arena, const void *system) { return zd_take(arena, (size_t)zd_constraints(system)); }
+
+static int note(search *self, zd_point *point)
+{
+    zd_rank *rank = point->rank;
+    int holonomic, count = judge(self, point, &holonomic);
+    if (!count) return ZD_DONE;
+    rank->left_out = zd_store_take(rank->store, take_note, point->system);
+    if (!rank->left_out) return ZD_NO_MEMORY;
+    memcpy(rank->left_out, self->aside, (size_t)zd_constraints(point->system));
+    rank->most_rows -= count;
+    rank->most_holonomic -= holonomic;
+    return ZD_DONE;
+}
+
+static int find(search *self, zd_point *point)
+{
+    unsigned seed = 1;
+    set_metric(point, self->U);
+    (void)zd_weighted_leave_out(self->weighted, point->terms.C, self->U, LITTLE, self->aside);
+    int any = 0;
+    for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
+    if (!any) return ZD_DONE;
+    for (int i = 0; i < point->system->nv; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        self->x[i] = point->unit[i] * ((double)(seed >> 8) * 0x1p-23 - 1);
+    }
+    for (int i = 0; i < PROJECTIONS; i++) project(self, point);
+    return note(self, point);
+}
+
+int zd_surplus_find(zd_point *point)
+{
+    zd_store store = {NULL};
+    search *self = zd_store_take(&store, take, point->system);
+    if (self) self->weighted = zd_weighted_create(&store, point->layout);
+    const int status = self && self->weighted ? find(self, point) : ZD_NO_MEMORY;
+    zd_store_release(&store);
+    return status;
+}
+
+int zd_surplus_check(zd_point *point)
+{
+    for (int k = 0; point->rank->left_out && k < zd_constraints(point->system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        if (!point->rank->left_out[k] || is_satisfied(&row, point->vdot, point->terms.xi[k], AGREES)) continue;
+        point->failed_index = k;
+        return ZD_CONTRADICTION;
+    }
+    return ZD_DONE;
+}

@@ -1,0 +1,28 @@
+/* M x + C^T lambda = force, C x = rhs by elimination of bodies, where M is singular or rows of C follow from others. */
+#ifndef ZD_BODYWISE_H
+#define ZD_BODYWISE_H
+
+#include "../linalg/blocks.h"
+#include "../point/point.h"
+
+typedef struct zd_bodywise {
+    const zd_layout *layout;
+    zd_blocks *blocks;      /* M + C^T W C: block rows are bodies */
+    int *body_at;           /* (blocks of M,) where the velocities of each body stand in a right side of it */
+    int *pair;              /* for each group, its bodies and those of these before it or it itself: the block that takes their product */
+    double *weight;         /* (m,): W */
+    double *inverse;        /* stored as M is: M^-1, for the weights */
+    double *unbalanced, *step;  /* (n,), (n,) */
+    double *rest, *lambda;  /* (m,), (m,) */
+    const double *C;        /* of the point where it was factored */
+    const zd_point *point;
+} zd_bodywise;
+
+/* All that is symbolic, and memory for the factors; NULL where there is none. */
+zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point);
+/* ZD_NOT_DEFINITE: what has no mass is not held. */
+int zd_bodywise_factor(zd_bodywise *self, zd_point *point);
+/* As the solve of formulation.h. */
+void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs, double *x, double *lambda);
+
+#endif

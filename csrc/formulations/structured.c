@@ -1,0 +1,36 @@
+/* (8), (9) and (13) are the same equations, and their elimination is: of the rows, (13), as long as M is definite and no row follows from
+ * others; of the bodies else. So these formulations differ in what they take, and in nothing else, where matrices are not formed. */
+#include "structured.h"
+
+#include "../constraints/rows.h"
+
+zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system)
+{
+    if (!zd_rank_is_of_many(system)) return NULL;
+    zd_structured self = {.coupling = zd_coupling_take(arena, system)};
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int factor_bodywise(zd_structured *self, zd_point *point)
+{
+    if (!self->bodywise) self->bodywise = zd_bodywise_create(point->rank->store, point);
+    return self->bodywise ? zd_bodywise_factor(self->bodywise, point) : ZD_NO_MEMORY;
+}
+
+int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
+{
+    const zd_rank *rank = point->rank;
+    int status = ZD_DEPENDENT_ROWS;
+    zd_rows_use_all(point);
+    self->is_coupled = rank->most_rows == rank->m && rank->m <= rank->n;
+    if (self->is_coupled) status = zd_coupling_factor(self->coupling, point);
+    if (!status || (status == ZD_NOT_DEFINITE && inverts_mass) || (status != ZD_NOT_DEFINITE && status != ZD_DEPENDENT_ROWS)) return status;
+    self->is_coupled = 0;
+    return factor_bodywise(self, point);
+}
+
+void zd_structured_solve(zd_structured *self, const double *force, const double *rhs, double *x, double *lambda)
+{
+    if (self->is_coupled) zd_coupling_solve(self->coupling, force, rhs, x, lambda);
+    else zd_bodywise_solve(self->bodywise, force, rhs, x, lambda);
+}

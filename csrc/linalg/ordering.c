@@ -1,0 +1,257 @@
+/* Minimum degree: next is always the block row that is coupled with fewest others by then (George and Liu, The evolution of the minimum
+ * degree ordering algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row joins all
+ * cliques that it is in to one, which has its column of the factor as members. So there is no more to keep than the factor has.
+ *
+ * Of equal ones, that is taken which has waited longest. This eliminates a chain from both ends at once, and next to each other what is
+ * not coupled: the machine then need not wait for one product before it begins the next.
+ */
+#include "ordering.h"
+
+#include <string.h>
+
+#include "../workspace.h"
+
+enum { LARGEST_DEGREE = 4095 };     /* of which degrees are told apart */
+
+/* Block rows by degree, in the order in which they came to it. */
+typedef struct queues {
+    int lowest;
+    int *first, *last;      /* (LARGEST_DEGREE + 1,): -1: there is none */
+    int *before, *after;    /* (count,) */
+} queues;
+
+typedef struct search {
+    const zd_pattern *pattern;
+    int *degree;            /* (count,): -1: it is eliminated */
+    int *in_at, *in;        /* (count + 1,), (members,): the cliques that each is in: given ones first, then those that eliminations make */
+    int *in_count;          /* (count,) */
+    int *marked;            /* (count,): when it was last met */
+    int mark;
+    int *gone;              /* (cliques + count,): whether a clique has been joined to another */
+    queues waiting;
+    int *members;           /* of the cliques that eliminations make, one behind the other */
+    int used, capacity;
+    int *begin;             /* (count + 1,): of these */
+} search;
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+/* ---- queues ---- */
+
+static void append(queues *self, int degree, int k)
+{
+    self->before[k] = self->last[degree];
+    self->after[k] = -1;
+    if (self->last[degree] < 0) self->first[degree] = k;
+    else self->after[self->last[degree]] = k;
+    self->last[degree] = k;
+    self->lowest = least(self->lowest, degree);
+}
+
+static void take_away(queues *self, int degree, int k)
+{
+    if (self->before[k] < 0) self->first[degree] = self->after[k];
+    else self->after[self->before[k]] = self->after[k];
+    if (self->after[k] < 0) self->last[degree] = self->before[k];
+    else self->before[self->after[k]] = self->before[k];
+}
+
+static int next_of(queues *self)
+{
+    while (self->first[self->lowest] < 0) self->lowest++;
+    int k = self->first[self->lowest];
+    take_away(self, self->lowest, k);
+    return k;
+}
+
+/* ---- the search ---- */
+
+static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+
+static search lay_out(zd_arena *arena, const zd_pattern *pattern)
+{
+    const int count = pattern->count;
+    return (search){
+        .pattern = pattern,
+        .degree = take_ints(arena, count),
+        .in_at = take_ints(arena, count + 1),
+        .in = take_ints(arena, pattern->begin[pattern->cliques]),
+        .in_count = take_ints(arena, count),
+        .marked = take_ints(arena, count),
+        .gone = take_ints(arena, pattern->cliques + count),
+        .waiting = {
+            .first = take_ints(arena, LARGEST_DEGREE + 1),
+            .last = take_ints(arena, LARGEST_DEGREE + 1),
+            .before = take_ints(arena, count),
+            .after = take_ints(arena, count),
+        },
+        .begin = take_ints(arena, count + 1),
+    };
+}
+
+/* The members of a clique: a given one, or the column of the block row with the number that is left when those are counted off. */
+static const int *members_of(const search *self, const int *column, int clique, int *count)
+{
+    const zd_pattern *pattern = self->pattern;
+    const int given = clique < pattern->cliques, step = given ? 0 : column[clique - pattern->cliques];
+    const int *begin = given ? pattern->begin + clique : self->begin + step;
+    *count = begin[1] - begin[0];
+    return (given ? pattern->member : self->members) + begin[0];
+}
+
+/* The rows that block row k is still coupled with. */
+static int degree_of(search *self, const int *column, int k)
+{
+    int degree = 0, count;
+    self->marked[k] = ++self->mark;
+    for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++) {
+        const int *member = members_of(self, column, self->in[i], &count);
+        for (int j = 0; j < count; j++) {
+            const int other = member[j];
+            if (self->degree[other] < 0 || self->marked[other] == self->mark) continue;
+            self->marked[other] = self->mark;
+            degree += self->pattern->size[other];
+        }
+    }
+    return least(degree, LARGEST_DEGREE);
+}
+
+static void begin_search(search *self, const int *column)
+{
+    const zd_pattern *pattern = self->pattern;
+    for (int i = 0; i < pattern->begin[pattern->cliques]; i++) self->in_at[pattern->member[i] + 1]++;
+    for (int k = 0; k < pattern->count; k++) self->in_at[k + 1] += self->in_at[k];
+    for (int c = 0; c < pattern->cliques; c++)
+        for (int i = pattern->begin[c]; i < pattern->begin[c + 1]; i++) {
+            const int k = pattern->member[i];
+            self->in[self->in_at[k] + self->in_count[k]++] = c;
+        }
+    for (int d = 0; d <= LARGEST_DEGREE; d++) self->waiting.first[d] = self->waiting.last[d] = -1;
+    for (int k = 0; k < pattern->count; k++) append(&self->waiting, self->degree[k] = degree_of(self, column, k), k);
+}
+
+/* Room for as many more members as block rows are left, at the most. */
+static int grow(search *self, int more)
+{
+    if (self->used + more <= self->capacity) return 1;
+    const int capacity = 2 * (self->used + more);
+    int *members = zd_allocate((size_t)capacity * sizeof(int));
+    if (!members) return 0;
+    if (self->used) memcpy(members, self->members, (size_t)self->used * sizeof(int));
+    zd_release(self->members);
+    self->members = members;
+    self->capacity = capacity;
+    return 1;
+}
+
+/* The cliques that k is in are joined to one, without k. Returns 0 where there is no memory. */
+static int join_cliques(search *self, const int *column, int k, int step)
+{
+    int room = 0, count;
+    for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++) (void)members_of(self, column, self->in[i], &count), room += count;
+    if (!grow(self, room)) return 0;
+    self->marked[k] = ++self->mark;
+    for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++) {
+        const int *member = members_of(self, column, self->in[i], &count);
+        for (int j = 0; j < count; j++) {
+            if (self->degree[member[j]] < 0 || self->marked[member[j]] == self->mark) continue;
+            self->marked[member[j]] = self->mark;
+            self->members[self->used++] = member[j];
+        }
+        self->gone[self->in[i]] = 1;
+    }
+    self->begin[step + 1] = self->used;
+    return 1;
+}
+
+/* Each member of the new clique is in that, and not any more in those that were joined. */
+static void enter_clique(search *self, const int *column, int k, int step)
+{
+    for (int j = self->begin[step]; j < self->begin[step + 1]; j++) {
+        const int i = self->members[j];
+        int *in = self->in + self->in_at[i], kept = 0;
+        for (int c = 0; c < self->in_count[i]; c++)
+            if (!self->gone[in[c]]) in[kept++] = in[c];
+        in[kept++] = self->pattern->cliques + k;
+        self->in_count[i] = kept;
+    }
+    for (int j = self->begin[step]; j < self->begin[step + 1]; j++) {
+        const int i = self->members[j], now = degree_of(self, column, i);
+        if (now == self->degree[i]) continue;
+        take_away(&self->waiting, self->degree[i], i);
+        append(&self->waiting, self->degree[i] = now, i);
+    }
+}
+
+static int eliminate_all(search *self, int *place)
+{
+    begin_search(self, place);
+    for (int step = 0; step < self->pattern->count; step++) {
+        const int k = next_of(&self->waiting);
+        self->degree[k] = -1;
+        place[k] = step;
+        if (!join_cliques(self, place, k, step)) return 0;
+        enter_clique(self, place, k, step);
+    }
+    return 1;
+}
+
+/* ---- the result ---- */
+
+/* Places of the members, in increasing order in each column: columns are met in order by those that they have below the diagonal. */
+static void sort_columns(const search *self, zd_ordering *to, int *next)
+{
+    const int count = to->count, *begin = self->begin;
+    int *at = next + count, *column = at + count + 1;
+    for (int i = 0; i < begin[count]; i++) at[to->place[self->members[i]] + 1]++;
+    for (int k = 0; k < count; k++) at[k + 1] += at[k], next[k] = at[k];
+    for (int k = 0; k < count; k++)
+        for (int i = begin[k]; i < begin[k + 1]; i++) column[next[to->place[self->members[i]]]++] = k;
+    memcpy(to->begin, begin, (size_t)(count + 1) * sizeof(int));
+    memcpy(next, begin, (size_t)count * sizeof(int));
+    for (int r = 0; r < count; r++)
+        for (int i = at[r]; i < at[r + 1]; i++) to->row[next[column[i]]++] = r;
+}
+
+static int keep_columns(const search *self, zd_ordering *to)
+{
+    const size_t count = (size_t)to->count, entries = (size_t)self->begin[to->count];
+    int *next = zd_allocate((2 * count + 1 + entries) * sizeof(int));
+    to->row = zd_allocate(entries * sizeof(int));
+    if (next && to->row) sort_columns(self, to, next);
+    zd_release(next);
+    return next && to->row;
+}
+
+int zd_ordering_find(const zd_pattern *pattern, zd_ordering *ordering)
+{
+    const size_t count = (size_t)pattern->count;
+    zd_arena counting = {NULL, 0};
+    lay_out(&counting, pattern);
+    *ordering = (zd_ordering){
+        .count = pattern->count,
+        .place = zd_allocate(count * sizeof(int)),
+        .size = zd_allocate(count * sizeof(int)),
+        .begin = zd_allocate((count + 1) * sizeof(int)),
+    };
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    int found = arena.base && ordering->place && ordering->size && ordering->begin;
+    if (found) {
+        search it = lay_out(&arena, pattern);
+        found = eliminate_all(&it, ordering->place) && keep_columns(&it, ordering);
+        zd_release(it.members);
+        for (size_t i = 0; i < count; i++) ordering->size[ordering->place[i]] = pattern->size[i];
+    }
+    zd_release(arena.base);
+    if (!found) zd_ordering_free(ordering);
+    return found;
+}
+
+void zd_ordering_free(zd_ordering *ordering)
+{
+    zd_release(ordering->place);
+    zd_release(ordering->size);
+    zd_release(ordering->begin);
+    zd_release(ordering->row);
+    *ordering = (zd_ordering){.count = 0};
+}

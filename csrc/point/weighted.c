@@ -1,0 +1,347 @@
+/* The blocks of S(W) are those of groups of rows that touch a body both, S_gh = sum_b C_gb W_b C_hb^T.
+ *
+ * So all groups of a body are coupled with each other, and a body of many joints would cost the square of their number. It is taken as
+ * several bodies of an equal part of its mass instead, each with some of the joints and welded to the next: the motion is the same, the welds
+ * carry what they have to, and no block row of S is coupled with many. The rows of a weld are those of an identity on one part, and of its
+ * opposite on the other; as both parts move alike, it has no right side.
+ */
+#include "weighted.h"
+
+#include <string.h>
+
+#include "../linalg/small.h"
+
+enum {
+    MOST_TOUCHERS = 12,     /* of a body that is taken as one */
+    TOUCHERS_OF_COPY = 4,
+};
+
+/* ---- symbolic ---- */
+
+static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+
+static int touchers_of(const zd_layout *layout, int b) { return layout->toucher_at[b + 1] - layout->toucher_at[b]; }
+static int copies_of(const zd_layout *layout, int b)
+{
+    const int touchers = touchers_of(layout, b);
+    return touchers <= MOST_TOUCHERS ? 1 : (touchers + TOUCHERS_OF_COPY - 1) / TOUCHERS_OF_COPY;
+}
+static int velocities_of(const zd_layout *layout, int b) { return layout->velocity_at[b + 1] - layout->velocity_at[b]; }
+
+/* How much there is of what; a clique is a body or a copy of one. */
+typedef struct counts {
+    int rows, cliques, members, pairs, largest, largest_block;
+} counts;
+
+/* What touches copy i of a body: joints from `first` on, and up to two welds. */
+typedef struct part {
+    int first, joints, has_weld_before, has_weld_behind;
+} part;
+
+static part part_of(const zd_layout *layout, int b, int i)
+{
+    const int copies = copies_of(layout, b), begin = layout->toucher_at[b], touchers = touchers_of(layout, b);
+    if (copies == 1) return (part){begin, touchers, 0, 0};
+    const int before = i * TOUCHERS_OF_COPY, left = touchers - before;
+    return (part){begin + before, left < TOUCHERS_OF_COPY ? left : TOUCHERS_OF_COPY, i > 0, i + 1 < copies};
+}
+
+static int members_of(part it) { return it.joints + it.has_weld_before + it.has_weld_behind; }
+
+static counts count_all(const zd_layout *layout)
+{
+    counts all = {.rows = layout->groups};
+    for (int g = 0; g < layout->groups; g++) {
+        const int rows = layout->row_at[g + 1] - layout->row_at[g];
+        all.largest_block = rows > all.largest_block ? rows : all.largest_block;
+    }
+    for (int b = 0; b < layout->blocks; b++) {
+        const int copies = copies_of(layout, b), n = velocities_of(layout, b);
+        all.rows += copies - 1;
+        all.cliques += copies;
+        all.largest = n > all.largest ? n : all.largest;
+        for (int i = 0; i < copies; i++) {
+            const int members = members_of(part_of(layout, b, i));
+            all.members += members;
+            all.pairs += members * (members + 1) / 2;
+        }
+    }
+    if (all.largest > all.largest_block) all.largest_block = all.largest;
+    return all;
+}
+
+/* The pattern of S, on memory of its own: block rows are the groups, then the welds. */
+static zd_pattern lay_out_pattern(zd_arena *arena, const zd_layout *layout, const counts *all)
+{
+    int *size = take_ints(arena, all->rows), *begin = take_ints(arena, all->cliques + 1), *member = take_ints(arena, all->members);
+    zd_pattern pattern = {all->rows, size, all->cliques, begin, member};
+    if (!arena->base) return pattern;
+    for (int g = 0; g < layout->groups; g++) size[g] = layout->row_at[g + 1] - layout->row_at[g];
+    for (int b = 0, clique = 0, next = 0, weld = layout->groups; b < layout->blocks; b++)
+        for (int i = 0; i < copies_of(layout, b); i++) {
+            const part it = part_of(layout, b, i);
+            for (int j = 0; j < it.joints; j++) member[next++] = layout->toucher[it.first + j];
+            if (it.has_weld_before) member[next++] = weld++;
+            if (it.has_weld_behind) member[next++] = weld, size[weld] = velocities_of(layout, b);
+            begin[++clique] = next;
+        }
+    return pattern;
+}
+
+static zd_piece piece_of(const zd_weighted *self, int b, int toucher)
+{
+    const zd_layout *layout = self->layout;
+    const int g = layout->toucher[toucher];
+    return (zd_piece){
+        .C = layout->C_at[g] + layout->toucher_offset[toucher],
+        .stride = layout->width[g],
+        .rows = layout->row_at[g + 1] - layout->row_at[g],
+        .n = velocities_of(layout, b),
+        .row = layout->row_at[g],
+        .x = layout->velocity_at[b],
+        .y = self->row[g],
+        .W = layout->M_at[b],
+        .is_diagonal = layout->is_diagonal[b],
+        .copies = copies_of(layout, b),
+    };
+}
+
+static zd_piece weld_of(const zd_weighted *self, int b, int is_behind)
+{
+    const zd_layout *layout = self->layout;
+    const int n = velocities_of(layout, b), whole = self->largest * self->largest;
+    return (zd_piece){.C = is_behind ? 0 : whole, .stride = self->largest, .rows = n, .n = n, .W = layout->M_at[b],
+                      .is_diagonal = layout->is_diagonal[b], .copies = copies_of(layout, b), .is_weld = 1};
+}
+
+/* For bodies of the plane and of space, and two groups of as many rows. */
+static int kernel_of(const zd_piece *a, const zd_piece *b)
+{
+    const int is_plain = a->is_diagonal && a->copies == 1 && a->rows == b->rows;
+    const int is_known = a->n == 3 ? a->rows <= 3 : a->n == 6 && (a->rows == 3 || a->rows == 5 || a->rows == 6 || a->rows == 1);
+    return is_plain && is_known ? 10 * a->n + a->rows : 0;
+}
+
+/* The pairs of the pieces from `first` on, of the block rows that `member` has. */
+static void add_pairs(zd_weighted *self, const int *piece, const int *member, int members)
+{
+    const int *place = self->blocks->place;
+    for (int i = 0; i < members; i++)
+        for (int j = 0; j <= i; j++) {
+            const int is_later = place[member[i]] >= place[member[j]], a = piece[is_later ? i : j], b = piece[is_later ? j : i];
+            self->pair[self->pairs++] = (zd_pair){a, b, zd_blocks_find(self->blocks, member[i], member[j]),
+                                                  kernel_of(self->piece + a, self->piece + b)};
+        }
+}
+
+/* Pieces of the joints come first, those of welds stand behind all of them. */
+static void fill(zd_weighted *self, const zd_pattern *pattern)
+{
+    const zd_layout *layout = self->layout;
+    const int joints = layout->toucher_at[layout->blocks];
+    int weld = joints, clique = 0, piece[MOST_TOUCHERS + 2];
+    for (int b = 0; b < layout->blocks; b++)
+        for (int i = 0; i < copies_of(layout, b); i++, clique++) {
+            const part it = part_of(layout, b, i);
+            int members = 0;
+            for (int j = 0; j < it.joints; j++) {
+                self->piece[self->pieces] = piece_of(self, b, it.first + j);
+                piece[members++] = self->pieces++;
+            }
+            if (it.has_weld_before) self->piece[weld] = weld_of(self, b, 0), piece[members++] = weld++;
+            if (it.has_weld_behind) self->piece[weld] = weld_of(self, b, 1), piece[members++] = weld++;
+            add_pairs(self, piece, pattern->member + pattern->begin[clique], members);
+        }
+    for (int i = 0; i < self->largest; i++) {
+        self->weld[i * (self->largest + 1)] = 1;
+        self->weld[i * (self->largest + 1) + self->largest * self->largest] = -1;
+    }
+}
+
+typedef struct plan {       /* what memory is laid out from */
+    const zd_layout *layout;
+    counts all;
+    zd_pattern pattern;
+    zd_ordering ordering;
+} plan;
+
+static void *take(zd_arena *arena, const void *of)
+{
+    const plan *it = of;
+    const int joints = it->layout->toucher_at[it->layout->blocks], welds = it->all.rows - it->layout->groups, largest = it->all.largest;
+    zd_weighted self = {
+        .layout = it->layout,
+        .blocks = zd_blocks_take(arena, &it->ordering),
+        .piece = zd_take(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
+        .pair = zd_take(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
+        .weld = zd_take_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
+        .largest = largest,
+        .row = take_ints(arena, it->layout->groups),
+        .product = zd_take_doubles(arena, (size_t)(it->all.largest_block * largest)),
+    };
+    if (!welds) self.largest = 0;
+    if (arena->base) {
+        for (int g = 0; g < it->layout->groups; g++) self.row[g] = self.blocks->at[self.blocks->place[g]];
+        fill(&self, &it->pattern);
+    }
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout)
+{
+    plan it = {.layout = layout, .all = count_all(layout)};
+    zd_arena counting = {NULL, 0};
+    lay_out_pattern(&counting, layout, &it.all);
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    if (!arena.base) return NULL;
+    it.pattern = lay_out_pattern(&arena, layout, &it.all);
+    zd_weighted *self = NULL;
+    if (zd_ordering_find(&it.pattern, &it.ordering)) {
+        self = zd_store_take(store, take, &it);
+        zd_ordering_free(&it.ordering);
+    }
+    zd_release(arena.base);
+    return self;
+}
+
+/* ---- S ---- */
+
+/* product (rows, n) <- A W of a body */
+ZD_INLINE void weigh(const int rows, const int n, const double *A, int stride, const double *W, double *product)
+{
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < n; j++) product[i * n + j] = A[i * stride + j] * W[j];
+}
+
+static void weigh_any(const zd_piece *a, const double *A, const double *W, double *product)
+{
+    const int n = a->n;
+    if (a->is_diagonal) weigh(a->rows, n, A, a->stride, W, product);
+    for (int i = 0; !a->is_diagonal && i < a->rows; i++)
+        for (int j = 0; j < n; j++) product[i * n + j] = zd_dot(n, A + i * a->stride, W + j * n);
+    for (int i = 0; a->copies > 1 && i < a->rows * n; i++) product[i] *= a->copies;
+}
+
+/* to (rows, columns) <- to + A B^T, A (rows, n) */
+ZD_INLINE void add_product(const int rows, const int columns, const int n, const double *A, const double *B, int stride, double *to)
+{
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++) to[i * columns + j] += zd_dot(n, A + i * n, B + j * stride);
+}
+
+ZD_INLINE void add_weighted(const int rows, const int n, const double *A, int stride, const double *W, const double *B, int stride_of_B, double *to)
+{
+    double product[ZD_UNROLLED * ZD_UNROLLED];
+    weigh(rows, n, A, stride, W, product);
+    add_product(rows, rows, n, product, B, stride_of_B, to);
+}
+
+static const double *entries(const zd_weighted *self, const zd_piece *piece, const double *C)
+{
+    return (piece->is_weld ? self->weld : C) + piece->C;
+}
+
+static void add_pair(zd_weighted *self, const zd_pair *pair, const double *C, const double *W)
+{
+    const zd_piece *a = self->piece + pair->a, *b = self->piece + pair->b;
+    double *to = self->blocks->S + pair->to;
+#define KERNEL(n, rows) \
+    case 10 * n + rows: add_weighted(rows, n, C + a->C, a->stride, W + a->W, C + b->C, b->stride, to); return;
+    switch (pair->kernel) {
+        KERNEL(3, 2)
+        KERNEL(3, 1)
+        KERNEL(3, 3)
+        KERNEL(6, 3)
+        KERNEL(6, 5)
+        KERNEL(6, 6)
+        KERNEL(6, 1)
+    default:
+        weigh_any(a, entries(self, a, C), W + a->W, self->product);
+        add_product(a->rows, b->rows, a->n, self->product, entries(self, b, C), b->stride, to);
+    }
+#undef KERNEL
+}
+
+static void fill_S(zd_weighted *self, const double *C, const double *W)
+{
+    zd_blocks_clear(self->blocks);
+    for (int i = 0; i < self->pairs; i++) add_pair(self, self->pair + i, C, W);
+}
+
+zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W)
+{
+    fill_S(self, C, W);
+    return zd_blocks_factor(self->blocks, NULL, 0);
+}
+
+zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
+{
+    const zd_layout *layout = self->layout;
+    unsigned char *in_order = zd_allocate((size_t)self->blocks->rows);
+    if (!in_order) return (zd_pivots){0, 0, 0, 1};
+    fill_S(self, C, W);
+    const zd_pivots pivots = zd_blocks_factor(self->blocks, in_order, least);
+    for (int g = 0; g < layout->groups; g++)
+        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) left_out[k] = in_order[i];
+    zd_release(in_order);
+    return pivots;
+}
+
+/* ---- products ---- */
+
+#define FOR_SIZES(kernel, piece, ...)                                                          \
+    switch ((piece)->n == 3 ? (piece)->rows : (piece)->n == 6 ? 10 + (piece)->rows : 0) {      \
+    case 2: kernel(2, 3, __VA_ARGS__); break;                                                  \
+    case 1: kernel(1, 3, __VA_ARGS__); break;                                                  \
+    case 3: kernel(3, 3, __VA_ARGS__); break;                                                  \
+    case 13: kernel(3, 6, __VA_ARGS__); break;                                                 \
+    case 15: kernel(5, 6, __VA_ARGS__); break;                                                 \
+    case 16: kernel(6, 6, __VA_ARGS__); break;                                                 \
+    default: kernel((piece)->rows, (piece)->n, __VA_ARGS__);                                   \
+    }
+
+ZD_INLINE void add_times(const int rows, const int n, const double *C, int stride, const double *x, double *y)
+{
+    for (int i = 0; i < rows; i++) y[i] += zd_dot(n, C + i * stride, x);
+}
+
+ZD_INLINE void subtract_transposed(const int rows, const int n, const double *C, int stride, const double *y, double *x)
+{
+    for (int j = 0; j < n; j++) {
+        double sum = x[j];
+        for (int i = 0; i < rows; i++) sum -= C[i * stride + j] * y[i];
+        x[j] = sum;
+    }
+}
+
+void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y)
+{
+    memset(y, 0, (size_t)self->blocks->rows * sizeof *y);
+    const zd_layout *layout = self->layout;
+    for (int g = 0; rhs && g < layout->groups; g++)
+        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) y[i] = -rhs[k];
+    for (const zd_piece *piece = self->piece; x && piece < self->piece + self->pieces; piece++)
+        FOR_SIZES(add_times, piece, C + piece->C, piece->stride, x + piece->x, y + piece->y)
+}
+
+void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x)
+{
+    for (const zd_piece *piece = self->piece; piece < self->piece + self->pieces; piece++)
+        FOR_SIZES(subtract_transposed, piece, C + piece->C, piece->stride, y + piece->y, x + piece->x)
+}
+
+void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows)
+{
+    const zd_layout *layout = self->layout;
+    for (int g = 0; g < layout->groups; g++)
+        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) rows[k] = y[i];
+}
+
+int zd_weighted_row(const zd_weighted *self, int place)
+{
+    const zd_layout *layout = self->layout;
+    for (int g = 0; g < layout->groups; g++)
+        if (place >= self->row[g] && place < self->row[g] + layout->row_at[g + 1] - layout->row_at[g])
+            return layout->row_at[g] + place - self->row[g];
+    return 0;
+}

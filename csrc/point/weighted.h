@@ -1,0 +1,53 @@
+/* S(W) = C W C^T of a system that declares its structure, W being stored as M is: M^-1 for (13) and (27), I for the identity metric. */
+#ifndef ZD_WEIGHTED_H
+#define ZD_WEIGHTED_H
+
+#include "../linalg/blocks.h"
+#include "layout.h"
+
+/* The block of C of a group and a body that it touches; or of a weld, see weighted.c. */
+typedef struct zd_piece {
+    int C, stride;          /* where it begins in C, and how long the rows there are; of a weld, in its own blocks */
+    int rows, n;            /* its size */
+    int row;                /* the first, of C */
+    int x, y;               /* where the body's velocities begin, and the group's rows in a right side of S */
+    int W, is_diagonal;     /* the body's part of W */
+    int copies;             /* of the body */
+    int is_weld;
+} zd_piece;
+
+typedef struct zd_pair {    /* two pieces of one body, and the block of S that takes A W B^T */
+    int a, b, to;
+    int kernel;             /* 0: there is none for these sizes */
+} zd_pair;
+
+typedef struct zd_weighted {
+    const zd_layout *layout;
+    zd_blocks *blocks;
+    int pieces, pairs;      /* pieces of C, welds not counted */
+    zd_piece *piece;
+    zd_pair *pair;
+    double *weld;           /* an identity and its opposite, as large as the largest body */
+    int largest;            /* velocities of that; 0 where there are no welds */
+    int *row;               /* (groups,) where the rows of each stand in a right side of S */
+    double *product;        /* room for A W */
+} zd_weighted;
+
+/* All that is symbolic, and memory for the factors; NULL where there is none. */
+zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout);
+static inline int zd_weighted_has_welds(const zd_weighted *self) { return self->largest > 0; }
+/* S(W) and its factors. */
+zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W);
+/* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
+ * once those eliminated before are taken out. */
+zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
+/* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, rhs (m,) NULL: zero. */
+void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y);
+static inline void zd_weighted_solve(const zd_weighted *self, double *y) { zd_blocks_solve(self->blocks, y); }
+void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x);
+/* rows (m,) <- y, in the order of C. */
+void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows);
+/* Which row of C has this place in the order of S; of a weld, the first. */
+int zd_weighted_row(const zd_weighted *self, int place);
+
+#endif

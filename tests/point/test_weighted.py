@@ -1,0 +1,120 @@
+"""Structures of many rows: S(W) = C W C^T in blocks, and what formulations make of it, beside dense matrices."""
+
+import numpy as np
+import pytest
+
+import tolerances as tol
+import zerodrift as zd
+from native_systems import needs_compiler
+from random_networks import Network, check_acceleration
+from structured import Rods, chain, four_bars
+from support import assert_close, condition, numbers, solved
+
+SEEDS = (0, 5, 7, 9, 11)
+MANY = ("schur", "augmented", "nullspace")      # formulations that take structures of any size
+STEP = {"step": 2e-3}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_networks_accelerate_as_by_dense_matrices(seed, formulation):
+    assert check_acceleration(seed, formulation)
+
+
+def test_some_of_these_networks_are_of_many_rows_some_of_few_and_some_have_a_body_of_many_joints():
+    networks = [Network(seed) for seed in SEEDS]
+    assert min(each.m for each in networks) <= 40 < max(each.m for each in networks)
+    assert max(np.bincount(np.concatenate([blocks for _, blocks in each.groups])).max() for each in networks) > 3
+
+
+def fan(arms, closed=False):
+    """One rod on the ground, and so many that hang on it in a row; closed: every fifth of these ends on the ground, too."""
+    centres, angles, pins = [(0.5, 0.0)], [0.0], [(-1, 0, (0.0, 0.0), (-0.5, 0.0))]
+    for i in range(arms):
+        at, angle = i / arms, -1.0 - 0.5 * i / arms
+        middle = np.array([at, 0.0]) + 0.5 * np.array([np.cos(angle), np.sin(angle)])
+        centres, angles = [*centres, middle], [*angles, angle]
+        pins.append((0, i + 1, (at - 0.5, 0.0), (-0.5, 0.0)))
+    if closed:
+        end = np.array([(arms - 1) / arms, 0.0]) + np.array([np.cos(angles[-1]), np.sin(angles[-1])])
+        pins.append((-1, arms, end, (0.5, 0.0)))
+    return Rods(centres, angles, pins)
+
+
+LARGE = {"chain": chain(40), "four-bars": four_bars(14), "fan": fan(60), "closed fan": fan(30, closed=True),
+         "light and heavy": chain(25, masses=[1.0, 1e-4] * 12 + [1e3])}
+
+
+@needs_compiler
+@pytest.mark.parametrize("road", MANY)
+@pytest.mark.parametrize("rods", LARGE.values(), ids=LARGE)
+def test_accelerations_of_many_rows_are_those_of_dense_matrices(rods, road):
+    system, twin = rods.system(speed=0.3), rods.system(packed=False, speed=0.3)
+    v = np.random.default_rng(3).normal(size=system.nv)
+    e = numbers(twin, 0.0, rods.p0, v)
+    vdot, multipliers = solved(e.M, e.C, e.force, e.xi)
+    bound = 10 * tol.EPS * condition(e.M, e.C)
+    got, reactions = zd.acceleration(system, rods.p0, v, formulation=road)
+    assert_close(got, vdot, bound, what="vdot")
+    assert_close(reactions, multipliers, bound, what="multipliers")
+    assert_close(e.C @ got, e.xi, 64 * tol.EPS, scale=np.abs(e.C).max() * np.abs(vdot).max(), what="(6)")
+
+
+@needs_compiler
+@pytest.mark.parametrize("road", MANY)
+@pytest.mark.parametrize("options", [{}, {"stabilization": zd.Projection(metric="identity")}, {"energy": True}], ids=str)
+def test_motions_of_many_rows_are_those_of_dense_matrices(options, road):
+    one, other = (zd.simulate(four_bars(14).system(packed=packed), 0.05, formulation=road, **STEP, **options)
+                  for packed in (True, False))
+    for name in ("p", "v", "multipliers"):
+        assert_close(getattr(one, name), getattr(other, name), 1e-10, scale=1.0, what=name)
+
+
+@needs_compiler
+@pytest.mark.parametrize("road", MANY)
+def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(road):
+    rods = four_bars(14, doubled=True)
+    one, other = (zd.simulate(rods.system(packed=packed), 0.02, formulation=road, **STEP) for packed in (True, False))
+    assert len(one.stats["redundant"]) == len(other.stats["redundant"]) == 2
+    assert set(one.stats["redundant"]) <= {0, 1, 2, 3}
+    assert one.stats["rank"] == other.stats["rank"] == 2 * len(rods.pins) - 2
+    assert_close(one.p, other.p, 1e-10, what="p")
+    assert_close(one.multipliers, other.multipliers, 1e-7, what="multipliers")     # of which the smallest come from weights of 2^22
+    assert_close(one.multipliers[:, :2], one.multipliers[:, 2:4], 1e-7, what="reactions of two pins at one place")
+
+
+@needs_compiler
+@pytest.mark.parametrize("road", ["augmented", "nullspace"])
+def test_a_body_without_mass_among_many(road):
+    rods = chain(25, closed=True, masses=[1.0] * 12 + [0.0] + [1.0] * 12)
+    system, twin = rods.system(), rods.system(packed=False)
+    e = numbers(twin, 0.0, rods.p0, np.zeros(system.nv))
+    vdot, multipliers = solved(e.M, e.C, e.force, e.xi)
+    got, reactions = zd.acceleration(system, rods.p0, np.zeros(system.nv), formulation=road)
+    assert_close(got, vdot, 1e-9, what="vdot")
+    assert_close(reactions, multipliers, 1e-9, what="multipliers")
+    with pytest.raises(zd.SingularSystem, match="'augmented' and 'nullspace'"):
+        zd.simulate(system, 0.01, **STEP)
+
+
+@needs_compiler
+def test_nothing_that_has_no_mass_may_be_free():
+    system = chain(25, masses=[1.0] * 24 + [0.0]).system()
+    with pytest.raises(zd.SingularSystem, match="no constraint holds what has no mass"):
+        zd.simulate(system, 0.01, formulation="augmented", **STEP)
+
+
+@needs_compiler
+@pytest.mark.parametrize("road", ["mixed", "independent"])
+def test_formulations_with_dense_matrices_refuse_large_structures_and_name_what_takes_them(road):
+    system = chain(101).system()
+    with pytest.raises(zd.UnsuitedFormulation, match=f"'{road}' has dense matrices: .* up to 300 velocities, .* 303; 'schur'"):
+        zd.simulate(system, 0.01, formulation=road, **STEP)
+
+
+@needs_compiler
+def test_thousands_of_bodies_keep_their_energy_and_constraints():
+    sol = zd.simulate(chain(3000, bend=0.1).system(), 0.02, step=1e-3, save_every=20)
+    assert sol.stats["steps"] == 20
+    assert np.abs(sol.position_violation).max() <= 1e-12 * sol.position_size.max()
+    energy = sol.kinetic_energy + sol.potential_energy
+    assert abs(energy[-1] - energy[0]) <= 1e-9 * sol.kinetic_energy[-1]
