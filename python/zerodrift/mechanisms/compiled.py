@@ -83,10 +83,9 @@ class Written:
 
     def _derive(self, equations: Equations) -> Code:
         """The code of the equations, which is kept."""
-        from ..symbolics import direct
+        from ..symbolics import direct, large
         from ..symbolics.blocks import Blocks
         from ..symbolics.derivation import Derivation
-        from ..symbolics.emission import CWriter
         from ..symbolics.lowering import Lowering
 
         terms, packing = Derivation(equations.graph, equations.given()).terms(), self._interpreted.packing
@@ -94,8 +93,7 @@ class Written:
         outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in terms.items()}
         packed = {name: [outputs[name][place] for place in packing.places(name)] for name in ("M", "C")
                   if packing and name in outputs}
-        writer = CWriter(Blocks(lowering, outputs | packed))
-        c_source, constants, scratch = writer.source(["A mechanism."], len(self._values), DATA)
+        c_source, constants, scratch = large.source(Blocks(lowering, outputs | packed), ["A mechanism."], len(self._values), DATA)
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
         code = Code(list(terms), not knows_time, constants, scratch, c_source, direct.as_json(lowering, outputs))
         kept.write(self.key, asdict(code))

@@ -11,11 +11,11 @@ except ImportError as error:
     raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
 from ..systems.structure import Structure
-from . import cache, direct
+from . import cache, direct, large
 from .blocks import Blocks
 from .definition import Definition
 from .derivation import Derivation
-from .emission import CWriter, PythonWriter
+from .emission import PythonWriter
 from .fingerprint import fingerprint
 from .lowering import Lowering
 from .pattern import Pattern
@@ -151,7 +151,7 @@ def _derive(definition: Definition, say: Progress) -> Code:
     structure = Pattern(terms, sizes, lambda node: node is reader.graph.zero).structure()
     blocks = Blocks(lowering, _stored(outputs, structure))
     say("writing C")
-    c_source, constants, scratch = CWriter(blocks).source(definition.heading(), len(definition.values))
+    c_source, constants, scratch = large.source(blocks, definition.heading(), len(definition.values))
     drawing = definition.drawing(reader)
     sketch = Lowering(reader.graph)
     drawn = Blocks(sketch, {"points": [sketch.lower(node) for point in drawing for node in point]})

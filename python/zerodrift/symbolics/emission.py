@@ -182,16 +182,21 @@ class CWriter(Writer):
         constants = self.statements(blocks.constants, constant, "const double ")
         body = self._kept() + self._shared() + self._own()
         scratch = sum(number in places for block in blocks.kept for number in block.operations)
-        text = "\n".join([
+        text = self.text(heading, [], constants, [*self._locals(data), *body])
+        return text, count, scratch + bool(blocks.kept)
+
+    @staticmethod
+    def text(heading: list[str], functions: list[str], constants: list[str], body: list[str]) -> str:
+        """The C source from what is in it."""
+        return "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
             "#include <math.h>", "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
-            "const int zd_interface_version = ZD_INTERFACE_VERSION;", "",
+            "const int zd_interface_version = ZD_INTERFACE_VERSION;", "", *functions,
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
             "                         const zd_terms *out)",
-            "{", *indented([*self._locals(data), *body, "return ZD_DONE;"]), "}", ""])
-        return text, count, scratch + bool(blocks.kept)
+            "{", *indented([*body, "return ZD_DONE;"]), "}", ""])
 
     def _locals(self, data: str) -> list[str]:
         used = {(operation.arguments[0], operation.arguments[1]) for number, operation in enumerate(self.operations)
@@ -229,17 +234,29 @@ class CWriter(Writer):
         for term, numbers in self.blocks.outputs.items():
             block = blocks.get(term)
             statements = self.statements(block.operations, "x{}".format, "const double ") if block else []
-            entries = [f"double *restrict const {term} = out->{term};", *statements, *self._entries(term, numbers)]
+            entries = self._own_entries(term, statements, self._entries(term, numbers))
             lines += [f"if (want & {TERMS[term].symbol}) {{", *indented(entries), "}"]
         return lines
+
+    def _own_entries(self, term: str, statements: list[str], entries: list[str]) -> list[str]:
+        return [f"double *restrict const {term} = out->{term};", *statements, *entries]
 
     def _entries(self, term: str, numbers: list[int]) -> list[str]:
         """Assignments to the array of a term; where most are zero, all are set to zero first."""
         values = [unwrapped(self.value(number)) for number in numbers]
-        zeros = values.count("0.0")
+        zeros = sum(map(self.is_zero, values))
         sparse = zeros > MANY and 2 * zeros > len(values)
         head = [f"memset({term}, 0, {len(values)} * sizeof *{term});"] if sparse else []
-        return head + [f"{term}[{i}] = {value};" for i, value in enumerate(values) if not (sparse and value == "0.0")]
+        return head + [f"{self.entry(term, i)} = {value};" for i, value in enumerate(values)
+                       if not (sparse and self.is_zero(value))]
+
+    def entry(self, term: str, place: int) -> str:
+        """An entry of a term."""
+        return f"{term}[{place}]"
+
+    def is_zero(self, value: str) -> bool:
+        """Whether the text of a value is that of zero."""
+        return value == "0.0"
 
 
 def wanted(terms: frozenset[str]) -> str:
