@@ -1,6 +1,37 @@
-"""The equations of a chain written out for whoever compiles expressions: with floats, symbols, or what records operations."""
+"""Equations written out for whoever compiles expressions: with floats, symbols, or what records operations.
+
+`Free` has them with velocities eliminated, of every problem; below it stand those of a chain.
+"""
 
 import itertools
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Free(NamedTuple):
+    """Equations in few velocities: which these are, and how the others and all accelerations follow."""
+
+    places: list[int]
+    spread: Any     # (p, u) -> v
+    vdot: Any       # (p, v) -> vdot
+
+
+def eliminated(problem, functions):
+    """With velocities eliminated: of a chain, those of the two rods that are least parallel at the start."""
+    if hasattr(problem, "reduced"):
+        return Free([0], lambda p, u: problem.spread(p, u[0], functions), lambda p, v: problem.reduced(p, v, functions))
+    sin, cos = functions["sin"], functions["cos"]
+    pair = least_parallel(problem.p0, np.sin)
+    return Free([i for i in range(problem.n) if i not in pair], lambda p, u: reduced(problem, p, None, pair, sin, cos)(u),
+                lambda p, v: reduced(problem, p, v, pair, sin, cos))
+
+
+def with_all(problem, functions):
+    """The function (p, v) -> vdot with the multipliers eliminated, as in (13)."""
+    if hasattr(problem, "with_multipliers"):
+        return lambda p, v: problem.with_multipliers(p, v, functions)
+    return lambda p, v: with_multipliers(problem, p, v, functions["sin"], functions["cos"])
 
 
 def reduced(chain, p, v, pair, sin, cos):
@@ -67,9 +98,14 @@ def _mass_and_force(chain, p, v, s, c, cos):
 
 
 def dot(a, b):
-    """The sum of products, without a zero to begin with."""
-    first, *others = (x * y for x, y in zip(a, b, strict=True))
-    return sum(others, first)
+    """The sum of products, without those of numbers that are zero."""
+    products = [x * y for x, y in zip(a, b, strict=True) if not (is_zero(x) or is_zero(y))]
+    return sum(products[1:], products[0]) if products else 0
+
+
+def is_zero(x):
+    """Whether it is the number zero, and nothing that is computed."""
+    return isinstance(x, int | float) and x == 0
 
 
 def solved(A, right_hand_sides):

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 GRAVITY = 9.81
-SPACING = 0.1       # s between outputs
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +22,7 @@ class Chain:
     p0: np.ndarray          # (n,) rad
     v0: np.ndarray          # (n,) rad/s
     t_end: float            # s
+    spacing: float = 0.1    # s between outputs
 
     @property
     def n(self):
@@ -31,7 +31,7 @@ class Chain:
     @cached_property
     def outputs(self):
         """Times at which all are compared, (k,)."""
-        return SPACING * np.arange(round(self.t_end / SPACING) + 1)
+        return self.spacing * np.arange(round(self.t_end / self.spacing) + 1)
 
     @cached_property
     def inertias(self):
@@ -61,6 +61,8 @@ class Chain:
 
 def accelerations(chain):
     """The function (p, v) -> vdot of the index-1 equations (8), as whoever brings an integrator would write it."""
+    if hasattr(chain, "terms"):
+        return chain.accelerations()
     n, K, w, lengths = chain.n, chain.coupling, chain.weight, chain.lengths
     leading, right = np.zeros((n + 2, n + 2)), np.empty(n + 2)
     M, C, Ct = leading[:n, :n], leading[n:, :n], leading[:n, n:]
@@ -87,7 +89,7 @@ def four_bar():
     p = _closed(lengths, distance, np.array([np.pi / 2, 0.3, -1.5]), held=0)
     sine = np.sin(p[2] - p[1])
     v = np.array([1.0, 0.3 * np.sin(p[0] - p[2]) / sine, 0.3 / 0.6 * np.sin(p[1] - p[0]) / sine])
-    return Chain("four-bar", lengths, np.array([1.5, 5.0, 3.0]), distance, p, v, 8.0)
+    return Chain("four-bar", lengths, np.array([1.5, 5.0, 3.0]), distance, p, v, 8.0, spacing=0.05)
 
 
 def pendulum_chain(n):

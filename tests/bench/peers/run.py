@@ -1,9 +1,9 @@
-"""Time against error of zerodrift and of what would be taken instead, on the paper's four-bar and on closed chains.
+"""Time against error of zerodrift and of what would be taken instead: the paper's four-bar, closed chains, Andrews' mechanism.
 
 Run it with ``python tests/bench/peers/run.py``; it writes ``peers.csv``, ``peers_ratios.csv`` and ``peers.png`` in
 ``tests/bench/results``. What is not installed is named and left out: ``pip install '.[peers]'`` installs all but numbalsoda,
-which needs a Fortran compiler, too. ``run.py --name compiled zerodrift scipy heyoka numba`` measures these alone, for files
-``compiled...``.
+which needs a Fortran compiler, too. ``run.py --name compiled zerodrift scipy heyoka numba numbalsoda`` measures these alone,
+for files ``compiled...``. On Andrews' mechanism there are those alone that take equations as they are written out.
 
 All start from the same state and give the angles at the same times; the error is the largest of any angle at any of them. Timed
 is what a user calls to get them, after the model is set up and after one call to warm up, in processor time: all use one thread,
@@ -21,6 +21,7 @@ sys.path.insert(0, str(HERE.parent))
 from comparing import PEERS, installed, measured, report  # noqa: E402
 
 CERTIFIED = 1e-9        # error asked of the reference, at most
+WRITTEN_OUT = ("zerodrift", "scipy", "heyoka", "numba", "numbalsoda")      # which take whatever equations are written out
 
 
 def references(chain, peers):
@@ -35,19 +36,21 @@ def references(chain, peers):
 
 def main():
     """Measure, print, write and draw."""
+    import andrews
     import problems
 
     there = [name for name in PEERS if (HERE / f"with_{name}.py").exists()]
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("peers", nargs="*", default=there, help=f"of {', '.join(there)}; zerodrift and scipy at least")
-    asked.add_argument("--problem", help="one of the problems alone, such as four-bar")
+    asked.add_argument("--problem", action="append", help="one of the problems alone, such as four-bar; may be repeated")
     asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
     asked.add_argument("--name", default="peers", help="what the files are called")
     asked = asked.parse_args()
     peers, rows = installed(asked.peers), []
-    for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6))):
-        if asked.problem in (None, chain.name):
-            rows += measured(chain, references(chain, peers), peers, asked.every)
+    for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6)), andrews.Squeezer()):
+        if not asked.problem or chain.name in asked.problem:
+            able = {name: peer for name, peer in peers.items() if name in WRITTEN_OUT or chain.name != "Andrews"}
+            rows += measured(chain, references(chain, able), able, asked.every)
     report(rows, asked.name)
 
 

@@ -9,7 +9,7 @@ import time
 import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
-from problems import GRAVITY, SPACING
+from problems import GRAVITY
 
 STEPS = (2, 4, 8, 16, 32, 64, 128, 256)     # between outputs
 SOLVERS = {     # type, spectral radius, index 2, Newmark
@@ -68,7 +68,7 @@ def _settings(chain, name, steps):
     _, radius, index_2, newmark = SOLVERS[name]
     settings = exu.SimulationSettings()
     settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = SPACING
+    settings.solution.sensors.writePeriod = chain.spacing
     settings.linearSolver.solverType = exu.LinearSolverType.EXUdense
     integration = settings.timeIntegration
     integration.endTime, integration.verboseMode = chain.t_end, 0

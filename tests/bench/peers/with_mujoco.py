@@ -8,7 +8,7 @@ import time
 
 import mujoco
 import numpy as np
-from problems import GRAVITY, SPACING
+from problems import GRAVITY
 
 STEPS = (4, 8, 16, 32, 64, 128, 256, 512, 1024)     # between outputs
 METHODS = (("Euler", 2, 256), ("implicitfast", 2, 256), ("RK4", 2, 1024), ("RK4", 10, 1024))   # time constant, most steps
@@ -25,7 +25,7 @@ def sweeps(chain):
 def solve(chain, setting):
     """Angles (k, n) at the outputs, and seconds."""
     integrator, constant, steps = setting
-    h = SPACING / steps
+    h = chain.spacing / steps
     model = mujoco.MjModel.from_xml_string(_described(chain, integrator, h, constant * h))
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = np.diff(chain.p0, prepend=0), np.diff(chain.v0, prepend=0)

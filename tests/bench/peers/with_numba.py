@@ -1,7 +1,7 @@
-"""numba: a right-hand side compiled at run time, with two velocities eliminated by hand, under two integrators.
+"""numba: a right-hand side compiled at run time, with velocities eliminated by hand, under two integrators.
 
-SciPy's DOP853 calls it from Python; a DOP853 written for it is compiled together with it. The velocities that are eliminated are
-those of the two rods that are least parallel at the start. Nothing is corrected. Outputs are values of SciPy's dense output, or
+SciPy's DOP853 calls it from Python; a DOP853 written for it is compiled together with it. Velocities that are eliminated
+are, of a chain, those of the two rods that are least parallel at the start. Nothing is corrected. Outputs are values of SciPy's dense output, or
 ends of steps.
 """
 
@@ -10,7 +10,7 @@ import math
 import time
 
 import numpy as np
-from equations import least_parallel, reduced
+from equations import eliminated
 from numba import njit
 from scipy.integrate import solve_ivp
 from scipy.integrate._ivp import dop853_coefficients as table
@@ -61,8 +61,7 @@ def rates_of(chain):
     """The compiled function (y, rate) with y = [p, v], its operations written out one by one."""
     n, lines = chain.n, []
     p, v = ([Recorded(f"y[{first + i}]", lines) for i in range(n)] for first in (0, n))
-    pair = least_parallel(chain.p0, np.sin)
-    vdot = reduced(chain, p, v, pair, functools.partial(_call, "sin"), functools.partial(_call, "cos"))
+    vdot = eliminated(chain, {name: functools.partial(_call, name) for name in ("sin", "cos", "sqrt")}).vdot(p, v)
     lines += [f"rate[{i}] = {value.name}" for i, value in enumerate([*v, *vdot])]
     return _compiled_source("differentiate(y, rate)", lines)
 
@@ -92,6 +91,9 @@ class Recorded:
 
     def __mul__(self, other):
         return self.record(f"{self.name} * {_name(other)}")
+
+    def __pow__(self, exponent):
+        return self.record(f"{self.name} * {self.name}" if exponent == 2 else f"{self.name} ** {exponent!r}")
 
     def __truediv__(self, other):
         return self.record(f"{self.name} / {_name(other)}")

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import pinocchio as pin
-from problems import GRAVITY, SPACING
+from problems import GRAVITY
 from scipy.integrate import solve_ivp
 
 TOLERANCES = 10.0 ** -np.arange(2, 13.5, 0.5)
@@ -54,7 +54,7 @@ def _accelerations(chain):
 
 def _rk4(chain, acceleration, q, v, steps):
     """Angles of the joints at the outputs, with so many steps between them."""
-    saved, h = [q], SPACING / steps
+    saved, h = [q], chain.spacing / steps
     for step in range(1, steps * (len(chain.outputs) - 1) + 1):
         a1 = acceleration(q, v).copy()
         v2 = v + h / 2 * a1
