@@ -123,6 +123,8 @@ double *zd_value_named(zd_given *given, const zd_card *card, const char *name);
 /* Whether they keep to the rules that their card states, and those of the row; else the first that does not is named in `message`. */
 int zd_check_given(enum zd_table table, int row, const zd_given *given, char *message, int message_size);
 
+enum zd_unit zd_processor_unit(void);       /* the last that this processor has */
+
 /* ---- a run ---- */
 
 typedef struct zd_statistics {

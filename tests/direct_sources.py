@@ -20,10 +20,11 @@ def sources():
     for name, counterpart in OF_PARAMETERS.items():
         system = counterpart()
         symbol, count = f"zd_{name}_direct", len(system.parameters)
-        heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/sines.h"']
+        heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/units.h"']
         texts[f"{name}.c"], constants = direct.write(
             *system._direct._definition, offset=count, symbol=symbol, heading=heading,
-            data=f"(const double *)data + {BEGINS[name]}" if BEGINS[name] else "data")
+            file=f"{name}.c", lanes_header='"../../include/zerodrift/lanes.h"',
+            data=f"(const double *)data + {BEGINS[name]} * ZD_LANES" if BEGINS[name] else "data")
         sizes[name] = count + constants
     return texts | {f"{name}.h": header(name, size) for name, size in sizes.items()}
 
@@ -35,11 +36,12 @@ def header(name, size):
 #define {capitals}_H
 
 #include "../../include/zerodrift/system.h"
+#include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
 enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + size} }};
 
-extern const zd_direct zd_{name}_direct;
+extern const zd_direct zd_{name}_direct[];
 /* What follows from the parameters, which the first of these doubles are. */
 void zd_{name}_direct_constants(double *k);
 

@@ -29,12 +29,6 @@
 #define ZD_SINES_RARE static inline
 #endif
 
-/* An angle is quadrant pi/2 + r + tail, where |r| is at most pi/4 and a little, and the tail is below the last place of r. */
-typedef struct zd_reduced {
-    double r, tail;
-    uint64_t quadrant;      /* the last two bits count */
-} zd_reduced;
-
 ZD_SINES_INLINE uint64_t zd_bits_of(double x)
 {
     uint64_t bits;
@@ -49,32 +43,25 @@ ZD_SINES_INLINE double zd_double_of(uint64_t bits)
     return x;
 }
 
-/* Sine and cosine by Remez' polynomials in z = r^2, which are 2^-58 and 2^-64 off. What is rounded last is r or 1 - z/2 and something
- * that is small beside it. The sine is written as a difference, as -0 - 0 is -0, but -0 + 0 is not. */
-ZD_SINES_INLINE void zd_sines_of_reduced(zd_reduced a, double *s, double *c)
-{
-    double r = a.r, z = r * r, z2 = z * z, z4 = z2 * z2, half = 0.5 * z, w = 1 - half;
-    double S = ((-0x1.5555555555549p-3 + z * 0x1.111111110f87ap-7) + z2 * (-0x1.a01a019c11978p-13 + z * 0x1.71de3577b56b1p-19))
-               + z4 * (-0x1.ae5e6639d428fp-26 + z * 0x1.5d9300cf18812p-33);
-    double C = ((0x1.555555555554cp-5 + z * -0x1.6c16c16c1517ep-10) + z2 * (0x1.a01a019cb1bebp-16 + z * -0x1.27e4f809f15ecp-22))
-               + z4 * (0x1.1ee9ebe9aae80p-29 + z * -0x1.8fae9cb4449ffp-37);
-    double sine = r - ((half * a.tail - a.tail) - (r * z) * S);
-    double cosine = w + (((1 - w) - half) + (z2 * C - r * a.tail));
-    uint64_t odd = 0 - (a.quadrant & 1), u = zd_bits_of(sine), v = zd_bits_of(cosine);
-    *s = zd_double_of(((u & ~odd) | (v & odd)) ^ (a.quadrant & 2) << 62);
-    *c = zd_double_of(((v & ~odd) | (u & odd)) ^ ((a.quadrant + 1) & 2) << 62);
-}
+#define ZD_SINES_NEAR 0x1p19    /* the largest angle that is reduced without branches */
 
-/* Of |x| up to 2^19: products with the first three parts of pi/2, of 33 bits each, are exact, and so are the errors of differences. */
-ZD_SINES_INLINE zd_reduced zd_reduce_near(double x)
-{
-    double shifted = x * 0x1.45f306dc9c883p-1 + 0x1.8p52, k = shifted - 0x1.8p52;      /* k, next to x 2/pi, is in its last bits */
-    double first = x - k * 0x1.921fb544p+0;
-    double b = k * 0x1.0b4611a6p-34, second = first - b;
-    double c = k * 0x1.3198a2ep-69, r = second - c;
-    double tail = (((first - second) - b) + ((second - r) - c)) - k * 0x1.b839a252049c1p-104;
-    return (zd_reduced){r, tail, zd_bits_of(shifted)};
-}
+#define ZD_OF_TYPE(name) name
+#define ZD_REAL double
+#define ZD_WORDS uint64_t
+#define ZD_INLINED ZD_SINES_INLINE
+#define ZD_WORDS_OF zd_bits_of
+#define ZD_REAL_OF zd_double_of
+#define ZD_TIMES_PLUS(a, b, c) ((a) * (b) + (c))
+#define ZD_LESS_TIMES(c, a, b) ((c) - (a) * (b))
+#include "sines_kernel.h"
+#undef ZD_OF_TYPE
+#undef ZD_REAL
+#undef ZD_WORDS
+#undef ZD_INLINED
+#undef ZD_WORDS_OF
+#undef ZD_REAL_OF
+#undef ZD_TIMES_PLUS
+#undef ZD_LESS_TIMES
 
 /* 32 bits of a number that is written in words, from one bit on */
 ZD_SINES_INLINE uint32_t zd_word_at(const uint32_t *words, int bit)
@@ -104,7 +91,7 @@ ZD_SINES_INLINE void zd_multiply_by_two_over_pi(double x, uint32_t *product)
 }
 
 /* Of any finite |x| from 2^19 on. None is nearer to a multiple of pi/2 than 2^-62, so that at least 70 bits behind the zeros are right. */
-ZD_SINES_RARE zd_reduced zd_reduce_far(double x)
+ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
 {
     uint32_t y[7] = {0};
     zd_multiply_by_two_over_pi(x, y);
@@ -117,18 +104,27 @@ ZD_SINES_RARE zd_reduced zd_reduce_far(double x)
     double product = a * 0x1.921fb5p+0, rest = a * 0x1.110b4611a6263p-26 + b * 0x1.921fb54442d18p+0;
     double r = product + rest, tail = (product - r) + rest, scale = zd_double_of((uint64_t)(1023 - 24 - zeros) << 52);
     if (below != (x < 0)) scale = -scale;
-    return (zd_reduced){scale * r, scale * tail, x < 0 ? 0 - quadrant : quadrant};
+    *reduced = (zd_reduced){scale * r, scale * tail, x < 0 ? 0 - quadrant : quadrant};
+}
+
+/* Of any number; of what is none, and of infinities, NaN */
+ZD_SINES_RARE void zd_reduce(double x, zd_reduced *reduced)
+{
+    if (fabs(x) <= ZD_SINES_NEAR)
+        zd_reduce_near(x, reduced);
+    else if (fabs(x) < INFINITY)
+        zd_reduce_far(x, reduced);
+    else
+        *reduced = (zd_reduced){x - x, 0, 0};
 }
 
 /* Angles of which one at least is no number or not within +-2^19 */
 ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c)
 {
     for (int i = 0; i < n; i++) {
-        double x = angle[i], size = fabs(x);
-        if (size < INFINITY)
-            zd_sines_of_reduced(size <= 0x1p19 ? zd_reduce_near(x) : zd_reduce_far(x), s + i, c + i);
-        else
-            s[i] = c[i] = x - x;
+        zd_reduced reduced;
+        zd_reduce(angle[i], &reduced);
+        zd_sines_of_reduced(&reduced, s + i, c + i);
     }
 }
 
@@ -139,8 +135,12 @@ ZD_SINES_INLINE void zd_sines(const int n, const double *restrict angle, double 
     for (int i = 0; i < n; i++) s[i] = sin(angle[i]), c[i] = cos(angle[i]);
 #else
     int far = 0;
-    for (int i = 0; i < n; i++) far |= !(fabs(angle[i]) <= 0x1p19);
-    for (int i = 0; i < n; i++) zd_sines_of_reduced(zd_reduce_near(angle[i]), s + i, c + i);
+    for (int i = 0; i < n; i++) far |= !(fabs(angle[i]) <= ZD_SINES_NEAR);
+    for (int i = 0; i < n; i++) {
+        zd_reduced reduced;
+        zd_reduce_near(angle[i], &reduced);
+        zd_sines_of_reduced(&reduced, s + i, c + i);
+    }
     if (far) zd_sines_far(n, angle, s, c);
 #endif
 }

@@ -3,11 +3,12 @@
 #define ZD_CHAPLYGIN_SLEIGH_DIRECT_H
 
 #include "../../include/zerodrift/system.h"
+#include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
 enum { ZD_CHAPLYGIN_SLEIGH_DIRECT_BEGINS = 0, ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS = 8 };
 
-extern const zd_direct zd_chaplygin_sleigh_direct;
+extern const zd_direct zd_chaplygin_sleigh_direct[];
 /* What follows from the parameters, which the first of these doubles are. */
 void zd_chaplygin_sleigh_direct_constants(double *k);
 

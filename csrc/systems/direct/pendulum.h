@@ -3,11 +3,12 @@
 #define ZD_PENDULUM_DIRECT_H
 
 #include "../../include/zerodrift/system.h"
+#include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
 enum { ZD_PENDULUM_DIRECT_BEGINS = 0, ZD_PENDULUM_DIRECT_ENDS = 9 };
 
-extern const zd_direct zd_pendulum_direct;
+extern const zd_direct zd_pendulum_direct[];
 /* What follows from the parameters, which the first of these doubles are. */
 void zd_pendulum_direct_constants(double *k);
 

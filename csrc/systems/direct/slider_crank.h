@@ -3,11 +3,12 @@
 #define ZD_SLIDER_CRANK_DIRECT_H
 
 #include "../../include/zerodrift/system.h"
+#include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
 enum { ZD_SLIDER_CRANK_DIRECT_BEGINS = 0, ZD_SLIDER_CRANK_DIRECT_ENDS = 13 };
 
-extern const zd_direct zd_slider_crank_direct;
+extern const zd_direct zd_slider_crank_direct[];
 /* What follows from the parameters, which the first of these doubles are. */
 void zd_slider_crank_direct_constants(double *k);
 

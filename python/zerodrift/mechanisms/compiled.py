@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .nodes import Equations
 
 DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/mechanism.h
+OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ class Written:
     def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> DirectFunctions:
         """The direct functions; their orders of elimination are those for these numbers and the start p0."""
         return DirectFunctions(self._code.program, self._sizes, self._values, p0, is_length,
-                               len(self._values) + self._code.constants, DATA)
+                               len(self._values) + self._code.constants, OF_DIRECT)
 
     def with_direct(self, direct: DirectFunctions) -> MechanismCore:
         """The same with direct functions, where there are any."""

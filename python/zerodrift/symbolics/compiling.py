@@ -72,8 +72,10 @@ def looked_for() -> str:
 
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None,
-            symbols: Sequence[str] = SYMBOLS) -> ctypes.CDLL | None:
+            symbols: Sequence[str] = SYMBOLS, defined: Sequence[str] = ()) -> ctypes.CDLL | None:
     """The library of a C source with these symbols, compiled where the cache does not have it; None: there is no compiler.
+
+    `defined` are macros, as compilers take them: ``["NAME=value"]``.
 
     Raises
     ------
@@ -83,20 +85,21 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     command = compiler()
     if command is None:
         return None
-    note = _note(source, command)
+    flags = (*FLAGS, *(f"-D{each}" for each in defined))
+    note = _note(source, command, flags)
     found = _kept(note)
     if found is None:
         progress("compiling")
-        found = _made(source, command, note, symbols)
+        found = _made(source, command, flags, note, symbols)
     return found
 
 
-def _note(source: str, command: list[str]) -> str:
+def _note(source: str, command: list[str], flags: tuple[str, ...]) -> str:
     """The name of what the cache says of a source: whatever the library depends on is in it."""
     program = Path(command[0]).resolve()
     stamp = program.stat()
     headers = [path.read_text() for path in sorted((Path(get_include()) / "zerodrift").glob("*.h"))]
-    return cache.digest_of("library", source, headers, command, str(program), stamp.st_size, stamp.st_mtime_ns, FLAGS,
+    return cache.digest_of("library", source, headers, command, str(program), stamp.st_size, stamp.st_mtime_ns, flags,
                            sys.platform, platform.machine())
 
 
@@ -112,9 +115,9 @@ def _kept(note: str) -> ctypes.CDLL | None:
         return None
 
 
-def _made(source: str, command: list[str], note: str, symbols: Sequence[str]) -> ctypes.CDLL:
+def _made(source: str, command: list[str], flags: tuple[str, ...], note: str, symbols: Sequence[str]) -> ctypes.CDLL:
     """Compile, load and keep."""
-    line = [*command, *FLAGS, f"-I{get_include()}", "-o", "system.so", "system.c", "-lm"]
+    line = [*command, *flags, f"-I{get_include()}", "-o", "system.so", "system.c", "-lm"]
     data = _build(source, line)
     digest = _digest(data)
     cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from

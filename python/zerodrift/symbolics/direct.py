@@ -13,8 +13,8 @@ from .elimination import Elimination
 from .lowering import Lowering
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
-HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <string.h>", "#include <zerodrift/sines.h>",
-           "#include <zerodrift/system.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
+HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/system.h>",
+           "#include <zerodrift/units.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 
 def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | None:
@@ -41,7 +41,7 @@ def _restored(program: dict[str, Any]) -> Bounded:
 
 def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
           lengths: np.ndarray, *, offset: int, symbol: str, heading: list[str] | None = None,
-          data: str = "data") -> tuple[str, int] | None:
+          file: str = "system.c", lanes_header: str = "<zerodrift/lanes.h>", data: str = "data") -> tuple[str, int] | None:
     """The C source and its number of constants; None where there are no orders that serve, or too many operations."""
     lowering, terms = _restored(program), program["terms"]
     chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
@@ -51,6 +51,7 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
                                                              if each.order else {"correct": {}, "land": {}})
                      for each in eliminations]
         return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
-                                      heading=HEADING if heading is None else heading, data=data) if chosen else None
+                                      heading=HEADING if heading is None else heading, file=file,
+                                      lanes_header=lanes_header, data=data) if chosen else None
     except TooLarge:
         return None

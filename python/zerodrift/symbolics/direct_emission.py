@@ -7,18 +7,17 @@ from dataclasses import dataclass, field
 from .elimination import Elimination, Order
 from .emission import CWriter, indented
 from .graph import FIXED
+from .lane_emission import LaneWriter, for_each_set
 from .lowering import SIMPLE, Lowering
 
 MOST_OPERATIONS = 4000      # of the functions of one order
 MOST_STATEMENTS = 1000      # of one function
-ACCELERATE = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
-              "    const double *restrict v, const double *restrict added, double *restrict pdot, double *restrict vdot,",
-              "    double *restrict lambda, double *restrict power, double *restrict pivots)")
-CORRECT = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
-           "    const double *restrict v, double *restrict Phi, double *restrict dp, double *restrict dv)")
-LAND = ("static int {name}(const void *data, const double *restrict time, const double *restrict p,",
-        "    double *restrict v, const double *restrict allowed, double *restrict Phi, double *restrict dp,",
-        "    double *restrict pdot, double *restrict vdot, double *restrict lambda, double *restrict power, double *restrict pivots)")
+AT = "ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_time, const double *at_p,"
+ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
+              "    double *to_power, double *to_pivots)")
+CORRECT = (AT, "    const double *at_v, double *to_Phi, double *to_dp, double *to_dv)")
+LAND = (AT, "    double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,",
+        "    double *to_lambda, double *to_power, double *to_pivots)")
 OPTIONAL = ("lambda", "power"), ("pivots",)     # outputs that may not be wanted, those together that share something
 HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND}
 
@@ -66,20 +65,29 @@ class _Program:
 
 
 def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]], eliminations: list[Elimination], *, offset: int,
-           symbol: str, heading: list[str], data: str = "data") -> tuple[str, int]:
+           symbol: str, heading: list[str], file: str, lanes_header: str, data: str) -> tuple[str, int]:
     """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
 
-    `functions` has, for each order, the outputs of "accelerate", "correct" and "land"; `data` is C for the doubles of a system.
+    `functions` has, for each order, the outputs of "accelerate", "correct" and "land"; `data` is C for the doubles of a system,
+    `file` what the source is called, which it includes again for each vector unit, and `lanes_header` where it finds
+    zerodrift/lanes.h.
     """
-    stored = _constants(lowering, functions)
-    lines = [*heading, "", *_constants_function(lowering, stored, offset, symbol)]
+    stored, orders = _constants(lowering, functions), [each.order for each in eliminations]
+    outside = [heading[0], "#ifndef ZD_LANES", *heading[1:], "", *_constants_function(lowering, stored, offset, symbol), "",
+               *_solves(orders)]
+    inside = [f"#include {lanes_header}"]
     for i, of in enumerate(functions):
         for name, head in HEADS.items():
             if of[name]:
-                write = _landing if name == "land" else _function
                 signature = [line.format(name=f"{name}_{i}") for line in head]
-                lines += ["", *write(_Program(lowering, of[name], stored), signature, offset, data)]
-    return "\n".join([*lines, "", *_table([each.order for each in eliminations], symbol), ""]), len(stored)
+                program = _Program(lowering, of[name], stored)
+                lines = (_landing if name == "land" else _function)(program, signature, offset, data)
+                inside += ["", *(["#if ZD_LANES == 1", *lines, "#endif"] if name == "land" else lines)]
+    inside += ["", *_table(orders)]
+    sets = for_each_set(lambda unit, lanes: [f"#define ZD_UNIT {unit}", f"#define ZD_LANES {lanes}", f'#include "{file}"'])
+    rows = for_each_set(lambda unit, lanes: [f"    {{{unit}, {lanes}, {len(functions)}, orders_{unit}_{lanes}}},"])
+    return "\n".join([*outside, "", "/* The functions below, for each vector unit. */", *sets, "",
+                      f"const zd_direct {symbol}[] = {{", *rows, "};", "", "#else", *inside, "", "#undef ZD_UNIT", "#undef ZD_LANES", "#endif", ""]), len(stored)
 
 
 def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]]) -> dict[int, int]:
@@ -117,8 +125,8 @@ def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int,
             *indented(body or ["(void)k;"]), "}"]
 
 
-def _writer(program: _Program, offset: int) -> CWriter:
-    writer = CWriter(program)
+def _writer(program: _Program, offset: int) -> LaneWriter:
+    writer = LaneWriter(program)
     writer.names |= {number: f"k[{offset + place}]" for number, place in program.stored.items()}
     return writer
 
@@ -138,7 +146,7 @@ def _whole(head: list[str], body: list[str]) -> list[str]:
     return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
 
 
-def _optional(program: _Program, writer: CWriter, done: list[int]) -> list[str]:
+def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[str]:
     """What is written where it is wanted."""
     body = []
     for names in OPTIONAL:
@@ -162,21 +170,21 @@ def _landing(program: _Program, head: list[str], offset: int, data: str) -> list
         body += [f"if ({large}) {{", *indented([*aside, "return ZD_NO_CONVERGENCE;"]), "}"]
     more = _further(program, writer, done, ["dv"])
     velocities = [writer.value(number) for number in outputs["dv"]]
-    body += [*more, *(f"const double v{i} = before{i} - {value};" for i, value in enumerate(velocities))]
+    body += [*more, *(f"const zd_real v{i} = before{i} - {value};" for i, value in enumerate(velocities))]
     rest = [name for name in ("pdot", "vdot") if outputs.get(name)]
     body += _further(program, writer, done, rest) + [f"v[{i}] = v{i};" for i in range(len(velocities))]
     body += [line for name in rest for line in writer._entries(name, outputs[name])] + _optional(program, writer, done)
     return _whole(head, [*_locals(program, data), *body])
 
 
-def _further(program: _Program, writer: CWriter, done: list[int], names: list[str]) -> list[str]:
+def _further(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
     """Statements of what these outputs need besides what is done, which it then is, too."""
     more = [number for number in program.needed(names) if number not in set(done)]
     done += more
     return _statements(writer, more)
 
 
-def _apart(program: _Program, writer: CWriter, done: list[int], names: list[str]) -> list[str]:
+def _apart(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
     """The same in a block of its own, after which nothing of it is known."""
     known, turned = dict(writer.names), dict(writer.turned)
     lines = _further(program, writer, list(done), names)
@@ -185,37 +193,47 @@ def _apart(program: _Program, writer: CWriter, done: list[int], names: list[str]
     return lines + entries
 
 
-def _statements(writer: CWriter, numbers: list[int]) -> list[str]:
+def _statements(writer: LaneWriter, numbers: list[int]) -> list[str]:
     operations, stored = writer.operations, writer.blocks.stored
     return writer.statements([number for number in numbers if operations[number].code not in SIMPLE and number not in stored],
-                             "x{}".format, "const double ")
+                             "x{}".format)
 
 
 def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
-    lines = [f"const double *restrict const k = {data};", "const double t = *time;", "(void)k, (void)t, (void)p, (void)v;"]
     lands = "Phi" in program.outputs and "vdot" in program.outputs
-    unused = (("allowed", "Phi", "dp", "pdot", "lambda", "power", "pivots") if lands else
-              ("added", "pdot", "lambda", "power", "pivots") if "pivots" in program.outputs else ("Phi",))
-    lines.append(", ".join(f"(void){name}" for name in unused) + ";")
-    for kind, value in (("p", "p[{0}]"), ("before" if lands else "v", "v[{0}]"), ("added", "added ? added[{0}] : 0")):
+    inputs = {"k": f"({data})", "time": "at_time", "p": "at_p"} | (
+        {"allowed": "where_allowed"} if lands else {"v": "at_v"} | ({"added": "with_added"} if "vdot" in program.outputs else {}))
+    outputs = ["v"] * lands + ["Phi", "dp"] * ("Phi" in program.outputs) + (
+        ["pdot", "vdot", "lambda", "power", "pivots"] if "vdot" in program.outputs else ["dv"])
+    lines = [f"const zd_stored *restrict const {name} = (const zd_stored *){of};" for name, of in inputs.items()]
+    lines += [f"zd_stored *restrict const {name} = (zd_stored *)to_{name};" for name in outputs]
+    lines += ["const zd_real t = *time;", f"{', '.join(f'(void){name}' for name in ('t', *inputs, *outputs))};"]
+    for kind, value in (("p", "p[{0}]"), ("before" if lands else "v", "v[{0}]"),
+                        ("added", "added ? (zd_real)added[{0}] : ZD_SPLAT(0.0)")):
         indices = (range(len(program.outputs["dv"])) if kind == "before" else
                    sorted(index for leaf, index in used if leaf == kind))
         if indices:
-            lines.append("const double " + ", ".join(f"{kind}{i} = {value.format(i)}" for i in indices) + ";")
+            lines.append("const zd_real " + ", ".join(f"{kind}{i} = {value.format(i)}" for i in indices) + ";")
     return lines
 
 
-def _table(orders: list[Order], symbol: str) -> list[str]:
-    """The descriptor."""
+def _solves(orders: list[Order]) -> list[str]:
+    """Which rows are solved for what, in each order."""
     lines = []
     for i, order in enumerate(orders):
         columns = {"solve": [a for a, solve in enumerate(order) for _ in solve.rows],
                    "row": [row for solve in order for row in solve.rows], "column": [j for solve in order for j in solve.columns]}
         lines += [f"static const int {name}_{i}[] = {{{', '.join(map(str, values or [0]))}}};"
                   for name, values in columns.items()]
-    lines += ["", "static const zd_elimination orders[] = {"]
-    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, accelerate_{i}, "
-              f"{f'correct_{i}, land_{i}' if order else 'NULL, NULL'}}}," for i, order in enumerate(orders)]
-    return [*lines, "};", "", f"const zd_direct {symbol} = {{ZD_BASELINE, 1, {len(orders)}, orders}};"]
+    return lines
+
+
+def _table(orders: list[Order]) -> list[str]:
+    """The descriptors of one set: in lanes, of which some may have to be iterated and others not, there is none that lands."""
+    lines = ["#if ZD_LANES == 1", "#define ZD_LANDING(name) ZD_NAMED(name)", "#else", "#define ZD_LANDING(name) NULL", "#endif",
+             "static const zd_elimination ZD_NAMED(orders)[] = {"]
+    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, ZD_NAMED(accelerate_{i}), "
+              f"{f'ZD_NAMED(correct_{i}), ZD_LANDING(land_{i})' if order else 'NULL, NULL'}}}," for i, order in enumerate(orders)]
+    return [*lines, "};", "#undef ZD_LANDING"]

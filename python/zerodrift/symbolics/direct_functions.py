@@ -24,7 +24,7 @@ class DirectFunctions:
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data") -> None:
         self._definition = program, sizes, values, p0, is_length
         self._offset, self._data = offset, data     # `data` is C for the doubles of a system
-        self._library: ctypes.CDLL | None = None
+        self._libraries: dict[str, ctypes.CDLL | None] = {}
         self._written: tuple[str, int] | None = None
         self._is_written = program is None     # there is nothing to be written
 
@@ -48,12 +48,13 @@ class DirectFunctions:
         written = self._write()
         return written[0] if written else ""
 
-    def library(self) -> ctypes.CDLL | None:
-        """Their library; None: there are none."""
-        if self._library is None and self.source:
-            self._library = compiling.library(self.source, symbols=(DIRECT, f"{DIRECT}_constants"))
-        return self._library
+    def library(self, functions: str = "ZD_SET_BASELINE_1") -> ctypes.CDLL | None:
+        """The library of one set of functions, as zerodrift/units.h names them; None: there is none."""
+        if functions not in self._libraries and self.source:
+            symbols = DIRECT, f"{DIRECT}_constants"
+            self._libraries[functions] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={functions}"])
+        return self._libraries.get(functions)
 
     def __getstate__(self) -> dict[str, Any]:
         self._write()
-        return vars(self) | {"_library": None}
+        return vars(self) | {"_libraries": {}}

@@ -1,0 +1,229 @@
+/* One text for one trajectory and for several: the numbers of as many trajectories as a vector of the processor holds, side by side in its lanes.
+ *
+ *     #define ZD_UNIT 1       ZD_AVX2: whose operations are used; 0: those that every processor of this kind has
+ *     #define ZD_LANES 4      1, or as many as zerodrift/units.h says
+ *     #include <zerodrift/lanes.h>
+ *
+ *     ZD_ON_UNIT static void ZD_NAMED(kinetic)(const double *m, const double *v, double *T)
+ *     {
+ *         const zd_stored *mass = (const zd_stored *)m, *rate = (const zd_stored *)v;
+ *         const zd_real w = rate[0] * rate[0];
+ *         *(zd_stored *)T = ZD_FMA(mass[0] * 0.5, w, ZD_SPLAT(1e-9));
+ *     }
+ *
+ * It may be included once for each unit and number of lanes. An operation does the same in each lane, whatever is in the others. With a unit,
+ * ZD_FMA and its like round once, and the same numbers come out of all units and numbers of lanes; without one they round twice, and so
+ * give what the same text gives that was written with products and sums. Nothing else is contracted, for which there is
+ * -ffp-contract=off.
+ */
+#include <math.h>
+#include <stdint.h>
+
+#include "sines.h"
+#include "units.h"
+
+#ifndef ZERODRIFT_LANES_H
+#define ZERODRIFT_LANES_H
+#if (ZD_SETS) & ~3
+#include <immintrin.h>
+#endif
+#define ZD_JOINED_(name, unit, lanes) name##_##unit##_##lanes
+#define ZD_JOINED(name, unit, lanes) ZD_JOINED_(name, unit, lanes)
+#define ZD_NAMED(name) ZD_JOINED(name, ZD_UNIT, ZD_LANES)
+/* zd_real: a number of each trajectory; zd_stored: the same in somebody's memory; zd_condition: what a comparison gives. */
+#define zd_real ZD_NAMED(zd_real_of)
+#define zd_stored ZD_NAMED(zd_stored_of)
+#define zd_condition ZD_NAMED(zd_condition_of)
+/* Numbers beside each other: of the lanes, or angles of one trajectory. */
+#define zd_vector ZD_NAMED(zd_vector_of)
+#define zd_vector_stored ZD_NAMED(zd_vector_stored_of)
+#define zd_vector_words ZD_NAMED(zd_vector_words_of)
+#define ZD_BROADCAST(x) ((x) - (zd_vector){0})      /* a difference, as -0 - 0 is -0 */
+#endif
+
+#undef ZD_ON_UNIT
+#undef ZD_WIDTH
+#undef ZD_SPLAT
+#undef ZD_LANE
+#undef ZD_WHERE
+#undef ZD_BOTH
+#undef ZD_EITHER
+#undef ZD_NOT
+#undef ZD_ANY
+#undef ZD_SQRT
+#undef ZD_FMA
+#undef ZD_FMS
+#undef ZD_FNMA
+#undef ZD_SINES
+#undef ZD_PADDED
+#undef ZD_TIMES_PLUS
+#undef ZD_LESS_TIMES
+
+#if ZD_UNIT == 2
+#define ZD_ON_UNIT __attribute__((target("avx512f,avx512dq,avx512vl,avx2,fma")))
+#elif ZD_UNIT == 1
+#define ZD_ON_UNIT __attribute__((target("avx2,fma")))
+#else
+#define ZD_ON_UNIT
+#endif
+
+/* ---- vectors ---- */
+
+#if ZD_UNIT || ZD_LANES > 1
+
+#if ZD_LANES == 1
+#define ZD_WIDTH 4
+#else
+#define ZD_WIDTH ZD_LANES
+#endif
+typedef double zd_vector __attribute__((vector_size(8 * ZD_WIDTH)));
+typedef double zd_vector_stored __attribute__((vector_size(8 * ZD_WIDTH), aligned(8), may_alias));
+typedef uint64_t zd_vector_words __attribute__((vector_size(8 * ZD_WIDTH)));
+
+#define ZD_OF_TYPE ZD_NAMED
+#define ZD_REAL zd_vector
+#define ZD_WORDS zd_vector_words
+#define ZD_INLINED ZD_ON_UNIT ZD_SINES_INLINE
+#define ZD_WORDS_OF(x) ((zd_vector_words)(x))
+#define ZD_REAL_OF(w) ((zd_vector)(w))
+#if ZD_UNIT && ZD_WIDTH == 8
+#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)_mm512_fmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_LESS_TIMES(c, a, b) ((zd_vector)_mm512_fnmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#elif ZD_UNIT && ZD_WIDTH == 4
+#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)_mm256_fmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_LESS_TIMES(c, a, b) ((zd_vector)_mm256_fnmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#else
+#define ZD_TIMES_PLUS(a, b, c) ((a) * (b) + (c))
+#define ZD_LESS_TIMES(c, a, b) ((c) - (a) * (b))
+#endif
+#if ZD_WIDTH == 8
+#define ZD_ANY(condition) (_mm512_test_epi64_mask((__m512i)(condition), (__m512i)(condition)) != 0)
+#elif ZD_WIDTH == 4
+#define ZD_ANY(condition) (_mm256_movemask_pd((__m256d)(condition)) != 0)
+#else
+#define ZD_ANY(condition) (((condition)[0] | (condition)[1]) != 0)
+#endif
+#include "sines_kernel.h"
+
+/* Of angles of which one at least is no number or not within +-2^19 */
+ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_vector_sines_far)(const zd_vector *angle, zd_vector *s, zd_vector *c)
+{
+    ZD_NAMED(zd_reduced) a;
+    ZD_NAMED(zd_reduce_near)(*angle, &a);
+    for (int k = 0; k < ZD_WIDTH; k++) {
+        if (fabs((*angle)[k]) <= ZD_SINES_NEAR) continue;
+        zd_reduced far;
+        zd_reduce((*angle)[k], &far);
+        a.r[k] = far.r, a.tail[k] = far.tail, a.quadrant[k] = far.quadrant;
+    }
+    ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
+}
+
+/* Of a vector of angles. What is rare has its own variables, so that those of others can stay in registers. */
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_vector_sines)(const zd_vector angle, zd_vector *s, zd_vector *c)
+{
+    ZD_NAMED(zd_reduced) a;
+    ZD_NAMED(zd_reduce_near)(angle, &a);
+    ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
+    zd_vector size = (zd_vector)((zd_vector_words)angle & ~(UINT64_C(1) << 63));
+    if (ZD_ANY(~(size <= ZD_SINES_NEAR))) {
+        zd_vector given = angle, sine, cosine;
+        ZD_NAMED(zd_vector_sines_far)(&given, &sine, &cosine);
+        *s = sine;
+        *c = cosine;
+    }
+}
+
+#undef ZD_OF_TYPE
+#undef ZD_REAL
+#undef ZD_WORDS
+#undef ZD_INLINED
+#undef ZD_WORDS_OF
+#undef ZD_REAL_OF
+
+#endif
+
+/* ---- numbers of one trajectory ---- */
+
+#if ZD_LANES == 1
+
+typedef double zd_real, zd_stored;
+#define ZD_SPLAT(x) (x)
+#define ZD_LANE(x, lane) (x)
+#define ZD_WHERE(condition, a, b) ((condition) ? (a) : (b))
+#define ZD_BOTH(a, b) ((a) && (b))
+#define ZD_EITHER(a, b) ((a) || (b))
+#define ZD_NOT(a) (!(a))
+#define ZD_SQRT(x) sqrt(x)
+#if ZD_UNIT
+#define ZD_FMA(a, b, c) __builtin_fma(a, b, c)
+#define ZD_FMS(a, b, c) __builtin_fma(a, b, -(c))
+#define ZD_FNMA(a, b, c) __builtin_fma(-(a), b, c)
+#define ZD_PADDED(n) (((n) + ZD_WIDTH - 1) / ZD_WIDTH * ZD_WIDTH)
+#define ZD_SINES ZD_NAMED(zd_sines_of)
+#else
+#define ZD_FMA(a, b, c) ((a) * (b) + (c))
+#define ZD_FMS(a, b, c) ((a) * (b) - (c))
+#define ZD_FNMA(a, b, c) ((c) - (a) * (b))
+#define ZD_PADDED(n) (n)
+#define ZD_SINES zd_sines
+#endif
+
+/* ---- numbers of several ---- */
+
+#else
+
+typedef zd_vector zd_real;
+typedef zd_vector_stored zd_stored;
+typedef int64_t zd_condition __attribute__((vector_size(8 * ZD_LANES)));
+#define ZD_SPLAT(x) ZD_BROADCAST(x)
+#define ZD_LANE(x, lane) (x)[lane]
+#define ZD_WHERE(condition, a, b) \
+    ((zd_real)(((zd_condition)ZD_SPLAT(a) & (zd_condition)(condition)) | ((zd_condition)ZD_SPLAT(b) & ~(zd_condition)(condition))))
+#define ZD_BOTH(a, b) ((a) & (b))
+#define ZD_EITHER(a, b) ((a) | (b))
+#define ZD_NOT(a) (~(a))
+#if ZD_LANES == 8
+#define ZD_SQRT(x) ((zd_real)_mm512_sqrt_pd(x))
+#elif ZD_LANES == 4
+#define ZD_SQRT(x) ((zd_real)_mm256_sqrt_pd(x))
+#else
+#define ZD_SQRT(x) ((zd_real){sqrt((x)[0]), sqrt((x)[1])})
+#endif
+#define ZD_FMA ZD_TIMES_PLUS
+#define ZD_FMS(a, b, c) ZD_FMA(a, b, -(c))
+#define ZD_FNMA(a, b, c) ZD_LESS_TIMES(c, a, b)
+#define ZD_PADDED(n) (n)
+#define ZD_SINES ZD_NAMED(zd_sines_of)
+
+#endif
+
+#if ZD_UNIT || ZD_LANES > 1
+#if ZD_LANES == 1
+/* By instructions, as compilers take the way through memory. */
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_take_apart)(const zd_vector x, double *to)
+{
+    const __m128d low = _mm256_castpd256_pd128(x), high = _mm256_extractf128_pd(x, 1);
+    to[0] = _mm_cvtsd_f64(low);
+    to[1] = _mm_cvtsd_f64(_mm_unpackhi_pd(low, low));
+    to[2] = _mm_cvtsd_f64(high);
+    to[3] = _mm_cvtsd_f64(_mm_unpackhi_pd(high, high));
+}
+#endif
+
+/* s[i], c[i] <- sine and cosine of angle[i]; each has ZD_PADDED(n) numbers */
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_sines_of)(const int n, const zd_real *angle, zd_real *s, zd_real *c)
+{
+#if ZD_LANES > 1
+    for (int i = 0; i < n; i++) ZD_NAMED(zd_vector_sines)(angle[i], s + i, c + i);
+#else
+    for (int i = 0; i < n; i += ZD_WIDTH) {
+        zd_vector sine, cosine;
+        ZD_NAMED(zd_vector_sines)(_mm256_set_pd(angle[i + 3], angle[i + 2], angle[i + 1], angle[i]), &sine, &cosine);
+        ZD_NAMED(zd_take_apart)(sine, s + i);
+        ZD_NAMED(zd_take_apart)(cosine, c + i);
+    }
+#endif
+}
+
+#endif

@@ -1,0 +1,68 @@
+"""Vector units, and sets of functions for one trajectory or several: what this machine has, and one call for all of them."""
+
+import numpy as np
+import pytest
+from zerodrift._core import ffi, lib
+
+from zerodrift import _gateway
+
+# The sets of csrc/include/zerodrift/units.h by their unit's number and how many trajectories they take at once
+SETS = {(0, 1): "BASELINE_1", (0, 2): "BASELINE_2", (1, 1): "AVX2_1", (1, 4): "AVX2_4", (2, 1): "AVX512_1", (2, 8): "AVX512_8"}
+UNIT = lib.zd_processor_unit()
+IN_LANES = [each for each in SETS if each[1] > 1]
+
+
+def available(of):
+    """The set, where this processor has its unit."""
+    if of[0] > UNIT:
+        pytest.skip(f"this processor has not the vector unit of {SETS[of]}")
+    return of
+
+
+class DirectSet:
+    """Direct functions of one set, called for as many trajectories as it takes; `data` (lanes, doubles)."""
+
+    def __init__(self, direct, sizes, data):
+        self.direct, self.lanes, (self.nq, self.nv, self.mh, self.m) = direct, direct.lanes, sizes
+        assert data.shape[0] == self.lanes
+        self.data = np.ascontiguousarray(data.T)
+        self.orders = range(direct.orders)
+
+    def _into(self, **sizes):
+        arrays = {name: np.full((size, self.lanes), np.nan) for name, size in sizes.items()}
+        return arrays, [ffi.from_buffer("double[]", array) if array.size else ffi.NULL for array in arrays.values()]
+
+    def _called(self, function, inputs, sizes):
+        arrays, memory = self._into(**sizes)
+        given = [ffi.NULL if x is None else ffi.from_buffer("double[]", np.ascontiguousarray(np.transpose(x))) for x in inputs]
+        assert function(ffi.from_buffer(self.data), *given, *memory) == 0
+        return {name: array.T for name, array in arrays.items()}
+
+    def accelerate(self, i, t, p, v, added=None):
+        """By name (lanes, size), of t (lanes,), p (lanes, nq), v (lanes, nv)."""
+        order = self.direct.order[i]
+        pivots = order.solves + self.nv - self.m
+        return self._called(order.accelerate, (t, p, v, added if self.m else None), {
+            "pdot": self.nq, "vdot": self.nv, "lambda": self.m, "power": 1, "pivots": pivots})
+
+    def correct(self, i, t, p, v):
+        return self._called(self.direct.order[i].correct, (t, p, v), {"Phi": self.mh, "dp": self.nq, "dv": self.nv})
+
+    def all(self, i, t, p, v, added):
+        found = self.accelerate(i, t, p, v, added)
+        found |= {f"{name} with nothing added": value for name, value in self.accelerate(i, t, p, v).items()}
+        return found | (self.correct(i, t, p, v) if self.m else {})
+
+
+def direct_sets(system):
+    """Of a built-in or symbolic system: its direct functions by unit and lanes, (nq, nv, mh, m), its data and its start."""
+    if hasattr(system, "_direct"):
+        known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
+        table = ffi.cast("const zd_direct *", _gateway.address_of(system._direct.library("|".join(known)), "zd_symbolic_direct"))
+        rows, data = [table[i] for i in range(len(known))], system._with_direct_data()
+    else:
+        c, kind = system._core.c, _gateway.kinds()[system.name].c
+        rows = [c.direct[i] for i in range(c.directs)]
+        data = np.frombuffer(ffi.buffer(ffi.cast("double *", c.data), 8 * kind.constants)).copy()
+    sizes = system.nq, system.nv, system._core.c.mh, system.m
+    return {(row.unit, row.lanes): row for row in rows}, sizes, data, system.p0
