@@ -3,7 +3,7 @@
  */
 #include "runge_kutta.h"
 
-enum { STAGES = 12 };
+enum { STAGES = 12, MORE = 3, ALL = STAGES + 1 + MORE };    /* for values between: f at the end, and three stages more */
 
 static const double a[STAGES * STAGES] = {
     [1 * STAGES + 0] = 0.05260015195876773,
@@ -45,10 +45,89 @@ static const double e3[STAGES + 1] = {
     -0.1521609496625161, 0.20136540080403034, 0.02265179219836082, 0,
 };
 
-static const zd_tableau tableau = {STAGES, a, b, c, e5, e3};
+static const zd_tableau tableau = {.stages = STAGES, .a = a, .b = b, .c = c, .e = e5, .e3 = e3, .more = MORE};
 
 ZD_RUNGE_KUTTA_STEP
 ZD_RUNGE_KUTTA_ERROR
+
+/* Of the stages for values between, and of the polynomial */
+static const double more_a[MORE * ALL] = {
+    [0 * ALL + 0] = 0.056167502283047954, [0 * ALL + 6] = 0.25350021021662483, [0 * ALL + 7] = -0.2462390374708025,
+    [0 * ALL + 8] = -0.12419142326381637, [0 * ALL + 9] = 0.15329179827876568, [0 * ALL + 10] = 0.00820105229563469,
+    [0 * ALL + 11] = 0.007567897660545699, [0 * ALL + 12] = -0.008298,
+    [1 * ALL + 0] = 0.03183464816350214, [1 * ALL + 5] = 0.028300909672366776, [1 * ALL + 6] = 0.053541988307438566,
+    [1 * ALL + 7] = -0.05492374857139099, [1 * ALL + 10] = -0.00010834732869724932, [1 * ALL + 11] = 0.0003825710908356584,
+    [1 * ALL + 12] = -0.00034046500868740456, [1 * ALL + 13] = 0.1413124436746325,
+    [2 * ALL + 0] = -0.42889630158379194, [2 * ALL + 5] = -4.697621415361164, [2 * ALL + 6] = 7.683421196062599,
+    [2 * ALL + 7] = 4.06898981839711, [2 * ALL + 8] = 0.3567271874552811, [2 * ALL + 12] = -0.0013990241651590145,
+    [2 * ALL + 13] = 2.9475147891527724, [2 * ALL + 14] = -9.15095847217987,
+};
+static const double more_c[MORE] = {0.1, 0.2, 0.7777777777777778};
+static const double d[4 * ALL] = {
+    [0 * ALL + 0] = -8.428938276109013, [0 * ALL + 5] = 0.5667149535193777, [0 * ALL + 6] = -3.0689499459498917,
+    [0 * ALL + 7] = 2.38466765651207, [0 * ALL + 8] = 2.117034582445028, [0 * ALL + 9] = -0.871391583777973,
+    [0 * ALL + 10] = 2.2404374302607883, [0 * ALL + 11] = 0.6315787787694688, [0 * ALL + 12] = -0.08899033645133331,
+    [0 * ALL + 13] = 18.148505520854727, [0 * ALL + 14] = -9.194632392478356, [0 * ALL + 15] = -4.436036387594894,
+    [1 * ALL + 0] = 10.427508642579134, [1 * ALL + 5] = 242.28349177525817, [1 * ALL + 6] = 165.20045171727028,
+    [1 * ALL + 7] = -374.5467547226902, [1 * ALL + 8] = -22.113666853125306, [1 * ALL + 9] = 7.733432668472264,
+    [1 * ALL + 10] = -30.674084731089398, [1 * ALL + 11] = -9.332130526430229, [1 * ALL + 12] = 15.697238121770845,
+    [1 * ALL + 13] = -31.139403219565178, [1 * ALL + 14] = -9.35292435884448, [1 * ALL + 15] = 35.81684148639408,
+    [2 * ALL + 0] = 19.985053242002433, [2 * ALL + 5] = -387.0373087493518, [2 * ALL + 6] = -189.17813819516758,
+    [2 * ALL + 7] = 527.8081592054236, [2 * ALL + 8] = -11.57390253995963, [2 * ALL + 9] = 6.8812326946963,
+    [2 * ALL + 10] = -1.0006050966910838, [2 * ALL + 11] = 0.7777137798053443, [2 * ALL + 12] = -2.778205752353508,
+    [2 * ALL + 13] = -60.19669523126412, [2 * ALL + 14] = 84.32040550667716, [2 * ALL + 15] = 11.99229113618279,
+    [3 * ALL + 0] = -25.69393346270375, [3 * ALL + 5] = -154.18974869023643, [3 * ALL + 6] = -231.5293791760455,
+    [3 * ALL + 7] = 357.6391179106141, [3 * ALL + 8] = 93.40532418362432, [3 * ALL + 9] = -37.45832313645163,
+    [3 * ALL + 10] = 104.0996495089623, [3 * ALL + 11] = 29.8402934266605, [3 * ALL + 12] = -43.53345659001114,
+    [3 * ALL + 13] = 96.32455395918828, [3 * ALL + 14] = -39.17726167561544, [3 * ALL + 15] = -149.72683625798564,
+};
+
+/* to <- h sum_j weight_j k_j, over all stages there are */
+ZD_INLINE void add_up(const int size, const double *weight, double h, const double *restrict k, double *restrict to)
+{
+    for (int i = 0; i < size; i++) {
+        double sum = 0;
+        ZD_UNROLL
+        for (int j = 0; j < ALL; j++)
+            if (weight[j] != 0) sum += weight[j] * k[j * size + i];
+        to[i] = h * sum;
+    }
+}
+
+/* The polynomial between the ends of the step just made, of order seven: its coefficients are seven vectors. */
+static int spread(void *memory, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
+{
+    zd_runge_kutta *self = memory;
+    const int size = self->size, positions = rate->direct ? rate->system->nq : 0;
+    double *k = self->k, *F = self->polynomial, *f1 = k + STAGES * size;
+    int status = rate->evaluate(rate->context, t + h, y1, f1);
+    ZD_UNROLL
+    for (int i = 0; i < MORE; i++) {
+        if (status) return status;
+        zd_combine(positions, size, STAGES + 1 + i, more_a + i * ALL, h, k, y0, self->stage);
+        status = zd_rate_of_stage(rate, t + more_c[i] * h, self->stage, k + (STAGES + 1 + i) * size);
+    }
+    for (int i = 0; i < size; i++) {
+        const double change = y1[i] - y0[i];
+        F[i] = change;
+        F[size + i] = h * k[i] - change;
+        F[2 * size + i] = 2 * change - h * (f1[i] + k[i]);
+    }
+    ZD_UNROLL
+    for (int i = 0; i < 4; i++) add_up(size, d + i * ALL, h, k, F + (3 + i) * size);
+    return status;
+}
+
+static void between(const void *memory, double x, const double *y0, double *y)
+{
+    const zd_runge_kutta *self = memory;
+    const int n = self->size;
+    const double *F = self->polynomial, z = 1 - x;
+    for (int i = 0; i < n; i++) {
+        const double inner = F[3 * n + i] + x * (F[4 * n + i] + z * (F[5 * n + i] + x * F[6 * n + i]));
+        y[i] = y0[i] + x * (F[i] + z * (F[n + i] + x * (F[2 * n + i] + z * inner)));
+    }
+}
 
 const zd_integrator zd_dop853 = {
     .card = {
@@ -62,5 +141,5 @@ const zd_integrator zd_dop853 = {
                      "1993, section II.5",
     },
     .decay = 6.39,
-    ZD_RUNGE_KUTTA, .error = error,
+    ZD_RUNGE_KUTTA, .error = error, .spread = spread, .between = between,
 };

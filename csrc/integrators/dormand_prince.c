@@ -16,7 +16,7 @@ static const double c[] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1};
 
 static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0 / 339200, -22.0 / 525, 1.0 / 40};
 
-static const zd_tableau tableau = {6, a, b, c, e, NULL};
+static const zd_tableau tableau = {.stages = 6, .a = a, .b = b, .c = c, .e = e};
 
 ZD_RUNGE_KUTTA_STEP
 ZD_RUNGE_KUTTA_ERROR

@@ -7,7 +7,7 @@ static const double a[] = {
 static const double b[] = {1};
 static const double c[] = {0};
 
-static const zd_tableau tableau = {1, a, b, c, NULL, NULL};
+static const zd_tableau tableau = {.stages = 1, .a = a, .b = b, .c = c};
 
 ZD_RUNGE_KUTTA_STEP
 

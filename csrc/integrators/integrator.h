@@ -18,6 +18,10 @@ typedef struct zd_integrator {
      * there, 0: not known; NULL where card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h);
+    /* A polynomial between y0 and y1, the ends of the step just made from t to t + h, whose error is that of the method; then its value y at a
+     * share of the step. NULL: there is none, and shorter steps lead between. */
+    int (*spread)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);
+    void (*between)(const void *self, double share, const double *y0, double *y);
 } zd_integrator;
 
 /* Implicit methods have dense matrices of the size of the state: a system with structure, which else has none, may be this large. */

@@ -8,7 +8,7 @@ static const double a[] = {
 static const double b[] = {0, 1};
 static const double c[] = {0, 0.5};
 
-static const zd_tableau tableau = {2, a, b, c, NULL, NULL};
+static const zd_tableau tableau = {.stages = 2, .a = a, .b = b, .c = c};
 
 ZD_RUNGE_KUTTA_STEP
 

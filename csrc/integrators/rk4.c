@@ -10,7 +10,7 @@ static const double a[] = {
 static const double b[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
 static const double c[] = {0, 0.5, 0.5, 1};
 
-static const zd_tableau tableau = {4, a, b, c, NULL, NULL};
+static const zd_tableau tableau = {.stages = 4, .a = a, .b = b, .c = c};
 
 ZD_RUNGE_KUTTA_STEP
 

@@ -1,5 +1,8 @@
 /* Values between steps: from where the step began, a shorter one of the same method is made to each time that is wanted, and
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
+ *
+ * A method that has a polynomial between the ends of a step does it for less where steps are chosen: its values, corrected alike, err by as
+ * much as such steps do. Steps of fixed size may be too long for it, and events need values that are the same whenever they are asked for.
  */
 #include "between.h"
 
@@ -7,7 +10,13 @@
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder)
 {
-    zd_output self = {.stepper = stepper, .recorder = recorder, .t_eval = settings->t_eval, .t_evals = settings->t_evals};
+    zd_output self = {
+        .stepper = stepper,
+        .recorder = recorder,
+        .t_eval = settings->t_eval,
+        .t_evals = settings->t_evals,
+        .has_polynomial = !(settings->step > 0) && stepper->integrator->spread,
+    };
     if (settings->t_eval || settings->events) {
         self.before = zd_place_take(arena, stepper->motion);
         self.after = zd_place_take(arena, stepper->motion);
@@ -37,16 +46,28 @@ static int is_wanted(const zd_output *self, double until)
     return !zd_output_is_complete(self) && self->t_eval[self->next] <= until;
 }
 
+/* Saves those times that lie within the step, by the method's polynomial or by shorter steps; returns whether there were any. */
+static int save_within(zd_output *self, zd_record *record, double t1, int *away)
+{
+    int status = ZD_DONE, is_spread = 0;
+    while (!status && is_wanted(self, nextafter(t1, -INFINITY))) {
+        const double t = self->t_eval[self->next++];
+        if (!*away) is_spread = self->has_polynomial && zd_stepper_spread(self->stepper, self->before.t);
+        *away = 1;
+        is_spread = is_spread && !zd_stepper_land_between(self->stepper, t);
+        if (!is_spread) status = zd_output_move(self, t);
+        if (!status) status = zd_recorder_add(self->recorder, record);
+    }
+    return status;
+}
+
 int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     double t1 = self->stepper->t;
-    int status = ZD_DONE, away = 0;
-    if (is_wanted(self, t1)) zd_output_keep_end(self);
-    while (!status && is_wanted(self, nextafter(t1, -INFINITY))) {
-        away = 1;
-        status = zd_output_move(self, self->t_eval[self->next++]);
-        if (!status) status = zd_recorder_add(self->recorder, record);
-    }
+    int away = 0;
+    if (!is_wanted(self, t1)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
+    zd_output_keep_end(self);
+    int status = save_within(self, record, t1, &away);
     if (!status && away) status = zd_output_move(self, t1);
     int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;

@@ -11,6 +11,7 @@ typedef struct zd_output {
     const double *t_eval;   /* (t_evals,) times that are wanted; NULL: none */
     int64_t t_evals;
     int64_t next;              /* of them */
+    int has_polynomial;     /* whether that of the method is taken */
     zd_place before, after; /* the step: where it began and where it has ended */
 } zd_output;
 

@@ -7,6 +7,24 @@ static int integrate_and_land(zd_stepper *self, double h, double t1)
     return status ? status : zd_stepper_land(self, t1, 0, 1);
 }
 
+int zd_stepper_spread(zd_stepper *self, double t0)
+{
+    const zd_integrator *integrator = self->integrator;
+    const zd_last *last = &self->last;
+    const zd_motion *motion = self->motion;
+    /* Where v follows from the state, variables may be chosen anew at each place. */
+    if (!integrator->spread || motion->formulation->settle || last->t != t0 || last->h != self->t - t0) return 0;
+    return !integrator->spread(self->memory, &motion->rate, last->t, last->h, last->y, self->y);
+}
+
+int zd_stepper_land_between(zd_stepper *self, double t)
+{
+    const zd_last *last = &self->last;
+    self->integrator->between(self->memory, (t - last->t) / last->h, last->y, self->y);
+    self->motion->statistics.output_steps++;
+    return zd_stepper_land(self, t, 0, 1);
+}
+
 int zd_stepper_make_substep(zd_stepper *self, double t)
 {
     double h = t - self->t;

@@ -212,6 +212,14 @@ def test_a_single_step_does_without_them_too(member):
     assert_close(other(0.115)[0], sol(0.115)[0], tol.STEPPED)
 
 
+def test_a_value_between_steps_does_without_them_too():
+    """Neither the polynomial's value nor the shorter step can be landed: so it is made on the general road."""
+    options = {"integrator": "dop853", "rtol": 1e-8, "t_eval": [0.1, 0.115, 0.2]}
+    sol = zd.simulate(Failing("land", lambda t: t == 0.115).system, 0.2, **options)
+    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    assert_close(sol.p, zd.simulate(system("four_bar"), 0.2, **options).p, 1e-7)
+
+
 def test_perturbed_systems_have_none():
     core = _gateway.perturbed(system("four_bar")._direct_core(), 1e-8, 1)
     assert core.c.directs == 0

@@ -102,3 +102,36 @@ def test_times_that_do_not_increase():
         zd.simulate(BAR, 0.1, step=0.01, t_eval=[0.0, 0.06, 0.05])
     with pytest.raises(ValueError, match="needs at least one time"):
         zd.simulate(BAR, 0.1, step=0.01, t_eval=np.zeros(0))
+
+
+def chosen(system, rtol, times=None, **options):
+    return zd.simulate(system, 2.0, integrator="dop853", rtol=rtol, atol=rtol, t_eval=times, **options)
+
+
+@pytest.mark.parametrize("options", [{}, {"direct": False}, {"formulation": "augmented"}, {"energy": True},
+                                     {"stabilization": "baumgarte"}], ids=str)
+def test_the_polynomial_of_a_method_errs_as_its_steps_do(bar, options):
+    """By how much the rows between steps are off, beside the rows at their ends: at either, what the tolerance leaves."""
+    times = np.linspace(0, 2, 217)
+    exact = zd.simulate(bar, 2.0, step=2 / 1600, integrator="dop853")
+    for rtol in (1e-4, 1e-7, 1e-10):
+        at_ends = chosen(bar, rtol, **options)
+        between = chosen(bar, rtol, times, **options)
+        assert between.stats["steps"] == at_ends.stats["steps"]
+        assert between.v[-1].tobytes() == at_ends.v[-1].tobytes()
+        error = max(np.abs(at_ends.p - exact(at_ends.t)[0]).max(), rtol)
+        assert np.abs(between.p - exact(times)[0]).max() <= 3 * error
+
+
+def test_values_of_the_polynomial_satisfy_the_constraints(bar):
+    sol = chosen(bar, 1e-5, np.linspace(0, 2, 101), energy=True)
+    assert sol.stats["output_steps"] > 90
+    assert np.abs(sol.position_violation).max() <= 1e-12
+    assert np.abs(sol.velocity_violation).max() <= 1e-12
+    assert np.abs(sol.energy_violation).max() <= 1e-12 * np.abs(sol.potential_energy).max()
+
+
+def test_no_more_is_evaluated_than_three_stages_and_what_is_saved(bar):
+    steps, times = chosen(bar, 1e-6), np.linspace(0.013, 1.987, 20)
+    between = chosen(bar, 1e-6, times)
+    assert between.stats["evaluations"] - steps.stats["evaluations"] <= 20 * 11     # shorter steps would take more than that alone

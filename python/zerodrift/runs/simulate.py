@@ -77,7 +77,7 @@ def simulate(
         fixed size have none.
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
-        corrected.
+        corrected: they come from shorter steps, or where steps of dop853 are chosen from its polynomial.
     events : callable, Event or measure, or a list of these, optional
         Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
         the beginning of a step to its end. What is reported is corrected, also with corrections at every k-th step only, and
