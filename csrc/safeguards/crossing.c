@@ -61,9 +61,9 @@ int zd_crossing_is_at_one(const zd_point *point)
     return point->rank->lost || point->rows < point->rank->most_rows;
 }
 
-ZD_INLINE void keep_rows(const int n, const zd_point *point, double *C)
+ZD_INLINE void keep_rows(const int n, const int m, const zd_point *point, double *C)
 {
-    for (int k = 0; k < point->rank->m; k++)
+    for (int k = 0; k < m; k++)
         for (int i = 0; i < n; i++) C[k * n + i] = point->terms.C[k * n + i] * point->unit[i] * point->unit[i];
 }
 
@@ -78,7 +78,7 @@ static void keep_packed_rows(const zd_point *point, double *C)
 static void store_rows(const zd_point *point, double *C)
 {
     if (point->layout) keep_packed_rows(point, C);
-    else ZD_SIZED(keep_rows, point->rank->n, point, C);
+    else ZD_SIZED(keep_rows, point->rank->n, point->rank->m, point, C);
 }
 
 static int need_memory(zd_crossing *self)
@@ -112,9 +112,9 @@ int zd_crossing_need_rows(zd_crossing *self)
 }
 
 /* The sign of rows does not depend on their size. */
-ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *C0)
+ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *a0, const double *b0)
 {
-    const double *a = point->C, *b = a + n, *a0 = C0 + zd_rank_row(point, 0) * n, *b0 = C0 + zd_rank_row(point, 1) * n;
+    const double *a = point->C, *b = a + n;
     return zd_dot(n, a, a0) * zd_dot(n, b, b0) - zd_dot(n, a, b0) * zd_dot(n, b, a0);
 }
 
@@ -122,7 +122,7 @@ ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *C
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
     const int n = point->rank->n, rows = point->rows;
-    if (rows == 2 && !point->layout) return ZD_SIZED(turn_of_two, n, point, C0);
+    if (rows == 2 && !point->layout) return ZD_SIZED(turn_of_two, n, point, C0 + zd_rank_row(point, 0) * n, C0 + zd_rank_row(point, 1) * n);
     double *turn = self->memory->turn;
     for (int a = 0; a < rows; a++)
         for (int b = 0; b < rows; b++) {
@@ -210,6 +210,22 @@ static void keep(zd_crossing *self)
     point->rank->was_turned = !(point->known & ZD_RANKED);     /* it is not where a long path was followed */
 }
 
+/* Whether two rows, as a loop in the plane has, count at both ends of a short step. */
+static int is_ordinary(const zd_crossing *self, double moved)
+{
+    const zd_point *point = self->motion->point;
+    return point->rank->m == ZD_FEW_ROWS && zd_rank_is_full(point) && !point->layout && self->has_begun && self->has_rows && !self->may_pass
+        && moved <= LONG * LONG;
+}
+
+/* Keeps two rows, if they have the orientation of those that are kept. */
+ZD_INLINE int keep_two(const int n, const zd_point *point, double *C0)
+{
+    if (!(turn_of_two(n, point, C0, C0 + n) > 0)) return 0;
+    keep_rows(n, 2, point, C0);
+    return 1;
+}
+
 int zd_crossing_step(zd_crossing *self, double h, double moved)
 {
     zd_motion *motion = self->motion;
@@ -220,6 +236,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
     int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, motion->acceleration_needs);
     if (!status && !(point->known & ZD_RANKED)) status = zd_motion_find_rows(motion);
     if (status) return status;
+    if (is_ordinary(self, moved) && ZD_SIZED(keep_two, point->rank->n, point, self->memory->C)) return ZD_DONE;
     if (zd_crossing_is_at_one(point)) {
         self->has_begun = self->has_rows = 0;
         return ZD_DONE;
