@@ -1,6 +1,7 @@
 /* Memory that ends while a run steps: parallelograms that pass the bifurcation of each of them, in every formulation. What the core asks for is only
  * granted so many times once the run is there, one time more in each run until nothing is refused. Linked with --wrap, so that each call of the core
- * itself arrives here. Prints "<formulation> <granted> <status> <blocks left when the run is freed> <message>".
+ * itself arrives here. Steps are of fixed size, where rows come to depend in a stage or, as Euler's method has none, while positions are corrected;
+ * and chosen. Prints "<formulation> <integrator> <granted> <status> <blocks left when the run is freed> <message>".
  */
 #include <math.h>
 #include <stdio.h>
@@ -8,6 +9,7 @@
 
 #include "zerodrift.h"
 
+static const double BEND = 0.1;
 enum { BARS = 3, N = 3 * BARS, M = 2 * BARS, STEPS = 200 };
 
 static int granted = -1, refused, blocks;      /* granted < 0: as much as is asked for */
@@ -31,7 +33,8 @@ void __wrap_free(void *memory)
     __real_free(memory);
 }
 
-/* Each with cranks of 0.3 m and a coupler of 1 m, whose inertia is constant; no forces. */
+/* Each with cranks of 0.3 m and a coupler of 1 m, whose inertia is constant; no forces. The second crank's angle is s + BEND s^2, so that no step ends
+ * on the constraints by itself. */
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     static const double length[3] = {0.3, 1, -0.3};
@@ -41,9 +44,11 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     for (int b = 0; b < BARS; b++) {
         double Phi[2] = {-1, 0}, xi[2] = {0, 0};
         for (int i = 3 * b; i < 3 * b + 3; i++) {
-            double x = length[i % 3] * cos(p[i]), y = length[i % 3] * sin(p[i]);
-            Phi[0] += x, Phi[1] += y, xi[0] += x * v[i] * v[i], xi[1] += y * v[i] * v[i];
-            if (want & ZD_C) out->C[2 * b * N + i] = -y, out->C[(2 * b + 1) * N + i] = x;
+            double bend = i % 3 == 2 ? BEND : 0, angle = p[i] * (1 + bend * p[i]), slope = 1 + 2 * bend * p[i];
+            double x = length[i % 3] * cos(angle), y = length[i % 3] * sin(angle);
+            double turn = slope * slope * v[i] * v[i], shift = 2 * bend * v[i] * v[i];
+            Phi[0] += x, Phi[1] += y, xi[0] += x * turn + y * shift, xi[1] += y * turn - x * shift;
+            if (want & ZD_C) out->C[2 * b * N + i] = -y * slope, out->C[(2 * b + 1) * N + i] = x * slope;
         }
         for (int k = 0; k < 2 && want & ZD_PHI; k++) out->Phi[2 * b + k] = Phi[k];
         for (int k = 0; k < 2 && want & ZD_XI; k++) out->xi[2 * b + k] = xi[k];
@@ -59,14 +64,19 @@ static void run(const zd_system *system, const zd_settings *settings, int grant)
     double p[N], v[N];
     int status;
     char message[512];
-    for (int i = 0; i < N; i++) p[i] = i % 3 == 1 ? 0 : 2.4 + 0.2 * (i / 3), v[i] = i % 3 == 1 ? 0 : 2;
+    for (int i = 0; i < N; i++) {
+        double bend = i % 3 == 2 ? BEND : 0, angle = i % 3 == 1 ? 0 : 2.4 + 0.2 * (i / 3);
+        p[i] = 2 * angle / (1 + sqrt(1 + 4 * bend * angle));
+        v[i] = i % 3 == 1 ? 0 : 2 / (1 + 2 * bend * p[i]);
+    }
     granted = -1, refused = 0, blocks = 0;
     zd_run *it = zd_run_create(system, settings, p, v, &status, message, sizeof message);
     granted = grant;
     if (it) status = zd_run_advance(it, &record, 1e9);
     if (it) snprintf(message, sizeof message, "%s", zd_run_message(it));
     zd_run_free(it);
-    printf("%s %d %d %d %s\n", zd_row(ZD_FORMULATIONS, settings->formulation)->name, grant, status, blocks, message);
+    printf("%s %s %d %d %d %s\n", zd_row(ZD_FORMULATIONS, settings->formulation)->name, zd_row(ZD_INTEGRATORS, settings->integrator)->name, grant,
+           status, blocks, message);
 }
 
 int main(void)
@@ -74,13 +84,17 @@ int main(void)
     const zd_system system = {
         .nq = N, .nv = N, .mh = M, .provides = ZD_M | ZD_PHI | ZD_C | ZD_XI | ZD_TIMELESS, .evaluate = evaluate,
     };
-    zd_settings settings = {
-        .integrator = zd_row_named(ZD_INTEGRATORS, "rk4"), .t1 = 0.6, .step = 0.6 / STEPS, .save_every = STEPS, .on_singular = ZD_CONTINUE,
-    };
+    static const char *const integrators[] = {"rk4", "euler", "dormand_prince"};
+    zd_settings settings = {.t1 = 0.6, .save_every = STEPS, .on_singular = ZD_CONTINUE};
     const int projection = zd_row_named(ZD_CORRECTIONS, "projection");
     settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    for (settings.formulation = 0; settings.formulation < zd_rows(ZD_FORMULATIONS); settings.formulation++) {
+    for (int i = 0; i < 3 * zd_rows(ZD_FORMULATIONS); i++) {
+        const int is_chosen = i % 3 == 2;
         int grant = 0;
+        settings.formulation = i / 3;
+        settings.integrator = zd_row_named(ZD_INTEGRATORS, integrators[i % 3]);
+        settings.step = is_chosen ? 0 : settings.t1 / STEPS;
+        settings.rtol = settings.atol = is_chosen ? 1e-9 : 0;
         do run(&system, &settings, grant++);
         while (refused);
     }
