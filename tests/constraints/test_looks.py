@@ -22,13 +22,14 @@ def program(tmp_path_factory, core_objects):
     return linked(tmp_path_factory.mktemp("looks") / "looks", ROOT / "tests" / "native" / "looks.c", others)
 
 
-def path_of_matrices(rng, n, m):
+def path_of_matrices(rng, n, m, pattern=1.0):
     """Matrices one after the other, some nearly the same as the one before, some far from it. Along them a row comes to follow
-    from the others, by any digits, and goes on reversed.
+    from the others that have entries where it has, by any digits, and goes on reversed.
     """
-    C, wander = rng.normal(size=(2, m, n)) * 10 ** rng.uniform(-2, 2, (m, 1))
+    pattern = np.broadcast_to(pattern, (m, n))
+    C, wander = pattern * rng.normal(size=(2, m, n)) * 10 ** rng.uniform(-2, 2, (m, 1))
     row, others = rng.integers(m), rng.normal(size=m)
-    others[row] = 0
+    others[(pattern != pattern[row]).any(axis=1)] = others[row] = 0
     at, left = 0.0, C[row].copy()
     for i in range(MATRICES):
         at += 10 ** rng.uniform(-4, 0) * 0.3
@@ -54,10 +55,10 @@ def orientation(C, before, metric):
     return np.linalg.slogdet(product)[0] if np.linalg.cond(product) < 1e10 else 0.0
 
 
-def said(program, draws):
+def said(program, draws, *options):
     """(matrices, looks, 2): of each whether it is doubtful, and whether rows may have been turned since the matrix before."""
     sent = b"".join(np.concatenate([[C.shape[2], C.shape[1], len(C)], M.ravel(), C.ravel()]).tobytes() for M, C in draws)
-    lines = subprocess.run([program], input=sent, capture_output=True, check=True).stdout.decode().splitlines()
+    lines = subprocess.run([program, *options], input=sent, capture_output=True, check=True).stdout.decode().splitlines()
     return np.array([line.split()[1:] for line in lines], dtype=int).reshape(-1, 2, 2)
 
 
@@ -82,3 +83,25 @@ def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
                 assert kept >= 0 or was_turned
                 counts[look] += [[not full, full and not is_doubtful], [kept < 0, kept > 0 and not was_turned]]
     assert (counts > 50).all(), counts
+
+
+def test_what_is_looked_at_packed_is_what_is_looked_at_dense(program):
+    """Chains of bodies. Packed, shares come from products of rows, and dense, from orthogonal ones: neither believes what the full
+    decision refuses, and they disagree at most about shares near their bound, from which both look further.
+    """
+    rng, draws = np.random.default_rng(5), []
+    for bodies in rng.integers(2, 12, 60):
+        pattern = np.kron(np.eye(bodies - 1, bodies) + np.eye(bodies - 1, bodies, 1), np.ones((3, 3)))
+        m, n = pattern.shape
+        draws.append((np.eye(n), np.array(list(path_of_matrices(rng, n, m, pattern)))))
+    answers = said(program, draws, "packed").reshape(len(draws), MATRICES, 2, 2)
+    refused = 0
+    for (_, matrices), answer in zip(draws, answers, strict=True):
+        start = np.linalg.norm(matrices[0], axis=1)
+        for i, C in enumerate(matrices):
+            full, (is_doubtful, was_turned) = of_full_rank(C, start), answer[i, 1]
+            refused += not full
+            assert full or is_doubtful
+            believed = i and not is_doubtful and not answer[i - 1, 1, 0]
+            assert was_turned or not believed or orientation(C, matrices[i - 1], np.eye(C.shape[1])) >= 0
+    assert refused > 50 and (answers[:, :, 0] == answers[:, :, 1]).mean() > 0.98

@@ -2,7 +2,8 @@
  *
  * Reads n, m, how many matrices C there are, a matrix M (n, n), and then the matrices (m, n), all as doubles, again and again. Prints for each matrix
  * of constraints/look.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same. That file is included for what
- * it holds against both numbers of an orthogonalization, and the start is the first matrix.
+ * it holds against both numbers of an orthogonalization, and the start is the first matrix. With an argument, rows are of a chain of bodies with
+ * three velocities each, three for each two neighbours, and what look.c says of them packed takes the place of what `schur` says.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,11 +12,11 @@
 #include "formulations/schur.c"
 #include "workspace.h"
 
-enum { MOST = 64 };
+enum { MOST = 64, BODY = 3, MOST_BODIES = MOST / BODY };
 
 static int read_doubles(double *to, size_t count) { return fread(to, sizeof *to, count, stdin) == count; }
 
-static zd_look *take_look(zd_arena *arena, const zd_system *system) { return zd_look_take(arena, system, NULL, NULL); }
+static void *take_look(zd_arena *arena, const void *system) { return zd_look_take(arena, system, NULL, NULL); }
 
 static void say(const char *which, int is_doubtful, int was_turned) { printf("%s %d %d\n", which, is_doubtful, was_turned); }
 
@@ -47,15 +48,76 @@ static int follow(const zd_system *system, int count, const double *M, double *C
     return 0;
 }
 
-int main(void)
+/* ---- packed ---- */
+
+typedef struct packed {
+    zd_system system;
+    const zd_layout *layout;
+    zd_look *look;
+    double *C;
+} packed;
+
+static void *take_packed(zd_arena *arena, const void *of)
 {
+    packed self = *(const packed *)of;
+    self.layout = zd_layout_take(arena, &self.system);
+    self.look = zd_look_take(arena, &self.system, NULL, NULL);
+    self.C = zd_take_doubles(arena, (size_t)zd_size_of_C(&self.system));
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static void pack(const packed *self, const double *C)
+{
+    for (int k = 0; k < self->system.mh; k++) {
+        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
+        for (int j = 0; j < row.count; j++) self->C[row.x - self->C + j] = C[k * self->system.nv + zd_column(&row, j)];
+    }
+}
+
+static int follow_packed(const zd_system *system, int count, double *C)
+{
+    static int sizes[MOST_BODIES], rows[MOST_BODIES], first[MOST_BODIES], block[2 * MOST_BODIES];
+    const int bodies = system->nv / BODY;
+    for (int b = 0; b < bodies; b++) sizes[b] = rows[b] = BODY, first[b] = 2 * b, block[2 * b] = b, block[2 * b + 1] = b + 1;
+    const zd_structure structure = {bodies, sizes, sizes, NULL, bodies - 1, rows, first, block};
+    packed wanted = {.system = *system};
+    wanted.system.structure = &structure;
+    zd_store store = {NULL};
+    const packed *self = zd_store_take(&store, take_packed, &wanted);
+    if (!self) return 1;
+    double start_square[MOST];
+    zd_rank rank = {.n = system->nv, .m = system->mh, .mh = system->mh, .start_square = start_square};
+    zd_point dense = {.system = system, .rank = &rank, .terms = {.C = C}}, point = dense;
+    point.system = &self->system, point.layout = self->layout, point.terms.C = self->C;
+    zd_store of_dense = {NULL};
+    zd_look *look = zd_store_take(&of_dense, take_look, system);
+    if (!look) return 1;
+    for (int i = 0; i < count && read_doubles(C, (size_t)(system->mh * system->nv)); i++) {
+        for (int k = 0; k < system->mh && !i; k++) start_square[k] = zd_dot(system->nv, C + k * system->nv, C + k * system->nv);
+        pack(self, C);
+        rank.was_turned = 0;
+        int is_doubtful = zd_look_is_doubtful(look, &dense);
+        say("look", is_doubtful, rank.was_turned);
+        rank.was_turned = 0;
+        is_doubtful = zd_look_is_doubtful(self->look, &point);
+        say("packed", is_doubtful, rank.was_turned);
+    }
+    zd_store_release(&store);
+    zd_store_release(&of_dense);
+    return 0;
+}
+
+int main(int arguments, char **argument)
+{
+    (void)argument;
     static double M[MOST * MOST], C[MOST * MOST];
     double sizes[3];
     int failed = 0;
     while (!failed && read_doubles(sizes, 3)) {
         const int n = (int)sizes[0], m = (int)sizes[1];
         const zd_system system = {.nq = n, .nv = n, .mh = m};
-        failed = n > MOST || m > n || !read_doubles(M, (size_t)(n * n)) || follow(&system, (int)sizes[2], M, C);
+        failed = n > MOST || m > n || !read_doubles(M, (size_t)(n * n));
+        failed = failed || (arguments > 1 ? follow_packed(&system, (int)sizes[2], C) : follow(&system, (int)sizes[2], M, C));
     }
     return failed;
 }
