@@ -18,6 +18,7 @@
 #include "../stepping/adaptive.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
+static const double ROUNDING = 0x1p-46;         /* of the largest row's size: some tens of roundings of what Phi is the difference of */
 static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
 
 typedef struct workspace {
@@ -25,6 +26,20 @@ typedef struct workspace {
     double *factor;     /* stored as M is: to see whether it is positive definite */
     double *states;     /* (3, size): for the choice of the first step */
 } workspace;
+
+/* Largest |Phi| in units of its rows' sizes. Where a row all but vanishes, as of links that are drawn in line, that would be a rounding of
+ * lengths over next to nothing: what rounding leaves of the largest row is no violation of any. */
+static double position_violation(const zd_point *point)
+{
+    const int mh = point->system->mh;
+    double rounding = ROUNDING * zd_max_abs(mh, point->size), largest = 0;
+    for (int k = 0; k < mh; k++) {
+        double size = fabs(point->terms.Phi[k]);
+        if (!(size < INFINITY)) return INFINITY;
+        if (size > rounding) largest = fmax(largest, size * point->inverse_size[k]);
+    }
+    return largest;
+}
 
 /* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
 static double velocity_violation(const zd_run *run, const double *Psi)
@@ -48,7 +63,7 @@ static int check_constraints(zd_run *run, double *Psi)
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !m) return status;
     zd_point_velocity_violation(point, Psi);
-    double position = mh ? zd_point_violation(point) : 0, velocity = velocity_violation(run, Psi);
+    double position = mh ? position_violation(point) : 0, velocity = velocity_violation(run, Psi);
     if (position <= allowed && velocity <= allowed) return ZD_DONE;
     if (zd_first_not_finite(&run->motion.system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
     snprintf(run->outcome.message, sizeof run->outcome.message,

@@ -64,7 +64,7 @@ def test_an_inconsistent_start(bar):
                r"zd\.assemble finds a consistent start nearby$")
     with pytest.raises(zd.InconsistentStart, match=message):
         zd.simulate(bar, 1, bar.p0 + 0.1, step=0.1)
-    with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = .*e-1\d, max \|Psi\| = 0\.\d+ "):
+    with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = 0, max \|Psi\| = 0\.\d+ "):
         zd.simulate(bar, 1, bar.p0, [1, 0, 0], step=0.1)
     zd.simulate(bar, 0.1, *zd.assemble(bar, bar.p0 + 0.1, [1, 0, 0]), step=0.05)
 

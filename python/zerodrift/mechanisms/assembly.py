@@ -172,10 +172,16 @@ class Assembly:
             p = moved
         else:
             return p
-        p, residual = self._least_squares(p, lambda p: self._residual(p, held))
+        closest, residual = self._least_squares(p, lambda p: self._residual(p, held))
         if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
-            raise self._unmet(residual, held)
-        return p
+            raise self._unmet(self._left_over(p, held, residual), held)
+        return closest
+
+    def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
+        """What remains as near to what is held as closed joints allow; that of least squares, where drives are not met there."""
+        if not self.is_joint.all() or not held:
+            return residual
+        return self._residual(self._approach(p, (), held), held)[0]
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
         """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
@@ -287,10 +293,18 @@ class Assembly:
         size = np.where(movable, np.abs(residual), 0.0)
         if not size.max(initial=0.0) > 0:
             return CorrectionFailed("joints")
-        worst = [i for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
-        told = ", ".join(f"{names[i]!r}" for i in worst[:4])
-        return InconsistentStart(f"what the start holds and what is driven cannot be met together: {told}; "
-                                 f"what remains is {size.max():.3g} rad or parts of the mechanism's length")
+        worst = [int(i) for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
+        apart = np.abs(residual) * self._size[len(held)]
+        told = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {self._unit_of(names[i])}".rstrip() for i in worst[:4])
+        turns = [target for target in held if target.name.endswith("angle") and abs(target.value) > 2 * np.pi]
+        hint = f". Angles are in rad: {turns[0].value:g} degrees are {np.radians(turns[0].value):.4g}" if turns else ""
+        return InconsistentStart(f"what the start holds and what is driven cannot be met together; nearest to it there are left: "
+                                 f"{told}{hint}")
+
+    def _unit_of(self, name: str) -> str:
+        """The unit of a held measure; of drives and couplings, which are named without one, none is told."""
+        quantity = name.split(".")[1:]
+        return "" if not quantity else "rad" if quantity[-1] == "angle" else "m"
 
     # ---- velocities ----
 
@@ -336,7 +350,8 @@ class Assembly:
         told = f"; it is off by {off:.3g}" if off else ""
         joints = ", ".join(repr(name) for name in sorted({self.rows[i] for i in worst if not names[i]}))
         blocking = f"the joints {joints} do" if joints else "the mechanism does"
-        return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow{told}")
+        return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
+                                 "At a dead centre, start a little aside, or drive another joint")
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
         """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""

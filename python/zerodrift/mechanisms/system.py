@@ -14,9 +14,10 @@ from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
 from ..symbolics.direct_functions import DirectFunctions
 from ..systems.base import BaseSystem
+from . import advice
 from .compiled import Written
 from .describing import described
-from .drawing import Drawing, Inertias
+from .drawing import Drawing
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
@@ -184,15 +185,13 @@ class MechanismSystem(BaseSystem):
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return outline(self._drawing, self._numbers, poses)
 
-    def _advice_on_mass(self) -> str | None:
-        """Which bodies are without mass or inertia, and what helps."""
-        inertias = Inertias(self._drawing, self._numbers).of
-        without = [body.name for body in self._drawing.parts()
-                   for mass, inertia, _ in [inertias[body.name]] if not (mass > 0 and (inertia > 0 or not body.turns))]
-        if not without:
-            return None
-        named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
-        return f"{named} {have} no mass or no inertia: give some, or take formulation='augmented'"
+    def _advice(self, error: Exception) -> str | None:
+        """What helps where the start is singular."""
+        return advice.at_start(str(error), self._drawing, self._numbers, self.constraints)
+
+    def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
+        """Whether a motor has come to a dead centre."""
+        return advice.dead_centre(self._started_tables, self._interpreted, t, p)
 
 
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:

@@ -65,7 +65,7 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     >>> float(p[0]), float(v[0])
     (1.2, 2.0)
     """
-    if isinstance(p, Mapping) or isinstance(system, Makes):
+    if isinstance(p, Mapping) or isinstance(system, Makes) or (p is None and hasattr(system, "_assembled")):
         return _assembled(system_of(system), p, v, hold, wish, nudge, _check.number("t", t))
     core_of(system)
     if wish is not None or nudge:

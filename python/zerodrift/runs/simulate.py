@@ -256,14 +256,14 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
 
 
 def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
-    """The core's run; where masses forbid it, the error says what the system knows of them."""
+    """The core's run; where masses or the pose forbid it, the error says what the system knows of them."""
     try:
         return _gateway.Run(*given)
     except SingularSystem as error:
-        advice = system._advice_on_mass() if "mass matrix" in str(error) else None
+        advice = system._advice(error)
         if advice is None:
             raise
-        raise SingularSystem(f"{error}; {advice}") from None
+        raise type(error)(f"{error}; {advice}") from None
 
 
 def _message(run: _gateway.Run, outcome: _Outcome) -> str:
@@ -316,8 +316,15 @@ def _finished(solution: Solution, run, results, outcome, on_failure, keyboard) -
 def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
     if solution.status == _gateway.INTERRUPTED:
         raise Interrupted(solution.message, solution) from None
-    note = run.message if solution.status == _gateway.CALLBACK else None
+    note = run.message if solution.status == _gateway.CALLBACK else _advice(solution)
     raise _with_solution(run.error(solution.status), solution, note)
+
+
+def _advice(solution: Solution) -> str | None:
+    """What the system knows of the place where its run failed."""
+    if not len(solution.t):
+        return None
+    return solution.system._advice_on_failure(float(solution.t[-1]), np.ascontiguousarray(solution.p[-1]))
 
 
 def _with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:

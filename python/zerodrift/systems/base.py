@@ -241,8 +241,12 @@ class BaseSystem:
         column = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
         return lambda t, p, v: float(v[column])
 
-    def _advice_on_mass(self) -> str | None:
-        """What helps where the mass matrix is not positive definite; None: nothing is known of it."""
+    def _advice(self, error: Exception) -> str | None:
+        """What a system knows of an error at the start that the core has told in its own words; None: nothing."""
+        return None
+
+    def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
+        """The same of a run that failed near a state."""
         return None
 
     def _why_unknown(self, name: Any) -> str | None:
