@@ -26,10 +26,26 @@ typedef struct parts {
     zd_coordinate_owner *coordinate;
     int *lengths;
     zd_packing *packing;
+    zd_hinged hinged;
     int gauges, terms, rows, angles;        /* so many are there by now */
 } parts;
 
 /* ---- memory ---- */
+
+static int has_tree(const zd_tables *tables)
+{
+    for (int i = 0; i < tables->bodies; i++)
+        if (tables->body[i].carrier >= 0) return 1;
+    return 0;
+}
+
+/* Of joints outside the tree, and relations. */
+static size_t most_rows(const zd_tables *tables)
+{
+    int joints = tables->joints;
+    for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].carrier >= 0;
+    return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->relations;
+}
 
 static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
 {
@@ -55,6 +71,7 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     TAKE(packing, 1);
 #undef TAKE
     zd_packing none = {.size_of_C = 0};
+    zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
     zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows, (size_t)tables->terms + extra);
 }
 
@@ -284,13 +301,6 @@ static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tr
     return terms;
 }
 
-static int has_tree(const zd_tables *tables)
-{
-    for (int i = 0; i < tables->bodies; i++)
-        if (tables->body[i].carrier >= 0) return 1;
-    return 0;
-}
-
 static void make_system(const zd_tables *tables, const parts *from, int coordinates, zd_mechanism *self)
 {
     for (int i = 0; i < tables->efforts; i++) from->effort[i] = tables->effort[i];
@@ -332,6 +342,8 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     };
     self->measures.count = tables->measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
+    zd_hinged_plan(&all->hinged, &self->tree, self->mh, self->row, self->term, self->coefficient, self->gauge);
+    self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);
 }
 

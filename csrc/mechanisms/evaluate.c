@@ -42,19 +42,51 @@ static void write_packed_mass(const zd_tree *tree, double *M)
     }
 }
 
+/* Of the wanted terms, those that are not known from sines and cosines alone, for which bodies are placed. */
+static int terms_of_bodies(const zd_mechanism *self, int want)
+{
+    int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
+    if (!self->hinged.is_whole) return left;
+    if (2 * self->hinged.closures == self->m) left &= ~ROWS;
+    return left & ~(ZD_M | ZD_BIAS | (self->efforts ? 0 : ZD_FORCE));
+}
+
+/* Bodies are placed once for each (t, p), when first a term needs it. */
+static void place(const zd_mechanism *self, const zd_frame *frame, int left, const double *p, const double *v)
+{
+    if (*frame->is_placed == 0) zd_tree_place(&self->tree, p, frame->sines, frame->pose);
+    *frame->is_placed = 1;
+    int is_moving = left & (ZD_BIAS | ZD_XI | ZD_POWER) || self->has_velocity_forces || self->law;
+    if (is_moving) zd_tree_move(&self->tree, frame->pose, v, frame->twist);
+}
+
+/* What is known from sines and cosines alone. */
+static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int want, const double *v, const zd_terms *out)
+{
+    const zd_hinged *hinged = &self->hinged;
+    if (want & ZD_M) zd_hinged_mass(hinged, &self->tree, frame->sines, out->M);
+    if (want & ZD_BIAS) zd_hinged_bias(hinged, &self->tree, frame->sines, v, out->d);
+    if ((want & ZD_FORCE) && !self->efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
+    if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
+}
+
 int zd_mechanism_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     const zd_mechanism *self = data;
     const zd_frame frame = zd_frame_of(self, out->scratch);
-    int is_moving = want & (ZD_BIAS | ZD_XI | ZD_POWER) || self->has_velocity_forces || self->law;
+    int left = terms_of_bodies(self, want);
     clear(self, want, out);
-    if (want & ZD_MOVED) zd_tree_place(&self->tree, p, frame.sines, frame.pose);
-    if (is_moving) zd_tree_move(&self->tree, frame.pose, v, frame.twist);
-    if ((want & ZD_M) && self->packing) write_packed_mass(&self->tree, out->M);
-    else if (want & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
-    if (want & ZD_BIAS) write_bias(self, &frame, out->d);
-    if (want & ZD_POTENTIAL) *out->V = zd_efforts_potential(self, &frame);
-    if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((want & ZD_POWER) && zd_efforts_power(self, &frame, t, out->power)) return ZD_CALLBACK;
-    return want & ROWS ? zd_rows_write(self, &frame, want, t, out) : ZD_DONE;
+    if (want & ZD_MOVED) {
+        zd_tree_turn(&self->tree, p, frame.sines);
+        *frame.is_placed = 0;
+    }
+    if (left) place(self, &frame, left, p, v);
+    if (self->hinged.is_whole) write_hinged(self, &frame, want, v, out);
+    if ((left & ZD_M) && self->packing) write_packed_mass(&self->tree, out->M);
+    else if (left & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
+    if (left & ZD_BIAS) write_bias(self, &frame, out->d);
+    if (left & ZD_POTENTIAL) *out->V = zd_efforts_potential(self, &frame);
+    if ((left & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
+    if ((left & ZD_POWER) && zd_efforts_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    return left & ROWS ? zd_rows_write(self, &frame, left, t, out) : ZD_DONE;
 }

@@ -123,6 +123,7 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame frame = zd_frame_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!has_what_it_needs(self, observed, &at)) return ZD_BAD_ARGUMENT;
+    zd_tree_turn(&self->tree, p, frame.sines);
     zd_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_tree_move(&self->tree, frame.pose, v, frame.twist);
     if (observed->quantity <= ZD_ACCELERATIONS) {

@@ -4,6 +4,7 @@
 
 #include "mechanism.h"
 #include "tree.h"
+#include "hinged.h"
 
 typedef struct zd_planned_joint {
     int carried;            /* the body that it carries, 0: none */
@@ -34,6 +35,7 @@ struct zd_mechanism {
     const zd_coordinate_owner *coordinate;      /* (nq,) */
     zd_law *law;
     void *owner;
+    zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
@@ -47,7 +49,8 @@ typedef struct zd_frame {
     zd_wrench *wrench;
     zd_composite *composite;
     zd_spin *spin;                  /* of measures alone */
-    double *sines;                  /* 3 for each body, see zd_tree_place() */
+    double *sines;                  /* 3 for each body, see zd_tree_turn() */
+    double *is_placed;              /* whether the poses are those of this (t, p), 0 or 1 */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
 } zd_frame;

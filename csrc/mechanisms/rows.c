@@ -103,6 +103,7 @@ int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, dou
     int nv = self->tree.nv;
     for (int i = 0; i < self->m; i++) {
         const zd_relation *row = self->row + i;
+        if (self->hinged.is_whole && self->hinged.is_closure[i]) continue;
         combined all;
         int status = combine(self, frame, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->mh;
         if (status) return status;

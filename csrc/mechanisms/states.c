@@ -6,6 +6,7 @@ void zd_mechanism_poses(const zd_mechanism *mechanism, const double *p, const do
 {
     const zd_tree *tree = &mechanism->tree;
     const zd_frame frame = zd_frame_of(mechanism, scratch);
+    zd_tree_turn(tree, p, frame.sines);
     zd_tree_place(tree, p, frame.sines, frame.pose);
     if (v) zd_tree_move(tree, frame.pose, v, frame.twist);
     for (int body = 1; body <= tree->bodies; body++) {

@@ -31,12 +31,17 @@ static void place_hanging(const zd_link *link, const double *own, const zd_pose 
 
 static int has_angle(const zd_link *link) { return link->hang == ZD_HANGS_TURNING || link->hang == ZD_HANGS_FREE; }
 
-void zd_tree_place(const zd_tree *tree, const double *p, double *memory, zd_pose *pose)
+void zd_tree_turn(const zd_tree *tree, const double *p, double *memory)
 {
     const int n = tree->angles;
     double *angle = memory, *sine = angle + n, *cosine = sine + n;
     for (int k = 0; k < n; k++) angle[k] = p[tree->angle[k]];
     ZD_SIZED(zd_sines, n, angle, sine, cosine);
+}
+
+void zd_tree_place(const zd_tree *tree, const double *p, const double *memory, zd_pose *pose)
+{
+    const double *angle = memory, *sine = angle + tree->angles, *cosine = sine + tree->angles;
     pose[0] = (zd_pose){.cosine = 1};
     for (int i = 1, k = 0; i <= tree->bodies; i++) {
         const zd_link *link = tree->link + i;

@@ -40,8 +40,10 @@ typedef struct zd_composite {   /* a body with all that hangs on it, as it moves
     double inertia;         /* kg m^2 about the body's mass centre */
 } zd_composite;
 
-/* `memory` is of 3 doubles for each angle: their sines and cosines are computed side by side. */
-void zd_tree_place(const zd_tree *tree, const double *p, double *memory, zd_pose *pose);
+/* memory <- all angles, their sines and their cosines, (3, angles), which are computed side by side. */
+void zd_tree_turn(const zd_tree *tree, const double *p, double *memory);
+/* Poses, with what zd_tree_turn() wrote. */
+void zd_tree_place(const zd_tree *tree, const double *p, const double *memory, zd_pose *pose);
 void zd_tree_move(const zd_tree *tree, const zd_pose *pose, const double *v, zd_twist *twist);
 void zd_tree_accelerate(const zd_tree *tree, const zd_pose *pose, const zd_twist *twist, const double *vdot, zd_spin *spin);
 /* row += what `scale` times the wrench on one body does to the coordinates. */

@@ -38,6 +38,22 @@ def machinery():
     return m
 
 
+def hinged():
+    """Hinges alone, which the core has a road of its own for: branches, a weld, particles, mass beside the lines, two loops."""
+    m = zd.Mechanism("hinged", gravity=(0.3, -9.81))
+    bodies = [m.body(f"B{i}", 1.0 + 0.3 * i, 0.05 + 0.01 * i, at=(0.5 * i, 0.2 * i), angle=0.4 * i - 1, com=(0.1, 0.07 * i - 0.1))
+              for i in range(5)]
+    for i, (first, second) in enumerate(((m.ground, bodies[0]), (bodies[0], bodies[1]), (bodies[0], bodies[2]))):
+        m.revolute(f"J{i}", first, second, at=(0.5 * i, 0.2 * i + 0.1))
+    m.weld("plate", bodies[2], bodies[3], at=(1.2, 0.6))
+    m.revolute("J3", bodies[3], bodies[4], at=(1.6, 0.9))
+    bob = m.particle("bob", 0.4, at=(2.1, 1.0))
+    m.revolute("string", bodies[4].point(at=(2.1, 1.0)), bob)
+    m.revolute("cut", m.ground.point((2.0, 0.3)), bodies[4].point(at=(2.0, 0.3)), cut=True)
+    m.revolute("other cut", bodies[1].point((0.3, 0.2)), bodies[4].point(at=bodies[1].point((0.3, 0.2))), cut=True)
+    return m
+
+
 def vehicles():
     """Free bodies: rolling, a blade, forces and torques that turn with bodies, rows of the user's own, drives by speed."""
     t, x, y, w = sp.symbols("t x y w")

@@ -8,7 +8,7 @@ import sympy as sp
 
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
-from mechanisms.every_element import machinery, vehicles
+from mechanisms.every_element import hinged, machinery, vehicles
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
 from tolerances import EPS
@@ -33,7 +33,8 @@ def swinging():
     return m
 
 
-MADE = {"machinery": machinery, "vehicles": vehicles, "random 3": lambda: drawn(3), "random 7": lambda: drawn(7)}
+MADE = {"machinery": machinery, "vehicles": vehicles, "hinged": hinged, "random 3": lambda: drawn(3),
+        "random 7": lambda: drawn(7)}
 
 
 def both(m, layout):

@@ -1,0 +1,56 @@
+"""What a mechanism from bodies and joints costs beside the same one built in, and what it takes to describe one of 100 links.
+
+Run it with ``python tests/bench/bench_mechanism_speed.py``; it needs SymPy and a C compiler. Ratios are of the least times of
+runs taken in turn, of the paper's four-bar, 2000 steps each with projection. It writes ``results/mechanism_speed.csv``.
+"""
+
+import sys
+from pathlib import Path
+
+import zerodrift as zd
+from measuring import least, record, timed
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from mechanisms.known import four_bar
+
+ROUNDS = 150
+STEPS = 2000
+LINKS = 100
+
+
+def running(system, **settings):
+    """A callable that gives the seconds of a run, those in the core alone."""
+    def seconds():
+        return zd.simulate(system, 0.005 * STEPS, step=0.005, save_every=STEPS, **settings).stats["seconds"]
+    return seconds
+
+
+def chain():
+    """A hanging chain, drawn straight."""
+    m = zd.Mechanism("chain", gravity=(0, -9.81))
+    last = m.ground.point((0, 0))
+    for i in range(LINKS):
+        link = m.link(f"link{i}", (0.01 * i, 0), (0.01 * i + 0.01, 0), mass=0.01)
+        m.revolute(f"pin{i}", last, link.start)
+        last = link.end
+    return m
+
+
+def measured():
+    """Rows (what, value, unit, limit)."""
+    built_in, tables, written = zd.systems.four_bar(), four_bar().system(), four_bar().system(compiled=True)
+    general = {"direct": False}
+    times = least(ROUNDS, running(built_in, **general), running(built_in), running(tables, **general),
+                  running(written, **general), running(written))
+    yield "four-bar, tables interpreted, to the general road of the one built in", times[2] / times[0], "", 2
+    yield "four-bar, compiled=True, to the direct functions of the one built in", times[4] / times[1], "", 1.1
+    yield "four-bar, compiled=True with direct=False, to the general road of that", times[3] / times[0], "", None
+    m = chain()
+    links, system, started = least(ROUNDS, timed(chain), timed(m.system), timed(lambda: m.system().p0))
+    yield f"{LINKS} links and joints in Python", 1e3 * links, "ms", 5
+    yield f"m.system() of {LINKS} links", 1e3 * system, "ms", 2
+    yield f"m.system() of {LINKS} links and its start", 1e3 * started, "ms", None
+
+
+if __name__ == "__main__":
+    record("mechanism_speed", measured(), columns=("what", "value", "unit", "at most"))
