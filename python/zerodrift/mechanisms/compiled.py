@@ -11,8 +11,9 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
+from importlib import metadata
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,10 +24,9 @@ from ..errors import NoCompilerWarning
 from ..symbolics import cache as kept
 from ..symbolics import compiling
 from ..symbolics.direct_functions import DIRECT, DirectFunctions
+from ..symbolics.plain import Plain
+from . import nodes
 from .law_rows import Laws
-
-if TYPE_CHECKING:
-    from .nodes import Equations
 
 DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/mechanism.h
 OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
@@ -66,14 +66,13 @@ class Written:
     """
 
     def __init__(self, core: MechanismCore, laws: Laws, parameters: dict[str, float], name: str) -> None:
-        nodes, Reader = _needing_sympy()
         self._interpreted, self._sizes = core, (core.nq, core.nv, core.mh, core.mn)
-        reader = Reader()
+        reader = _reader(laws)
         number = nodes.Numbering(reader.graph)
         plan = nodes.with_nodes(plan_of(core), number)
         own = {key: number.new(value) for key, value in parameters.items()}
         self._values = np.array(number.values)
-        self.key = kept.digest_of(_writing_code(), repr(plan), repr(own), self._sizes, core.packing is None,
+        self.key = kept.digest_of(_writing_code(type(reader)), repr(plan), repr(own), self._sizes, core.packing is None,
                                   _described(laws.rows))
         self._code = _kept_code(self.key) or self._derive(nodes.Equations(plan, reader, self._sizes, laws, own))
         self._library = compiling.library(self._code.c_source)
@@ -82,7 +81,7 @@ class Written:
                           NoCompilerWarning, stacklevel=6)
         self.core = core if self._library is None else self._compiled(None)
 
-    def _derive(self, equations: Equations) -> Code:
+    def _derive(self, equations: nodes.Equations) -> Code:
         """The code of the equations, which is kept."""
         from ..symbolics import direct, large
         from ..symbolics.blocks import Blocks
@@ -125,15 +124,13 @@ class Written:
         return self._compiled(direct) if self._library is not None and direct.library() else self.core
 
 
-def _needing_sympy() -> tuple[Any, Any]:
-    """The nodes of mechanisms, and the reader of expressions."""
-    try:
-        from ..symbolics.reading import Reader
-        from . import nodes
-    except ImportError as error:
-        raise ImportError("compiled=True writes C with SymPy's printer: pip install 'zerodrift[symbolic]', or take "
-                          "compiled=False") from error
-    return nodes, Reader
+def _reader(laws: Laws) -> Any:
+    """What the graph is in: with SymPy where a law is an expression."""
+    if not any(row.law.has_expression for row in laws.rows):
+        return Plain()
+    from ..symbolics.reading import Reader
+
+    return Reader()
 
 
 # ---- the key ----
@@ -149,13 +146,12 @@ def _kept_code(key: str) -> Code | None:
 
 
 @cache
-def _writing_code() -> str:
-    """The fingerprint of the code that writes."""
-    from sympy import __version__
-
+def _writing_code(reader: type) -> str:
+    """The fingerprint of the code that writes: of SymPy's version, too, where it is taken."""
+    version = "" if reader is Plain else metadata.version("sympy")
     here = Path(__file__).parent
     files = [*sorted((here.parent / "symbolics").glob("*.py")), *sorted(here.glob("*.py"))]
-    return kept.digest_of(__version__, [file.read_text(encoding="utf-8") for file in files])
+    return kept.digest_of(version, [file.read_text(encoding="utf-8") for file in files])
 
 
 def _described(what: Any) -> Any:

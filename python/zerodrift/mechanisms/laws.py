@@ -88,6 +88,11 @@ class Law:
         value = value[()] if isinstance(value, np.ndarray) else value
         return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
 
+    @property
+    def has_expression(self) -> bool:
+        """Whether SymPy has to read it before it can be written out."""
+        return self.expression is not None or getattr(self._function, "has_expression", False)
+
     def check_written(self) -> None:
         """Refuses a callable, of which nobody but Python knows what it computes."""
         if self._function is not None and not hasattr(self._function, "written"):

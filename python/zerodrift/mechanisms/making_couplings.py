@@ -270,6 +270,7 @@ class _Follows:
 
     def __init__(self, profile: Any) -> None:
         self.profile = profile
+        self.has_expression = isinstance(profile, _Expression)
 
     def __call__(self, angle: Any, follower: Any) -> Any:
         return follower - self.profile(angle)

@@ -90,7 +90,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes has to be numbers, tables and SymPy
-            expressions. Needs the extra `symbolic`; without a compiler the tables are interpreted, with a `NoCompilerWarning`.
+            expressions. Without a compiler the tables are interpreted, with a `NoCompilerWarning`.
 
         Returns
         -------

@@ -10,14 +10,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-import sympy
-
 from .._gateway import plans
 from .._gateway.mechanisms import Gauge
 from .._gateway.plans import Link, Plan
 from ..symbolics.derivation import Given
 from ..symbolics.graph import Graph, Node
-from ..symbolics.reading import Reader
 from .law_rows import Laws
 
 HALF = Fraction(1, 2)
@@ -94,17 +91,18 @@ class Equations:
 
     Parameters
     ----------
-    reader : Reader
-        Whose graph they are in; it reads the expressions of laws.
+    reader : Reader or Plain
+        Whose graph they are in; where laws are expressions, it has to be a Reader.
     sizes : tuple of int
         nq, nv, mh, mn.
     parameters : dict of str to Node
         The mechanism's own.
     """
 
-    def __init__(self, plan: Plan, reader: Reader, sizes: tuple[int, int, int, int], laws: Laws,
+    def __init__(self, plan: Plan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
+        self.functions = reader     # its sin, cos and floor
         self.nq, _, self.mh, _ = sizes
         graph = self.graph
         self.t = graph.leaf("t", 0)
@@ -151,7 +149,7 @@ class Equations:
         turn = graph.zero, graph.one, graph.zero        # of particles
         if link.hang in (plans.FREE, plans.TURNING):
             angle = self.p[k + 2 if link.hang == plans.FREE else k]
-            turn = angle, graph.call(sympy.cos, angle), graph.call(sympy.sin, angle)
+            turn = angle, graph.call(self.functions.cos, angle), graph.call(self.functions.sin, angle)
         elif link.hang in (plans.SLIDING, plans.FIXED):
             cosine, sine = self._rotated(link.cosine, link.sine, (inner.cosine, inner.sine))
             turn = graph.plus(inner.angle, link.angle), cosine, sine

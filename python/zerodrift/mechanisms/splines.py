@@ -81,10 +81,8 @@ class PeriodicSpline:
 
     def written(self, equations: Any, angle: Any) -> Any:
         """As a node, of a node: the piece is chosen by its place, width and coefficients, so that one polynomial is computed."""
-        import sympy as sp
-
         graph, first = equations.graph, float(self.angles[0])
-        turns = graph.call(sp.floor, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
+        turns = graph.call(equations.functions.floor, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
         within = graph.sum([(angle, 1), (turns, -PERIOD)])
         conditions = [graph.comparison("<", within, graph.number(float(end))) for end in self.angles[1:]]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import sympy
 
 from . import direct_emission, orders
 from .direct_emission import Bounded, TooLarge
 from .elimination import Elimination
 from .lowering import Lowering
+from .plain import NAMED, Function
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
 HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/system.h>",
@@ -25,17 +25,28 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
     for code, arguments, _ in lowering.operations:
         if code == "call":
             name = arguments[0].__name__
-            if getattr(sympy, name, None) is not arguments[0]:
+            if not isinstance(arguments[0], Function) and getattr(_sympy(), name, None) is not arguments[0]:
                 return None
             arguments = (name, *arguments[1:])
         operations.append([code, *arguments])
     return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}
 
 
+def _function(name: str) -> Any:
+    """The function of that name: where there is one without SymPy, that."""
+    return NAMED.get(name) or getattr(_sympy(), name)
+
+
+def _sympy() -> Any:
+    import sympy
+
+    return sympy
+
+
 def _restored(program: dict[str, Any]) -> Bounded:
     lowering = Bounded(None)
     for code, *arguments in program["operations"]:
-        lowering.emit(code, *([getattr(sympy, arguments[0]), *arguments[1:]] if code == "call" else arguments))
+        lowering.emit(code, *([_function(arguments[0]), *arguments[1:]] if code == "call" else arguments))
     return lowering
 
 

@@ -5,26 +5,23 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable
+from functools import cache
 from typing import Any
-
-import sympy
-from sympy.printing.c import C99CodePrinter
-from sympy.printing.pycode import PythonCodePrinter
 
 from .._gateway import TERMS
 from .blocks import Blocks
 from .lowering import Operation
+from .plain import Function
 
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
-TURNS = {sympy.sin: "sine", sympy.cos: "cosine"}    # what the core has functions of its own for, and its array of them
-
-PRINTERS = {"C": C99CodePrinter({"strict": False}), "Python": PythonCodePrinter({"strict": False})}
+TURNS = {"sin": "sine", "cos": "cosine"}    # what the core has functions of its own for, and its array of them
 
 
 class Writer:
     """Expressions of one language for the operations of a program."""
 
+    prefix = ""                     # what a `Function` is called by is its name behind this
     language = end = ""             # the name of its printer; the end of a statement
     state = case = ""               # patterns: of an entry of p or v, and of one of several cases
     words: dict[str, str] = {}      # what is called otherwise than in `Operation`
@@ -108,9 +105,28 @@ class Writer:
 
     def call(self, function: Any, values: list[str]) -> str:
         """A call, by SymPy's printer; what it is handed are our own names and expressions."""
-        if function is sympy.Pow:
+        if function.__name__ == "Pow":
             return self.named("power", *values)
-        return PRINTERS[self.language].doprint(function(*(sympy.Symbol(value, real=True) for value in values), evaluate=False))
+        if isinstance(function, Function):
+            return f"{self.prefix}{function.__name__}({', '.join(values)})"
+        from sympy import Symbol
+
+        return _printer(self.language).doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))
+
+
+def _turn(function: Any) -> str:
+    """The core's array of a function's values, where it is a sine or a cosine, and no namesake of the user's."""
+    is_known = isinstance(function, Function) or function.__module__.startswith("sympy.")
+    return TURNS.get(function.__name__, "") if is_known else ""
+
+
+@cache
+def _printer(language: str) -> Any:
+    """SymPy's printer of a language: only functions of expressions need it."""
+    from sympy.printing.c import C99CodePrinter
+    from sympy.printing.pycode import PythonCodePrinter
+
+    return (C99CodePrinter if language == "C" else PythonCodePrinter)({"strict": False})
 
 
 def unwrapped(text: str) -> str:
@@ -141,7 +157,7 @@ class CWriter(Writer):
                 if not waiting.isdisjoint(self.blocks.lowering.operands(operation)):
                     later.append(number)
                     waiting.add(number)
-                elif operation.code == "call" and operation.arguments[0] in TURNS:
+                elif operation.code == "call" and _turn(operation.arguments[0]):
                     turns.append(number)
                     waiting.add(number)
                 else:
@@ -157,7 +173,7 @@ class CWriter(Writer):
         first, count = numbers[0], len(angles)
         for number in numbers:
             function, angle = self.operations[number].arguments
-            self.turned[number] = f"{TURNS[function]}{first}[{angles.index(angle)}]"
+            self.turned[number] = f"{_turn(function)}{first}[{angles.index(angle)}]"
         values = ", ".join(unwrapped(self.value(angle)) for angle in angles)
         return [f"const double angle{first}[{count}] = {{{values}}};", f"double sine{first}[{count}], cosine{first}[{count}];",
                 f"zd_sines({count}, angle{first}, sine{first}, cosine{first});"]
@@ -276,7 +292,7 @@ def comment(text: str) -> str:
 class PythonWriter(Writer):
     """Python with floats, one function that fills arrays; its sines are those of `math`, which may differ in the last bit."""
 
-    language, end = "Python", ""
+    language, end, prefix = "Python", "", "math."
     state, case = "{kind}[{index}]", "{value} if {condition} else "
     words = {"not": "not "}
 

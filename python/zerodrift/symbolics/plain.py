@@ -1,0 +1,49 @@
+"""The functions that mechanisms need without expressions, and their derivatives: no SymPy.
+
+In a graph they stand where SymPy's functions of the same names stand otherwise. `Writer` and `direct` know both by these names.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .graph import Graph, Node
+
+
+class Function:
+    """What a node calls; its name is SymPy's."""
+
+    def __init__(self, name: str) -> None:
+        self.__name__ = name
+
+    def __repr__(self) -> str:
+        return self.__name__
+
+
+SIN, COS, FLOOR = FUNCTIONS = Function("sin"), Function("cos"), Function("floor")
+NAMED = {function.__name__: function for function in FUNCTIONS}
+
+
+class Plain:
+    """A graph whose functions are these, as `Reader` has one whose functions are SymPy's.
+
+    Attributes
+    ----------
+    graph : Graph
+    sin, cos, floor : Function
+    """
+
+    sin, cos, floor = FUNCTIONS
+
+    def __init__(self) -> None:
+        self.graph = Graph(self._slope)
+
+    def read(self, what: str, expression: Any, known: Any) -> Node:
+        """Nothing is read here."""
+        raise TypeError(f"{what} is an expression, which takes a Reader: {expression}")
+
+    def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:
+        graph = self.graph
+        if function is SIN:
+            return graph.call(COS, *arguments)
+        return graph.minus(graph.call(SIN, *arguments)) if function is COS else graph.zero      # between jumps
