@@ -148,6 +148,7 @@ ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_vector_sines)(const zd_vector angle,
 #if ZD_LANES == 1
 
 typedef double zd_real, zd_stored;
+typedef int zd_condition;
 #define ZD_SPLAT(x) (x)
 #define ZD_LANE(x, lane) (x)
 #define ZD_WHERE(condition, a, b) ((condition) ? (a) : (b))

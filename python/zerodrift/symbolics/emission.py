@@ -114,7 +114,7 @@ class Writer:
         return _printer(self.language).doprint(function(*(Symbol(value, real=True) for value in values), evaluate=False))
 
 
-def _turn(function: Any) -> str:
+def turn_of(function: Any) -> str:
     """The core's array of a function's values, where it is a sine or a cosine, and no namesake of the user's."""
     is_known = isinstance(function, Function) or function.__module__.startswith("sympy.")
     return TURNS.get(function.__name__, "") if is_known else ""
@@ -157,7 +157,7 @@ class CWriter(Writer):
                 if not waiting.isdisjoint(self.blocks.lowering.operands(operation)):
                     later.append(number)
                     waiting.add(number)
-                elif operation.code == "call" and _turn(operation.arguments[0]):
+                elif operation.code == "call" and turn_of(operation.arguments[0]):
                     turns.append(number)
                     waiting.add(number)
                 else:
@@ -173,7 +173,7 @@ class CWriter(Writer):
         first, count = numbers[0], len(angles)
         for number in numbers:
             function, angle = self.operations[number].arguments
-            self.turned[number] = f"{_turn(function)}{first}[{angles.index(angle)}]"
+            self.turned[number] = f"{turn_of(function)}{first}[{angles.index(angle)}]"
         values = ", ".join(unwrapped(self.value(angle)) for angle in angles)
         return [f"const double angle{first}[{count}] = {{{values}}};", f"double sine{first}[{count}], cosine{first}[{count}];",
                 f"zd_sines({count}, angle{first}, sine{first}, cosine{first});"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from .emission import LONGEST, TURNS, CWriter, unwrapped
+from .emission import LONGEST, CWriter, turn_of, unwrapped
 from .lowering import Operation
 
 REAL, CONDITION = "const zd_real ", "const zd_condition "
@@ -65,7 +65,7 @@ class LaneWriter(CWriter):
         first, count = numbers[0], len(angles)
         for number in numbers:
             function, angle = self.operations[number].arguments
-            self.turned[number] = f"{TURNS[function]}{first}[{angles.index(angle)}]"
+            self.turned[number] = f"{turn_of(function)}{first}[{angles.index(angle)}]"
         values = ", ".join(self.number_everywhere(angle) for angle in angles)
         return [f"const zd_real angle{first}[ZD_PADDED({count})] = {{{values}}};",
                 f"zd_real sine{first}[ZD_PADDED({count})], cosine{first}[ZD_PADDED({count})];",

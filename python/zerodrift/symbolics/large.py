@@ -7,7 +7,7 @@ end between any two statements, and nothing is on the stack. Statements that are
 from __future__ import annotations
 
 from .blocks import Blocks
-from .emission import LONGEST, TURNS, CWriter, indented, unwrapped, wanted
+from .emission import LONGEST, CWriter, indented, turn_of, unwrapped, wanted
 from .rolling import element, number, plain, rolled
 
 MOST_STATEMENTS = 1000      # of one function; compilers take the square of it
@@ -70,7 +70,7 @@ class LargeWriter(CWriter):
         place = {each: i for i, each in enumerate(angles)}
         for turn in numbers:
             function, of = self.operations[turn].arguments
-            first = sine if TURNS[function] == "sine" else cosine
+            first = sine if turn_of(function) == "sine" else cosine
             self.turned[turn] = element(array, first + place[of])
         given = [f"{element(array, angle + i)} = {unwrapped(self.value(each))};" for i, each in enumerate(angles)]
         return [*given, f"zd_sines({count}, {array} + {angle}, {array} + {sine}, {array} + {cosine});"]
