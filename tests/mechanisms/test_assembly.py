@@ -392,7 +392,7 @@ def test_a_flat_parallelogram_is_told_by_the_names_of_its_rows_and_starts_beside
 
 
 def test_rows_that_all_but_vanish_in_a_stretched_drawing_are_no_violation():
-    """Two links that just reach: rounding of Phi over a row of 4e-8 m is no violation. (It is their only pose, without motion.)"""
+    """Two links that just reach: rounding of Phi over a row of 4e-8 m is no violation. (It is their only pose.)"""
     m = zd.Mechanism("stretched")
     first, second = m.link("a", (0, 0), (0.6, 0.8), mass=1.0), m.link("b", (0.6, 0.8), (2, 0), mass=1.0, length=1.0)
     m.revolute("A", m.ground, first.start)

@@ -34,18 +34,25 @@ def _attached(body: Body, drawing: Drawing, numbers: Numbers) -> list[Point]:
     return different
 
 
+def around(body: Body, drawing: Drawing, numbers: Numbers) -> list[Point]:
+    """The same, in the order in which they stand around their middle where there are more than two."""
+    points = _attached(body, drawing, numbers)
+    if len(points) > 2:
+        middle = np.mean([point.local_with(numbers) for point in points], axis=0)
+        points.sort(key=lambda point: np.arctan2(*(point.local_with(numbers) - middle)[::-1]))
+    return points
+
+
 def _line(body: Body, pose: np.ndarray, drawing: Drawing, numbers: Numbers, inertias: Inertias) -> list[np.ndarray]:
     """The points of one body, around it where there are more than two."""
     if isinstance(body, Particle):
         return [pose[:2]]
-    places = [np.array(inertias.local(point, numbers)) for point in _attached(body, drawing, numbers)]
+    places = [np.array(inertias.local(point, numbers)) for point in around(body, drawing, numbers)]
     if not places:
         places = [np.zeros(2)]
     if len(places) == 1 and np.hypot(*places[0]) > APART:
         places.append(np.zeros(2))      # the mass centre shows which way it hangs
     if len(places) > 2:
-        middle = np.mean(places, axis=0)
-        places.sort(key=lambda place: np.arctan2(*(place - middle)[::-1]))
         places.append(places[0])
     return [pose[:2] + turned(pose[2], place) for place in places]
 

@@ -14,6 +14,7 @@ from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
 from ..symbolics.direct_functions import DirectFunctions
 from ..systems.base import BaseSystem
+from ..systems.shapes import Shape
 from . import advice
 from .compiled import Written
 from .describing import described
@@ -21,6 +22,7 @@ from .drawing import Drawing
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
+from .sketch import sketch
 from .start import targets
 from .starting import Starting
 from .tables import JOINTS, Tables
@@ -184,6 +186,9 @@ class MechanismSystem(BaseSystem):
         """The drawing at p: points (n, 2) in m, joined by lines where not NaN."""
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return outline(self._drawing, self._numbers, poses)
+
+    def _shapes(self, p: np.ndarray) -> list[Shape]:
+        return sketch(self._drawing, self._numbers, self._first_core.poses(np.ascontiguousarray(p))[0])
 
     def _advice(self, error: Exception) -> str | None:
         """What helps where the start is singular."""

@@ -13,6 +13,8 @@ from .. import _check
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
+from ..systems.shapes import Shape
+from .mechanism import Picture
 from .style import COLOURS, given_axes
 
 COLOUR = COLOURS[0]
@@ -23,8 +25,9 @@ JOINTS = 12     # the most points that are drawn as joints; more points are take
 def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None) -> Axes:
     """Draw a system in one position, or a solution's start with faint positions of its motion.
 
-    Lines are links and dots are joints (curves of many points have none); points that stay in place during the motion are
-    squares.
+    Mechanisms of bodies and joints show bars and plates with their pins, supports of the ground, sliders on their rails, springs,
+    wheels, and pitch circles of gears. Of other systems lines are links and dots are joints (curves of many points have none);
+    points that stay in place during the motion are squares.
 
     Parameters
     ----------
@@ -61,6 +64,11 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
         positions = system_or_solution.p[rows]
     else:
         positions = [system.p0 if p is None else p]
+    if (moments := _moments(system, positions)) is not None:
+        picture = Picture(_drawing_axes(ax, 2), moments)
+        picture.faintly(range(1, len(moments)))
+        picture.show(0)
+        return picture.ax
     drawings = _drawings(system, positions)
     ax = _drawing_axes(ax, drawings.shape[2])
     for points in drawings[:0:-1]:
@@ -107,7 +115,10 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     fps, speed = _check.number("fps", fps, above=0), _check.number("speed", speed, above=0)
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
-    drawings = _drawings(sol.system, sol.p[nearest(sol.t, times)])
+    rows = nearest(sol.t, times)
+    if (moments := _moments(sol.system, sol.p[rows])) is not None:
+        return _film(Picture(_drawing_axes(ax, 2), moments), times, fps)
+    drawings = _drawings(sol.system, sol.p[rows])
     ax = _drawing_axes(ax, drawings.shape[2])
     line = _links(ax, drawings[0])
     _set_limits(ax, drawings)
@@ -121,6 +132,23 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
         return line, title
 
     return FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps, blit=False)
+
+
+def _film(picture: Picture, times: np.ndarray, fps: float) -> FuncAnimation:
+    """A mechanism of shapes as it moves."""
+    title = picture.ax.set_title("", fontsize="medium")
+
+    def show(frame: int) -> list[Any]:
+        title.set_text(f"t = {times[frame]:.2f} s")
+        return [*picture.show(frame), title]
+
+    return FuncAnimation(picture.ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
+
+
+def _moments(system: BaseSystem, positions: Any) -> list[list[Shape]] | None:
+    """The shapes of each position; None where there are none, but points and lines."""
+    shapes = [system._shapes(_check.vector("p", p, system.nq)) for p in positions] if isinstance(system, BaseSystem) else []
+    return shapes if shapes and shapes[0] is not None else None
 
 
 def _drawings(system: BaseSystem, positions: Any) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Variable
+from .shapes import Shape
 from .structure import Structure, of_core
 from .watching import Watching
 
@@ -211,6 +212,10 @@ class BaseSystem:
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
+        return None
+
+    def _shapes(self, p: np.ndarray) -> list[Shape] | None:
+        """What there is to draw at p where more is known than points and lines; None: that is all."""
         return None
 
     @property

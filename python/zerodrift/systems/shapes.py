@@ -1,0 +1,28 @@
+"""What a drawing of the plane consists of, before anything is drawn."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Shape(NamedTuple):
+    """A part of a drawing.
+
+    Attributes
+    ----------
+    kind : str
+        A key of `zerodrift.plot.glyphs.GLYPHS`, where it says what `points` are.
+    points : ndarray (n, 2)
+        Places in m; of some kinds the last is a direction.
+    name : str
+        Of what it belongs to.
+    number : float
+        A radius in m, or an angle in rad, of kinds that have one.
+    """
+
+    kind: str
+    points: np.ndarray
+    name: str = ""
+    number: float = 0.0
