@@ -23,10 +23,11 @@ static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing 
 static const double GOOD = 0x1p-6;              /* of the diagonal of S: with pivots that are larger, few digits are lost */
 static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
 
-static int is_constant(const zd_structure *structure)
+/* Whether all of M is so declared. */
+static int is_all(const zd_structure *structure, enum zd_mass kind)
 {
     for (int b = 0; b < structure->blocks; b++)
-        if (!structure->mass || !(structure->mass[b] & ZD_CONSTANT)) return 0;
+        if (!structure->mass || !(structure->mass[b] & kind)) return 0;
     return 1;
 }
 
@@ -41,7 +42,8 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
         .n = (int)n,
         .m = (int)m,
         .W = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-        .is_constant = is_constant(structure),
+        .is_diagonal = is_all(structure, ZD_DIAGONAL),
+        .is_constant = is_all(structure, ZD_CONSTANT),
         .force = zd_take_doubles(arena, n),
         .lambda = zd_take_doubles(arena, m),
         .rest = zd_take_doubles(arena, m),
@@ -114,7 +116,8 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
 static void times_W(const zd_coupling *self, const double *y, double *x)
 {
     const zd_layout *layout = self->layout;
-    for (int b = 0; b < layout->blocks; b++) {
+    for (int i = 0; self->is_diagonal && i < self->n; i++) x[i] = self->W[i] * y[i];
+    for (int b = 0; !self->is_diagonal && b < layout->blocks; b++) {
         const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
         const double *W = self->W + layout->M_at[b];
         for (int i = 0; i < n; i++) x[first + i] = layout->is_diagonal[b] ? W[i] * y[first + i] : zd_dot(n, W + i * n, y + first);

@@ -12,6 +12,8 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     TAKE(rows, rows);
     TAKE(first, rows + 1);
     TAKE(block, 2 * terms);
+    TAKE(pin, rows / 2);
+    TAKE(pin_at, rows);
 #undef TAKE
 }
 
@@ -65,6 +67,26 @@ static int plan_group(zd_packing *self, const zd_mechanism *mechanism, int row)
     return count;
 }
 
+static int has_angle(const zd_mechanism *mechanism, int body) { return mechanism->tree.link[body].hang == ZD_HANGS_FREE; }
+
+/* The pins among the rows, which are packed by then. */
+static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
+{
+    int pins = 0;
+    for (int row = 0; row < mechanism->m; row++) self->pin_at[row] = -1;
+    for (int row = 0; row < mechanism->m; row++) {
+        if (!zd_pin_is_at(mechanism, row)) continue;
+        const int term = mechanism->row[row].first, next = mechanism->row[row + 1].first;
+        const zd_gauge *x = mechanism->gauge + mechanism->term[term].gauge, *y = mechanism->gauge + mechanism->term[next].gauge;
+        self->pin_at[row] = pins;
+        self->pin[pins++] = (zd_pin){
+            x->first, x->second, {x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}, {x->zero, y->zero},
+            self->row[row], self->row[row + 1] - self->row[row], self->near[term], self->far[term],
+            has_angle(mechanism, x->first), has_angle(mechanism, x->second)};
+        row++;
+    }
+}
+
 int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
 {
     int bodies = mechanism->tree.bodies;
@@ -81,5 +103,6 @@ int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
         int group = self->structure.groups - 1;
         if (self->first[group] == self->first[group + 1]) return 0;
     }
+    plan_pins(self, mechanism);
     return 1;
 }

@@ -3,13 +3,15 @@
 #define ZD_MECHANISM_STRUCTURE_H
 
 #include "../workspace.h"
-#include "plan.h"
+#include "pins.h"
 
 typedef struct zd_packing {
     zd_structure structure;
     int size_of_C;          /* entries that are stored */
     int *row;               /* (m,) where each row begins in C */
     int *near, *far;        /* (terms,) where in a row the entries of its first and second body begin; -1: it is the ground */
+    zd_pin *pin;            /* (rows / 2,) */
+    int *pin_at;            /* (m,) which of them begins at a row; -1: none */
     int *coordinates, *mass, *rows, *first, *block;     /* those of the structure */
 } zd_packing;
 

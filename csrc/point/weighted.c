@@ -122,6 +122,13 @@ static int kernel_of(const zd_piece *a, const zd_piece *b)
     return is_plain && is_known ? 10 * a->n + a->rows : 0;
 }
 
+static zd_pair pair_of(const zd_weighted *self, int a, int b, int to)
+{
+    const zd_piece *one = self->piece + a, *other = self->piece + b;
+    const int kernel = kernel_of(one, other);
+    return (zd_pair){kernel, kernel ? one->C : a, kernel ? other->C : b, one->stride, other->stride, one->W, to};
+}
+
 /* The pairs of the pieces from `first` on, of the block rows that `member` has. */
 static void add_pairs(zd_weighted *self, const int *piece, const int *member, int members)
 {
@@ -129,8 +136,7 @@ static void add_pairs(zd_weighted *self, const int *piece, const int *member, in
     for (int i = 0; i < members; i++)
         for (int j = 0; j <= i; j++) {
             const int is_later = place[member[i]] >= place[member[j]], a = piece[is_later ? i : j], b = piece[is_later ? j : i];
-            self->pair[self->pairs++] = (zd_pair){a, b, zd_blocks_find(self->blocks, member[i], member[j]),
-                                                  kernel_of(self->piece + a, self->piece + b)};
+            self->pair[self->pairs++] = pair_of(self, a, b, zd_blocks_find(self->blocks, member[i], member[j]));
         }
 }
 
@@ -241,12 +247,17 @@ static const double *entries(const zd_weighted *self, const zd_piece *piece, con
     return (piece->is_weld ? self->weld : C) + piece->C;
 }
 
+static void add_any(zd_weighted *self, const zd_piece *a, const zd_piece *b, const double *C, const double *W, double *to)
+{
+    weigh_any(a, entries(self, a, C), W + a->W, self->product);
+    add_product(a->rows, b->rows, a->n, self->product, entries(self, b, C), b->stride, to);
+}
+
 static void add_pair(zd_weighted *self, const zd_pair *pair, const double *C, const double *W)
 {
-    const zd_piece *a = self->piece + pair->a, *b = self->piece + pair->b;
+    const double *A = C + pair->a, *B = C + pair->b;
     double *to = self->blocks->S + pair->to;
-#define KERNEL(n, rows) \
-    case 10 * n + rows: add_weighted(rows, n, C + a->C, a->stride, W + a->W, C + b->C, b->stride, to); return;
+#define KERNEL(n, rows) case 10 * n + rows: add_weighted(rows, n, A, pair->stride_of_a, W + pair->W, B, pair->stride_of_b, to); return;
     switch (pair->kernel) {
         KERNEL(3, 2)
         KERNEL(3, 1)
@@ -255,9 +266,7 @@ static void add_pair(zd_weighted *self, const zd_pair *pair, const double *C, co
         KERNEL(6, 5)
         KERNEL(6, 6)
         KERNEL(6, 1)
-    default:
-        weigh_any(a, entries(self, a, C), W + a->W, self->product);
-        add_product(a->rows, b->rows, a->n, self->product, entries(self, b, C), b->stride, to);
+    default: add_any(self, self->piece + pair->a, self->piece + pair->b, C, W, to);
     }
 #undef KERNEL
 }

@@ -17,8 +17,10 @@ typedef struct zd_piece {
 } zd_piece;
 
 typedef struct zd_pair {    /* two pieces of one body, and the block of S that takes A W B^T */
-    int a, b, to;
-    int kernel;             /* 0: there is none for these sizes */
+    int kernel;             /* 0: there is none for these sizes, and `a` and `b` are the pieces; else where these begin in C */
+    int a, b;
+    int stride_of_a, stride_of_b, W;
+    int to;
 } zd_pair;
 
 typedef struct zd_weighted {
