@@ -153,6 +153,9 @@ typedef struct zd_statistics {
     double unresolved_time;     /* s: of the first */
     double part_error;          /* what successive steps miss of the motion of one part: the most, in natural units */
     int64_t part;                  /* the coordinate, or with a kinematic matrix the velocity, that it is; from nv on, a quaternion */
+    double smallest_pivot;      /* of structures of many rows: the least part of its diagonal entry that a pivot of C M^-1 C^T was; 0: nowhere looked at */
+    double smallest_pivot_time; /* s: where, */
+    int64_t smallest_pivot_row;    /* and of which row */
     double energy_corrected;    /* J: the most that an energy correction has taken out or put in at once */
 } zd_statistics;
 

@@ -104,7 +104,8 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     int status = invert_mass(self, point);
     if (status) return status;
     const zd_pivots pivots = zd_weighted_factor(self->weighted, self->C, self->W);
-    self->share = pivots.pivot / pivots.diagonal;
+    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
+    self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
     if (pivots.failed < 0) return ZD_DONE;
     point->failed_index = zd_weighted_row(self->weighted, pivots.failed);
     return ZD_DEPENDENT_ROWS;

@@ -13,6 +13,7 @@ typedef struct zd_coupling {
     int is_constant;        /* whether M is, by what the system declares, and so W once it is known: */
     int is_known;
     double share;           /* of its diagonal entry: the smallest pivot where it was factored */
+    int smallest;           /* where that is in the order of S */
     int is_accurate;        /* whether neither pivots nor masses there are such that the solution has to be looked at */
     double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */

@@ -17,6 +17,16 @@ static int factor_bodywise(zd_structured *self, zd_point *point)
     return self->bodywise ? zd_bodywise_factor(self->bodywise, point) : ZD_NO_MEMORY;
 }
 
+/* A small pivot is told, and decides nothing: somewhere in a long chain there is one wherever the motion comes near a bifurcation. */
+static void note_pivot(const zd_coupling *coupling, const zd_point *point)
+{
+    zd_statistics *statistics = point->statistics;
+    if (!statistics || (statistics->smallest_pivot > 0 && !(coupling->share < statistics->smallest_pivot))) return;
+    statistics->smallest_pivot = coupling->share;
+    statistics->smallest_pivot_time = point->t;
+    statistics->smallest_pivot_row = zd_weighted_row(coupling->weighted, coupling->smallest);
+}
+
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
 {
     const zd_rank *rank = point->rank;
@@ -24,6 +34,7 @@ int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
     zd_rows_use_all(point);
     self->is_coupled = rank->most_rows == rank->m && rank->m <= rank->n;
     if (self->is_coupled) status = zd_coupling_factor(self->coupling, point);
+    if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS)) note_pivot(self->coupling, point);
     if (!status || (status == ZD_NOT_DEFINITE && inverts_mass) || (status != ZD_NOT_DEFINITE && status != ZD_DEPENDENT_ROWS)) return status;
     self->is_coupled = 0;
     return factor_bodywise(self, point);

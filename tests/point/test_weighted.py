@@ -118,3 +118,17 @@ def test_thousands_of_bodies_keep_their_energy_and_constraints():
     assert np.abs(sol.position_violation).max() <= 1e-12 * sol.position_size.max()
     energy = sol.kinetic_energy + sol.potential_energy
     assert abs(energy[-1] - energy[0]) <= 1e-9 * sol.kinetic_energy[-1]
+
+
+@needs_compiler
+def test_a_small_pivot_is_told_with_its_row_and_decides_nothing():
+    angle = 0.0501
+    rods, sine, cosine = four_bars(14, angle=angle), np.sin(angle), np.cos(angle)
+    velocity = np.zeros(3 * len(rods.masses))
+    velocity[2::6] = -1.0                       # all cranks turn as one, through the position in which all rods lie on a line
+    velocity[0::6], velocity[1::6] = 0.5 * sine, -0.5 * cosine
+    velocity[3::6], velocity[4::6] = sine, -cosine
+    with pytest.warns(zd.AccuracyWarning, match=r"at t = 0\.05, .* was left of constraint '.*' once others are eliminated"):
+        sol = zd.simulate(rods.system(gravity=0.0), 0.1, None, velocity, step=1e-3)
+    assert 0 < sol.stats["smallest_pivot"] < 1e-8
+    assert_close(sol.p[-1, 2::6], np.full(15, angle - 0.1), 1e-10, scale=1.0, what="angles")

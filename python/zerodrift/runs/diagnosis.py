@@ -19,6 +19,7 @@ from .solution import Solution
 # long as no single one of them has to take out more than the second limit.
 LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION = 0.005, 0.02
 ENERGY_ROUNDING = 1e-10     # of all the energy there is; smaller errors are rounding and say nothing about the steps
+SMALLEST_PIVOT = 1e-8       # half of the digits are lost in what is solved with a smaller one
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
 CATEGORIES = (AccuracyWarning, CorrectionWarning, StabilityWarning)
@@ -28,6 +29,7 @@ def is_beyond_doubt(results: _gateway.Results) -> bool:
     """Whether no warning is due, as most often: told from few numbers, as `doubts` takes as long as a short run."""
     counted, kinetic = results.statistics, results.largest_kinetic
     return (not (counted.energy_skipped or counted.too_long or counted.stiff or counted.unresolved)
+            and not 0 < counted.smallest_pivot < SMALLEST_PIVOT
             and results.energy_error < LARGEST_ENERGY_ERROR * kinetic
             and counted.energy_corrected <= LARGEST_ENERGY_CORRECTION * kinetic)
 
@@ -50,6 +52,7 @@ def unwarned() -> Iterator[None]:
 def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     """The warnings that a solution deserves, with their sentences."""
     yield from _skipped_corrections(solution)
+    yield from _small_pivot(solution)
     if solution.success:
         yield from _instability(solution)
         yield from _inaccuracy(solution)
@@ -59,6 +62,16 @@ def _skipped_corrections(solution: Solution) -> Iterator[tuple[type[Warning], st
     if skipped := solution.stats["energy_skipped"]:
         yield CorrectionWarning, (f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning "
                                   "point the kinetic energy is too small for them; sol.energy_skipped says where")
+
+
+def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    stats = solution.stats
+    if 0 < stats["smallest_pivot"] < SMALLEST_PIVOT:
+        yield AccuracyWarning, (
+            f"at t = {stats['smallest_pivot_time']:.6g}, {stats['smallest_pivot']:.1g} was left of constraint "
+            f"{solution.system.constraints[stats['smallest_pivot_row']].name!r} once others are eliminated: the motion comes near "
+            "a bifurcation or follows it through, which is not looked for among so many constraints, and accelerations lose "
+            "digits there; joint coordinates lose fewer")
 
 
 def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
