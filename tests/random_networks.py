@@ -1,4 +1,4 @@
-"""Random systems of many bodies that declare their structure: what point/test_weighted.py compares a few of with dense matrices, and
+"""Random systems of many bodies that declare their structure: point/test_weighted.py compares a few of them with dense matrices,
 stress/networks.py as many as it is told to.
 """
 
@@ -13,15 +13,16 @@ LARGEST_CONDITION = 1e9     # beyond, too few digits are left to compare
 
 
 class Network(Bodies):
-    """Bodies that hang on each other as a tree, with loops, and on one body that has many joints; blocks and groups of random sizes.
+    """Bodies that hang on each other as a tree, with loops, and on one that has many joints; blocks and groups of random sizes.
 
-    Phi is quadratic, with rows of random numbers; the last groups are nonholonomic. M is full in some blocks and diagonal in others.
+    Phi is quadratic, with rows of random numbers; the last groups are nonholonomic. M is full in some blocks, diagonal in others.
     """
 
     def __init__(self, seed, bodies=None):
         rng = self.rng = np.random.default_rng(seed)
         count = int(rng.integers(2, 14)) if bodies is None else bodies
-        self.velocities = rng.choice([3, 3, 3, 6, 6, 4, 7], size=count) if rng.random() < 0.7 else np.full(count, rng.choice([3, 6]))
+        are_alike = rng.random() < 0.3
+        self.velocities = np.full(count, rng.choice([3, 6])) if are_alike else rng.choice([3, 3, 3, 6, 6, 4, 7], size=count)
         self.at = np.cumsum([0, *self.velocities])
         self.n = n = int(self.at[-1])
         self.p, self.v = rng.normal(size=n), rng.normal(size=n)
@@ -67,7 +68,7 @@ class Network(Bodies):
 
 
 def check_acceleration(seed, formulation):
-    """Whether the accelerations and multipliers of a network are those of dense equations; False: it is too ill-conditioned to tell."""
+    """Whether accelerations and multipliers of a network are those of dense equations; False: too ill-conditioned to tell."""
     network = Network(seed)
     system = network.system()
     e = system.evaluate(network.p, network.v)

@@ -78,7 +78,7 @@ def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(road):
     assert set(one.stats["redundant"]) <= {0, 1, 2, 3}
     assert one.stats["rank"] == other.stats["rank"] == 2 * len(rods.pins) - 2
     assert_close(one.p, other.p, 1e-10, what="p")
-    assert_close(one.multipliers, other.multipliers, 1e-7, what="multipliers")     # of which the smallest come from weights of 2^22
+    assert_close(one.multipliers, other.multipliers, 1e-7, what="multipliers")     # the smallest, by weights of 2^22
     assert_close(one.multipliers[:, :2], one.multipliers[:, 2:4], 1e-7, what="reactions of two pins at one place")
 
 
