@@ -10,7 +10,7 @@ from random_networks import Network, check_acceleration
 from structured import Rods, chain, four_bars
 from support import assert_close, condition, numbers, solved
 
-SEEDS = (0, 5, 7, 9, 11)
+SEEDS = (0, 7, 10, 14, 22)
 MANY = ("schur", "augmented", "nullspace")      # formulations that take structures of any size
 STEP = {"step": 2e-3}
 
@@ -23,7 +23,7 @@ def test_networks_accelerate_as_by_dense_matrices(seed, formulation):
 def test_some_of_these_networks_are_of_many_rows_some_of_few_and_some_have_a_body_of_many_joints():
     networks = [Network(seed) for seed in SEEDS]
     assert min(each.m for each in networks) <= 40 < max(each.m for each in networks)
-    assert max(np.bincount(np.concatenate([blocks for _, blocks in each.groups])).max() for each in networks) > 3
+    assert max(np.bincount(np.concatenate([blocks for _, blocks in each.groups])).max() for each in networks) > 12
 
 
 def fan(arms, closed=False):
