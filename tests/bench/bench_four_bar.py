@@ -1,4 +1,4 @@
-"""What the core, `simulate` and the import cost on the paper's four-bar: ratios and differences within one run.
+"""What the core and `simulate` cost on the paper's four-bar: ratios and differences within one run.
 
 Run it with ``python tests/bench/bench_four_bar.py``; it needs a C compiler, and writes ``results/four_bar.csv``.
 """
@@ -68,13 +68,6 @@ def steps():
     return {name: float(ns) for name, ns, _ in lines}
 
 
-def simulate_beyond_its_steps(rounds=200):
-    """Seconds of a call of 160 steps, less 160 steps at the cost they have in a call of 1600."""
-    bar = zd.systems.four_bar()
-    short, long = least(rounds, *(timed(functools.partial(zd.simulate, bar, 0.05 * count, step=0.05)) for count in (160, 1600)))
-    return short - 160 * (long - short) / 1440
-
-
 def floor_runs(name, folder, span, p, v):
     """A function of rtol: a floor's run by DOP853 as a function that gives the times and alpha_1 at its steps."""
     library = ctypes.CDLL(compiled_floor(Path(folder), name, "-shared", "-fPIC"))
@@ -123,15 +116,6 @@ def costs_of_errors(errors, span=8.0):
         return cheapest(errors, ours | floors, exact)
 
 
-def import_beyond_numpy_and_cffi(rounds=10):
-    """Seconds of `import zerodrift` where NumPy and CFFI are imported, and everything is compiled to byte code, already."""
-    code = "import time, numpy, cffi; t = time.perf_counter(); import zerodrift; print(time.perf_counter() - t)"
-    with tempfile.TemporaryDirectory() as folder:
-        environment = os.environ | {"PYTHONPYCACHEPREFIX": folder, "PYTHONDONTWRITEBYTECODE": ""}
-        return min(float(subprocess.run([sys.executable, "-c", code], env=environment, check=True, capture_output=True).stdout)
-                   for _ in range(rounds))
-
-
 def measured():
     """Rows (what, value, unit, limit)."""
     ns = steps()
@@ -156,8 +140,6 @@ def measured():
             floor, rtol = costs[name, error]
             yield f"floor {name.replace('_', ' ')}, dop853, rtol = {rtol:.2g}", 1e6 * floor, "us", None
             yield f"error of {error:g}, simulate to that floor", seconds / floor, "", None
-    yield "simulate of 160 steps beyond its steps", 1e6 * simulate_beyond_its_steps(), "us", 150
-    yield "import beyond NumPy and CFFI", 1e3 * import_beyond_numpy_and_cffi(), "ms", 50
 
 
 if __name__ == "__main__":

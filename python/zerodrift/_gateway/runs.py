@@ -163,7 +163,6 @@ class Run:
                  outputs: Outputs | None = None) -> None:
         self._core = core = core.for_run()
         self._watcher, self._outputs = watcher, outputs
-        options = ffi.new(SETTINGS, options[0])     # others may be at work with the same
         options.given_jacobian = core.given_jacobian
         if watcher:
             options.events = watcher.c

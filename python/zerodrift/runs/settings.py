@@ -114,8 +114,15 @@ class Plan(NamedTuple):
     chosen: dict[str, Any]      # as `Solution.settings` keeps it
     options: Any                # the same for the core
     rows: int | None            # that are saved, the start included; None: not known, as steps are chosen
-    corrections: Sequence[RowSettings] = ()
-    requires: int = 0           # the bits of the terms that these require
+
+
+class _Known(NamedTuple):
+    """What follows from arguments whatever the times of the run are, and is remembered."""
+
+    chosen: dict[str, Any]
+    options: Any
+    corrections: Sequence[RowSettings]
+    requires: int               # the bits of the terms that these require
 
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
@@ -124,7 +131,7 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
     """The arguments of `simulate`, checked."""
     if isinstance(correction, list):
         correction = tuple(correction)
-    given = (span, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator, stabilization, energy,
+    given = (save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator, stabilization, energy,
              correction, on_singular, direct)
     try:
         found = _plan(*given)
@@ -132,53 +139,63 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
         found = _plan.__wrapped__(*given)
     if found.requires & ~core_of(system).provides:
         _refuse_corrections(system, found.corrections)
-    chosen = found.chosen.copy()
-    return found._replace(chosen=chosen) if t_eval is None else _at_times(found, chosen, span, t_eval)
+    chosen, course = found.chosen.copy(), {"t0": span[0], "t1": span[1]}
+    _check_resolved(chosen, span)
+    if t_eval is None:
+        rows = _saved_rows(span, chosen)
+    else:
+        course["t_eval"] = chosen["t_eval"] = times = _times(t_eval, chosen["save_every"], span)
+        rows = len(times) + 1       # an event may end the run between two of them
+    return Plan(chosen, _gateway.settings(course, found.options), rows)
 
 
 # What follows from arguments is found once: else it would take as long as a short run. 1 is not True here.
 @functools.lru_cache(typed=True)
-def _plan(span: tuple[float, float], save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any,
-          max_steps: Any, formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any,
-          direct: Any) -> Plan:
+def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_steps: Any, formulation: Any,
+          integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any) -> _Known:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
         raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
-    chosen = {**_steps(span, step, integrator, max_steps, tolerances), **methods,
+    chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
               "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct}
-    return Plan(chosen, core_settings(span, chosen), _saved_rows(span, chosen), corrections, requires)
+    return _Known(chosen, core_settings((0.0, 0.0), chosen), corrections, requires)
 
 
-def _at_times(plan: Plan, chosen: dict[str, Any], span: tuple[float, float], t_eval: Any) -> Plan:
-    """The plan with rows at these times."""
-    if chosen["save_every"] != 1:
+def _times(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
+    if save_every != 1:
         raise ValueError("save_every counts steps, and t_eval names times: give one of them")
-    times = chosen["t_eval"] = _check.increasing("t_eval", t_eval, *span)
+    times = _check.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
-    # an event may end the run between two of them
-    return plan._replace(chosen=chosen, options=_gateway.settings({"t_eval": times}, plan.options), rows=len(times) + 1)
+    return times
 
 
-def _steps(span: tuple[float, float], step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
+def _check_resolved(chosen: dict[str, Any], span: tuple[float, float]) -> None:
+    """Refuses steps that are not seen in the time."""
+    latest = max(abs(span[0]), abs(span[1]))
+    smallest, step = RESOLVED * latest, chosen["step"]
+    if step is None:
+        for name in ("first_step", "max_step"):
+            if chosen[name] is not None:
+                _check.number(name, chosen[name], least=smallest)
+    elif step < smallest:
+        raise ValueError(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
+
+
+def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
     """How steps are made: of a fixed size, or chosen by their error."""
     name_of("integrators", integrator)
     max_steps = None if max_steps is None else _check.count("max_steps", max_steps)
-    latest = max(map(abs, span))
-    smallest = RESOLVED * latest
     if step is None:
-        return {"step": None, **_tolerances(integrator, tolerances, smallest), "max_steps": max_steps}
+        return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
             raise ValueError(f"{name} is for steps that are chosen by their error: with it, leave out step")
-    step = _check.number("step", step, above=0)
-    if step < smallest:
-        raise ValueError(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
-    return {"step": step}
+    return {"step": _check.number("step", step, above=0)}
 
 
-def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict[str, Any]:
+def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     able = [name for name, card in integrators().items() if card.error_order]
     name = name_of("integrators", integrator)
     if name not in able:
@@ -186,8 +203,8 @@ def _tolerances(integrator: Any, given: dict[str, Any], smallest: float) -> dict
         raise ValueError(f"step is needed: {name!r} takes steps of fixed size{asked}; give step=, or "
                          f"{' or '.join(f'integrator={each!r}' for each in able)}, which can choose theirs")
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
-    least = {"rtol": FINEST_RTOL, "atol": 0.0, "first_step": smallest, "max_step": smallest}
-    found = {name: None if value is None else _check.number(name, value, least=least[name]) for name, value in values.items()}
+    least = {"rtol": FINEST_RTOL, "atol": 0.0}
+    found = {name: None if value is None else _check.number(name, value, least=least.get(name)) for name, value in values.items()}
     if found["atol"] == 0:
         raise ValueError("atol must be greater than 0: parts of the state pass through zero")
     return found

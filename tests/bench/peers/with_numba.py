@@ -1,8 +1,8 @@
 """numba: a right-hand side compiled at run time, with velocities eliminated by hand, under two integrators.
 
 SciPy's DOP853 calls it from Python; a DOP853 written for it is compiled together with it. Velocities that are eliminated
-are, of a chain, those of the two rods that are least parallel at the start. Nothing is corrected. Outputs are values of SciPy's dense output, or
-ends of steps.
+are, of a chain, those of the two rods that are least parallel at the start. Nothing is corrected. Outputs are values of
+SciPy's dense output, or ends of steps.
 """
 
 import functools
