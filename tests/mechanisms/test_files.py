@@ -44,6 +44,8 @@ def everything():
     m.nonholonomic("skate", x * sp.Rational(1, 3) - sp.Symbol("sleigh.velocity.y") * sp.cos(t), of={"x": sleigh.velocity.x})
     m.motor("turn", hinge, speed=sp.sin(t / 3) + sp.pi)
     m.motor("push", rail, force=-0.1)
+    m.actuator("jack", m.ground.point((-3, 1)), sleigh.point((0.1, 0.2)), length=2 + sp.sin(t) / 7)
+    m.actuator("pump", corner, bead, force=x * 3, of={"x": bead.position.x})
     m.spring("coil", corner, bead, stiffness=10.1, damping=0.3)
     m.spring("band", box.center, nut, stiffness=10.1, length=0.9)
     m.torsion_spring("clock", hinge, stiffness=0.3, angle=0.1)

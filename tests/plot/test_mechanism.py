@@ -32,6 +32,7 @@ def sorts():
     m.spring("coil", m.ground.point((2, -1)), plate.point((0.4, 0.2)), stiffness=20.0)
     m.spring("band", piston.point((0, 0.1)), plate.point((0.4, -0.2)), stiffness=20.0)
     m.torsion_spring("clock", hinge, stiffness=1.0)
+    m.actuator("jack", m.ground.point((2, 3)), piston.point((0, 0)), force=1.0)
     m.particle("nut", 0.1, at=arm.end)
     m.start({"pin0.speed": 2.0, "wheel.angular_velocity": -1.0})
     return m
@@ -94,7 +95,7 @@ def test_inner_gears_touch_from_inside():
 
 def test_the_ground_holds_each_of_its_pins_once(sol):
     places = [tuple(shape.points[0].round(9)) for shape in shapes(sol, 0, "ground")]
-    assert sorted(places) == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (2.0, -1.0), (3.0, 0.0)]
+    assert sorted(places) == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (2.0, -1.0), (2.0, 3.0), (3.0, 0.0)]
 
 
 @pytest.mark.parametrize("what", ["mechanism", "system", "solution", "position"])

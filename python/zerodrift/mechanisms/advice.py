@@ -10,7 +10,7 @@ import numpy as np
 from .._gateway import Variable
 from .._gateway.mechanisms import MechanismCore
 from .drawing import Drawing, Inertias
-from .forces import Motor
+from .forces import Actuator, Motor
 from .numbers import Numbers
 from .tables import Tables
 
@@ -27,7 +27,7 @@ def at_start(error: str, drawing: Drawing, numbers: Numbers, constraints: Sequen
     if not rows:
         return None
     named = ", ".join(f"row {row} is {constraints[row].name!r}" for row in rows)
-    is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor) for row in rows)
+    is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor | Actuator) for row in rows)
     helps = "start a little aside, or drive another joint" if is_driven else "zd.assemble(m, nudge=True) starts beside it"
     return f"{named}. In this pose {drawing.name!r} is singular, as links in line are: {helps}"
 

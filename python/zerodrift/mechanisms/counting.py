@@ -8,7 +8,7 @@ import numpy as np
 
 from .assembly import Assembly
 from .drawing import Drawing
-from .forces import Motor
+from .forces import Actuator, Motor
 from .numbers import AS_GIVEN
 from .starting import Starting
 from .system import row_names
@@ -68,7 +68,7 @@ def count(drawing: Drawing) -> Count:
 
 def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:
     """The rows of drives."""
-    motors = {motor.name for motor in drawing.of(Motor)}
+    motors = {motor.name for motor in drawing.of((Motor, Actuator))}
     return {i for i, (row, name) in enumerate(zip(assembly.core.rows, assembly.rows, strict=True))
             if row.owner == "relation" and name in motors}
 

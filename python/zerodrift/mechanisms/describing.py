@@ -167,6 +167,10 @@ def _motor(motor: Any, drawing: Drawing) -> dict[str, Any]:
     return {"joint": motor.joint.name, "drives": motor.drives, "law": _law(motor.law)}
 
 
+def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
+    return {**_sides(actuator, drawing), "drives": actuator.drives, "law": _law(actuator.law)}
+
+
 def _spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
     length = {} if spring.free_length is None else {"length": spring.free_length}
     return {**_sides(spring, drawing), "stiffness": spring.stiffness, **length, "damping": spring.damping}
@@ -196,5 +200,5 @@ WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _tree_joint, "prismatic": _tree_joint,
     "weld": _weld, "rod": _rod, "slot": _along, "rolling": _rolling, "knife_edge": _along, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing, "force": _force,
-    "torque": _torque}
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque}

@@ -49,6 +49,45 @@ class Motor:
         return f"<motor {self.name}: {self.drives} of {self.joint.name}>"
 
 
+class Actuator:
+    """A cylinder or a linear drive between two points, `Mechanism.actuator`.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+    drives : str
+        "length" or "force".
+    law : Law
+    """
+
+    kind, coordinate = "actuator", "length"
+    length = scalar("length", "The distance of its ends, in m.")
+    speed = scalar("speed", "The rate of `length`, in m/s.")
+    force = scalar("force", "The force with which it pushes its ends apart, in N.")
+    power = scalar("power", "The power that it puts in, in W.")
+
+    def __init__(self, name: str, first: Point, second: Point, drives: str, law: Law) -> None:
+        self.name, self.first, self.second, self.drives, self.law = name, first, second, drives, law
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def prescribes(self) -> bool:
+        """Whether it takes a freedom, by a row; one of force does not."""
+        return self.drives == "length"
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.law.constant is None else {self.drives: self.law.constant}
+
+    def __repr__(self) -> str:
+        return f"<actuator {self.name}: {self.drives} between {self.first.body.name} and {self.second.body.name}>"
+
+
 class Spring:
     """A spring with a damper between two points, `Mechanism.spring`."""
 

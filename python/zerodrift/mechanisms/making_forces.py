@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from .bodies import Body, Particle, Point
 from .elements import Elements
-from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Joint
 
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
@@ -74,6 +74,52 @@ class ForceVerbs(Elements):
         if motor.prescribes and rival is not None:
             raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
         return self._add(motor)
+
+    def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: Any = None,
+                 force: Any = None, of: Mapping[str, Any] | None = None) -> Actuator:
+        """Drive two points apart or together, as a hydraulic cylinder does.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point, Particle or name
+        length : float, callable or SymPy expression of t
+            The distance of the points, in m; t counts from 0. Callables are built of NumPy's functions.
+        force : float, callable or expression
+            What pushes them apart, in N; of t, parameters and measures of positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Actuator
+
+        Raises
+        ------
+        TypeError, ValueError
+            If not one of length and force is given, or a callable asks for what there is not.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("digger")
+        >>> arm = m.link("arm", (0, 0), (2, 0), mass=100.0)
+        >>> hinge = m.revolute("hinge", m.ground, arm.start)
+        >>> m.actuator("cylinder", m.ground.point((0, -1)), arm.point((1, 0)), length=lambda t: 1.4 + 0.1 * np.sin(t))
+        <actuator cylinder: length between ground and arm>
+        """
+        name = self._new_name(name, "actuator")
+        first, second = self._different(name, self._point("first", first), self._point("second", second))
+        if (length is None) == (force is None):
+            raise TypeError(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
+        drives, given = ("length", length) if force is None else ("force", force)
+        law = self._law(f"{drives} of actuator {name!r}", given, of)
+        if drives == "length" and law.measures:
+            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+        if drives == "length" and law.constant is not None:
+            _check.number(law.what, law.constant, above=0)
+        return self._add(Actuator(name, first, second, drives, law))
 
     def spring(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, stiffness: Any,
                length: float | None = None, damping: float = 0.0) -> Spring:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from .._gateway.mechanisms import Gauge, MechanismCore, Observed
 from .bodies import Body, Link, Point
-from .forces import Spring
+from .forces import Actuator, Spring
 from .readings import has_coordinate
 from .tables import JOINTS, Tables
 
@@ -64,6 +64,9 @@ def _positions(tables: Tables) -> Iterator[Position]:
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
+    for actuator in tables.drawing.of(Actuator):
+        yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
+                       lambda actuator=actuator: (tables.length_gauge(actuator),))
     for spring in tables.drawing.of(Spring):
         yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_gauge(spring),))
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .bodies import Body, Link, Point
-from .forces import Spring
+from .forces import Actuator, Spring
 from .joints import Joint
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
@@ -31,7 +31,7 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
     if element is None or not rest:
         return None
     quantity, *component = rest
-    base = element.coordinate if quantity == "speed" and isinstance(element, Joint) else RATES.get(quantity, quantity)
+    base = element.coordinate if quantity == "speed" and isinstance(element, Joint | Actuator) else RATES.get(quantity, quantity)
     if base not in quantities(element):
         return None
     if base == "position":
@@ -72,7 +72,7 @@ def readable(element: Any) -> list[str]:
     rates = {"position": "velocity", "angle": "angular_velocity"}
     found = []
     for quantity in quantities(element):
-        rate = "speed" if isinstance(element, Joint) else rates.get(quantity)
+        rate = "speed" if isinstance(element, Joint | Actuator) else rates.get(quantity)
         found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
     found += [f"{named}.{point}.{quantity}" for point in _points(element) for quantity in ("position", "velocity")]
     return found
@@ -86,7 +86,7 @@ def quantities(element: Any) -> tuple[str, ...]:
         return ("position",)
     if isinstance(element, Joint):
         return (element.coordinate,) if has_coordinate(element) else ()
-    return ("length",) if isinstance(element, Spring) else ()
+    return ("length",) if isinstance(element, Spring | Actuator) else ()
 
 
 def has_coordinate(joint: Joint) -> bool:

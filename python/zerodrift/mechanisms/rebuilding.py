@@ -225,6 +225,12 @@ def _motor(m: Mechanism, name: str, *, joint: Any, drives: Any, law: Any) -> Non
     m.motor(name, joint, of=of, **{drives: value})
 
 
+def _actuator(m: Mechanism, name: str, *, first: Any, second: Any, drives: Any, law: Any) -> None:
+    value, of = _law(law, "law")
+    _check.choice("drives", drives, ("length", "force"))
+    m.actuator(name, _place(m, first), _place(m, second), of=of, **{drives: value})
+
+
 def _spring(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
     m.spring(name, _place(m, first), _place(m, second), stiffness=stiffness, length=length, damping=damping)
 
@@ -254,5 +260,5 @@ MADE: dict[str, Callable[..., None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _revolute, "prismatic": _prismatic,
     "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
     "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
-    "motor": _motor, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing, "force": _force,
-    "torque": _torque}
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque}

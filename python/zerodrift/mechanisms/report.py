@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..errors import ZerodriftError
 from .counting import Count, count
 from .drawing import Drawing
-from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Joint, KnifeEdge
 from .numbers import AS_GIVEN
 from .tables import Tables
@@ -16,7 +16,7 @@ def headline(drawing: Drawing) -> str:
     bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
     forces = [_several(len(drawing.of(kind)), word) for kind, word in (
         (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
-        (Motor, "motor")) if drawing.of(kind)]
+        (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
     gravity = f"gravity ({drawing.gravity[0]:g}, {drawing.gravity[1]:g})" if drawing.gravity.any() else "no gravity"
     said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
     return f"<Mechanism {drawing.name}: plane, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
@@ -37,6 +37,7 @@ def report(drawing: Drawing) -> str:
         lines.append(f" a singular pose: {', '.join(counted.singular)} follows from others as drawn, and not nearby; "
                      "assemble(..., nudge=True) starts nearby")
     driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
+    driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
     lines.append(" a simulation takes joint coordinates, until structured systems have linear cost")

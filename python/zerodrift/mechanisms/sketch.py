@@ -9,7 +9,7 @@ import numpy as np
 from ..systems.shapes import Shape
 from .bodies import Particle, Point
 from .drawing import Drawing, Inertias
-from .forces import Bushing, Spring, TorsionSpring
+from .forces import Actuator, Bushing, Spring, TorsionSpring
 from .joints import Coupling, Joint, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot
 from .numbers import Numbers
 from .outline import APART, around
@@ -82,6 +82,8 @@ class Sketch:
     def _forces(self) -> Iterator[Shape]:
         for spring in self.drawing.of(Spring):
             yield Shape("spring", np.array([self._at(spring.first), self._at(spring.second)]), spring.name)
+        for actuator in self.drawing.of(Actuator):
+            yield Shape("cylinder", np.array([self._at(actuator.first), self._at(actuator.second)]), actuator.name)
         for spring in self.drawing.of(TorsionSpring):
             angle = self.pose[spring.joint.bodies[1].name].angle - self.pose[spring.joint.bodies[0].name].angle
             yield Shape("spiral", self._at(spring.joint.second)[None], spring.name, angle)
@@ -109,7 +111,7 @@ class Sketch:
     def _held_by_ground(self) -> list[Point]:
         """The points of the ground that a hinge, a rod or a spring holds on to, each place once."""
         ground, places = self.drawing.ground, []
-        for element in self.drawing.of((Revolute, Rod, Spring)):
+        for element in self.drawing.of((Revolute, Rod, Spring, Actuator)):
             for side in (element.first, element.second):
                 if side.body is ground and all(np.hypot(*(self._at(side) - self._at(other))) > APART for other in places):
                     places.append(side)

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from .elements import Elements
+from .forces import Actuator
 from .measures import name_of
 from .readings import checked_reading
 
@@ -61,6 +62,10 @@ class StartVerbs(Elements):
                      "speed": ("speed",)}.get(motor.drives, ())
             if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
                 raise ValueError(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
+        owner, _, quantity = name.rpartition(".")
+        actuator = self._elements.get(owner)
+        if isinstance(actuator, Actuator) and actuator.prescribes:
+            raise ValueError(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
 
 
 def targets(given: Any, what: str) -> dict[str, Any]:

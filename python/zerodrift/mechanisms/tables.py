@@ -13,7 +13,7 @@ from .._gateway.mechanisms import Gauge, MechanismCore, Observed
 from . import law_rows
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
-from .forces import Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Coupling, Joint, KnifeEdge, Rod, Rolling
 from .numbers import Numbers
 from .readings import has_coordinate, reading
@@ -53,8 +53,9 @@ class Tables:
         self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
         self._damp()
-        for kind, add in ((Motor, self._motor), (Coupling, self._coupling), (Spring, self._spring), (Bushing, self._bushing),
-                          (TorsionSpring, self._torsion_spring), (Force, self._force), (Torque, self._torque)):
+        for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling),
+                          (Spring, self._spring), (Bushing, self._bushing), (TorsionSpring, self._torsion_spring),
+                          (Force, self._force), (Torque, self._torque)):
             for element in drawing.of(kind):
                 add(element)
 
@@ -129,7 +130,7 @@ class Tables:
         of = self.drawing.elements[owner]
         if isinstance(of, Joint):
             return self.coordinate_gauge(self.joint_number[owner])
-        return self.length_gauge(of) if isinstance(of, Spring) else self.angle_gauge(of)
+        return self.length_gauge(of) if isinstance(of, Spring | Actuator) else self.angle_gauge(of)
 
     def place_gauges(self, of: Body | Point) -> tuple[Gauge, Gauge]:
         """What reads x and y of a point, or of the origin of a body's frame."""
@@ -148,8 +149,8 @@ class Tables:
         zero = getattr(row, kind.zero) if kind.zero else 0.0
         return Gauge(kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero)
 
-    def length_gauge(self, spring: Spring) -> Gauge:
-        """What reads the length of a spring."""
+    def length_gauge(self, spring: Spring | Actuator) -> Gauge:
+        """What reads the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         return Gauge("distance", first, second, point1, point2)
 
@@ -203,6 +204,19 @@ class Tables:
         gauges, picks = self._inputs(law.measures, [gauge])
         row = self.laws.add(law_rows.Speed(law, picks, self.parameters))
         return rows.Relation(gauges, nonholonomic=True, law=row, joint=joint)
+
+    def _actuator(self, actuator: Actuator) -> None:
+        gauge, law = self._gauge_of(f"{actuator.name}.length"), actuator.law
+        index = len(self.relations) if actuator.prescribes else len(self.efforts)
+        if not actuator.prescribes:
+            self._effort(actuator.name, "force", gauge, actuator)
+        elif law.constant is not None:
+            self._relation(actuator.name, rows.Relation([gauge], [1.0], self.numbers(actuator, "length", law.constant)))
+        else:
+            self._relation(actuator.name, rows.Relation([gauge], law=self.laws.add(law_rows.Motion(law, (), self.parameters))))
+        word = "drive" if actuator.prescribes else "effort"
+        self.observed.append(Observed(f"{actuator.name}.force", "N", word, index))
+        self.observed.append(Observed(f"{actuator.name}.power", "W", f"{word} power", index))
 
     def _coupling(self, coupling: Coupling) -> None:
         if coupling.law is None:

@@ -108,6 +108,17 @@ def spring(ax: Axes, shape: Shape, size: float) -> list[Any]:
     return [_line(ax, points, zorder=2.5, solid_joinstyle="round")]
 
 
+def cylinder(ax: Axes, shape: Shape, size: float) -> list[Any]:
+    """A cylinder between two places: its barrel from the first, its piston rod from the second."""
+    start, end = shape.points
+    along, middle = end - start, start + 0.55 * (end - start)
+    across = 1.2 * size * _across(along / max(np.hypot(*along), 1e-300))
+    corners = [start + across, middle + across, middle - across, start - across]
+    barrel = Polygon(corners, closed=True, facecolor="0.85", edgecolor=DARK, linewidth=1.2, zorder=2.6)
+    ends = [each for place in shape.points for each in pin(ax, shape._replace(points=place[None]), 0.7 * size)]
+    return [_patch(ax, barrel), _line(ax, [middle, end], linewidth=2.5, zorder=2.5), *ends]
+
+
 def spiral(ax: Axes, shape: Shape, size: float) -> list[Any]:
     """A spring about a place, wound by an angle."""
     turns = np.linspace(0, 4.5 * np.pi, 120)
@@ -158,4 +169,4 @@ def blade(ax: Axes, shape: Shape, size: float) -> list[Any]:
 
 
 GLYPHS: dict[str, Callable[[Axes, Shape, float], list[Any]]] = {glyph.__name__: glyph for glyph in (
-    link, pin, ground, rail, groove, slider, rod, spring, spiral, bushing, particle, disc, wheel, gear, blade)}
+    link, pin, ground, rail, groove, slider, rod, spring, cylinder, spiral, bushing, particle, disc, wheel, gear, blade)}
