@@ -175,6 +175,9 @@ typedef struct zd_run zd_run;
 /* Steps from t0 to t1: a span within rounding of a whole number of steps has that many, else a shorter one is added. */
 double zd_count_steps(double t0, double t1, double step);
 
+/* Whether a run with these settings takes direct functions, where its system brings any; for another they need not be made. */
+int zd_takes_direct(const zd_settings *settings);
+
 /* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`, of at least one character. */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size);

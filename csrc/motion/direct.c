@@ -33,7 +33,7 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena)
 {
     const zd_system *system = &motion->system;
     const zd_direct *direct = of_one(system);
-    if (!direct || motion->formulation->settle || zd_constraints(system) > system->nv) return;
+    if (!direct || zd_constraints(system) > system->nv) return;
     motion->road = (zd_road){
         .direct = direct,
         .scale = zd_take_doubles(arena, (size_t)(direct->orders * zd_constraints(system))),

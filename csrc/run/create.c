@@ -20,6 +20,15 @@ static const void *complete(zd_given *given, const zd_card *card)
     return given->value;
 }
 
+/* Methods that are stable at any step are implicit, and keep from step to step what they solve with: it would come from the other road.
+ * Formulations that settle which variables are independent do so on the general road. */
+int zd_takes_direct(const zd_settings *settings)
+{
+    const zd_integrator *integrator = zd_integrator_of(settings->integrator);
+    return settings->direct && !integrator->step_of_motion && integrator->card.stability > 0 &&
+           !zd_formulation_of(settings->formulation)->settle;
+}
+
 /* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
  * arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
@@ -32,8 +41,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
-    /* Methods that are stable at any step are implicit, and keep from step to step what they solve with: it would come from the other road. */
-    if (settings->direct && !integrator->step_of_motion && integrator->card.stability > 0) zd_direct_take(motion, arena);
+    if (zd_takes_direct(settings)) zd_direct_take(motion, arena);
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_of(motion, integrator, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,

@@ -201,3 +201,18 @@ def test_nothing_is_compiled_where_they_are_not_wanted(monkeypatch):
     system = random_system(4)
     monkeypatch.setattr(type(system._direct), "library", lambda self: pytest.fail("compiled"))
     zd.simulate(system, 0.1, step=0.01, direct=False)
+
+
+def test_they_are_made_for_runs_that_take_them_and_for_no_others(formulation, integrator):
+    """Those that did not have them made take none where there are some."""
+    pendulum = zd.systems.pendulum()
+    x, y, vx, vy = sp.symbols("x y vx vy")
+    system = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2, potential=9.81 * y, constraints=[x**2 + y**2 - 1],
+                         p0=pendulum.p0)
+    options = {"step": 0.001, "formulation": formulation, "integrator": integrator}
+    zd.simulate(system, 0.01, direct=False, **options)
+    assert not system._direct._libraries
+    zd.simulate(system, 0.01, **options)
+    made = bool(system._direct._libraries)
+    system._direct_core()
+    assert (zd.simulate(system, 0.01, **options).stats["direct_steps"] > 0) == made

@@ -32,7 +32,7 @@ from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .measures import Outputs
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
-from .runs import Record, Results, Run, acceleration, accelerations, count_steps, project, settings, step
+from .runs import Record, Results, Run, acceleration, accelerations, count_steps, project, settings, step, takes_direct
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
@@ -41,7 +41,7 @@ __all__ = [
     "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
     "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find",
     "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
-    "required", "settings", "step", "terms_of",
+    "required", "settings", "step", "takes_direct", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

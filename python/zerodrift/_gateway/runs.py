@@ -42,6 +42,11 @@ def settings(options: dict[str, Any], like: Any = None) -> Any:
     return made
 
 
+def takes_direct(options: Any) -> bool:
+    """Whether a run with this `zd_settings` takes direct functions, where its system brings any."""
+    return bool(lib.zd_takes_direct(options))
+
+
 def count_steps(t0: float, t1: float, step: float) -> int:
     """Steps from t0 to t1."""
     return int(lib.zd_count_steps(t0, t1, step))

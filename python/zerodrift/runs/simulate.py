@@ -178,7 +178,7 @@ def simulate(
     plan = settings.plan(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct)
-    core = core_of(system) if direct is False else direct_core_of(system)
+    core = direct_core_of(system) if _gateway.takes_direct(plan.options) else core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
     recorded = None
