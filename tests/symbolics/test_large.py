@@ -25,7 +25,8 @@ def coupled(n):
                 q, q[1:], rates, rates[1:], strict=False)) / 2 + rates[-1] ** 2,
             "potential": sum(sp.sin(a) * sp.sqrt(1 + (x - sp.sin(T)) ** 2) for x in q) + sp.Max(q[0], 0.1) ** 2,
             "force": [sp.Piecewise((x**2, x > a), (x, True)) for x in q],
-            "constraints": [sum(sp.cos(x) for x in q) - np.cos(start).sum()], "nonholonomic": [rates[0] - sp.exp(q[1]) * rates[2]], "parameters": {a: 0.3}, "p0": start}
+            "constraints": [sum(sp.cos(x) for x in q) - np.cos(start).sum()],
+            "nonholonomic": [rates[0] - sp.exp(q[1]) * rates[2]], "parameters": {a: 0.3}, "p0": start}
 
 
 def written_twice(make, monkeypatch):
