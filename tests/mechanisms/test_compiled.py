@@ -177,6 +177,7 @@ def test_without_a_compiler_tables_are_interpreted(cache_folder, monkeypatch):  
     monkeypatch.setenv("CC", "no-such-compiler")
     with pytest.warns(zd.NoCompilerWarning, match="the tables of swinging are interpreted"):
         system = swinging().system(compiled=True)
+    assert not system.compiled
     assert (zd.simulate(system, 0.1, step=1e-2).p == zd.simulate(swinging(), 0.1, step=1e-2).p).all()
 
 

@@ -61,6 +61,8 @@ class Written:
     ----------
     core : MechanismCore
         The compiled system; where there is no compiler, the interpreted one.
+    is_compiled : bool
+        Whether there is a compiler.
     key : str
         The name of the code: two mechanisms of the same differ in numbers alone.
     """
@@ -76,10 +78,11 @@ class Written:
                                   _described(laws.rows))
         self._code = _kept_code(self.key) or self._derive(nodes.Equations(plan, reader, self._sizes, laws, own))
         self._library = compiling.library(self._code.c_source)
-        if self._library is None:
+        self.is_compiled = self._library is not None
+        if not self.is_compiled:
             warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): the tables of {name} are interpreted",
                           NoCompilerWarning, stacklevel=6)
-        self.core = core if self._library is None else self._compiled(None)
+        self.core = self._compiled(None) if self.is_compiled else core
 
     def _derive(self, equations: nodes.Equations) -> Code:
         """The code of the equations, which is kept."""
@@ -121,7 +124,7 @@ class Written:
 
     def with_direct(self, direct: DirectFunctions) -> MechanismCore:
         """The same with direct functions, where there are any."""
-        return self._compiled(direct) if self._library is not None and direct.library() else self.core
+        return self._compiled(direct) if self.is_compiled and direct.library() else self.core
 
 
 def _reader(laws: Laws) -> Any:

@@ -45,7 +45,7 @@ class MechanismSystem(BaseSystem):
     measures : tuple of str
         What ``sol[...]`` knows.
     compiled : bool
-        Whether the equations were to be written out and compiled.
+        Whether the equations are written out and compiled; False, too, where there was no compiler.
     """
 
     def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float], compiled: bool = False,
@@ -55,7 +55,7 @@ class MechanismSystem(BaseSystem):
         self._tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._tables.core()
-        self.compiled, self._given_direct = compiled, direct
+        self._is_written_out, self._given_direct = compiled, direct
         if compiled:
             self._tables.laws.check_written()
             self._written       # noqa: B018 - it takes its time where it was asked for
@@ -99,9 +99,13 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _core(self) -> MechanismCore:
-        return self._written.core if self.compiled else self._interpreted
+        return self._written.core if self._is_written_out else self._interpreted
 
     # ---- written out ----
+
+    @property
+    def compiled(self) -> bool:
+        return self._is_written_out and self._written.is_compiled
 
     @functools.cached_property
     def _written(self) -> Written:
@@ -162,12 +166,12 @@ class MechanismSystem(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: _checked(name, value) for name, value in changed.items()}
-        direct = self._direct if self.compiled else None
-        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self.compiled, direct)
+        direct = self._direct if self._is_written_out else None
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, direct)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        direct = self._direct if self.compiled else None
-        return MechanismSystem, (self._drawing, self.layout, self._changed, self.compiled, direct)
+        direct = self._direct if self._is_written_out else None
+        return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, direct)
 
     def _described(self) -> dict[str, Any]:
         """As of any system; and the mechanism itself, or why it cannot be saved."""
