@@ -20,7 +20,7 @@ const zd_integrator zd_euler = {
         .description = "One evaluation for each step. Its error is of the size of the step, and it puts energy into whatever "
                        "oscillates; it is here for comparison.",
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
-                     "1993, section II.1",
+                     "1993, section I.7",
     },
     .decay = 2,
     ZD_RUNGE_KUTTA,
