@@ -51,8 +51,8 @@ static void take_matrices(zd_arena *arena, schur *self)
     self->Q = zd_take_doubles(arena, m * n);
     self->G = zd_take_doubles(arena, m * m);
     self->b = zd_take_doubles(arena, m);
-    self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n) : NULL;
-    self->rest = zd_take_doubles(arena, m);
+    self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
+    self->rest = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* one is for solves, the other for factorizations */
     self->correction = zd_take_doubles(arena, n);
 }
 
