@@ -81,7 +81,9 @@ void zd_point_velocity_violation(const zd_point *point, double *Psi)
 {
     int m = zd_constraints(point->system);
     const double *Phi_t = point->terms.Phi_t;
-    if (point->layout) packed_times(point, point->v, Psi);
+    const zd_operations *own = point->system->operations;
+    if (own && own->times_C) own->times_C(point->system->data, &point->terms, point->v, Psi);
+    else if (point->layout) packed_times(point, point->v, Psi);
     else ZD_SIZED(multiply, point->system->nv, m, point->terms.C, point->v, Psi);   /* (5) */
     for (int k = 0; Phi_t && k < m; k++) Psi[k] += Phi_t[k];
 }
@@ -108,7 +110,12 @@ static void times_block(const zd_layout *layout, int b, const double *M, const d
 void zd_times_M(const zd_point *point, const double *M, const double *x, double *y)
 {
     const zd_layout *layout = point->layout;
+    const zd_operations *own = point->system->operations;
     const int n = point->system->nv;
+    if (own && own->times_M && M == point->terms.M) {
+        own->times_M(point->system->data, &point->terms, x, y);
+        return;
+    }
     if (!layout) ZD_SIZED(multiply, n, n, M, x, y);
     for (int b = 0; layout && b < layout->blocks; b++) times_block(layout, b, M, x, y);
 }

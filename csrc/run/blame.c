@@ -39,6 +39,7 @@ static int watch_step(zd_run *run, double *t)
     zd_stepper_return(&run->stepper);
     motion->system.evaluate = evaluate;
     motion->system.data = &self;
+    motion->system.operations = NULL;
     motion->point->known = 0;
     zd_stepper_make(&run->stepper, run->stepper.last.h);
     motion->system = self.system;

@@ -66,8 +66,9 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
 }
 
 /* These are of the inner system alone. */
-static void leave_out_direct(zd_system *system)
+static void leave_out_others(zd_system *system)
 {
+    system->operations = NULL;
     system->direct = NULL;
     system->directs = 0;
 }
@@ -76,7 +77,7 @@ zd_system zd_hold_positions(zd_held *held, const zd_system *inner, const int *ho
 {
     *held = (zd_held){inner, hold, p};
     zd_system system = *inner;
-    leave_out_direct(&system);
+    leave_out_others(&system);
     system.mh += count(hold, inner->nq);
     system.mn = 0;
     system.provides = ZD_M | (inner->provides & ZD_A) | (system.mh ? ZD_PHI | ZD_C : 0);
@@ -90,7 +91,7 @@ zd_system zd_hold_velocities(zd_held *held, const zd_system *inner, const int *h
 {
     *held = (zd_held){inner, hold, v};
     zd_system system = *inner;
-    leave_out_direct(&system);
+    leave_out_others(&system);
     int rows = count(hold, inner->nv);
     system.mn += rows;
     system.provides = ZD_M | (inner->provides & ZD_PHI_T) | (zd_constraints(&system) ? ZD_C : 0) | (rows ? ZD_PHI_T : 0);

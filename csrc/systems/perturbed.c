@@ -35,7 +35,8 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     zd_system system = *perturbation->system;
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
-    system.direct = NULL;       /* of the terms as they are */
+    system.operations = NULL;   /* of the terms as they are */
+    system.direct = NULL;
     system.directs = 0;
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;

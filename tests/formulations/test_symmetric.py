@@ -72,7 +72,7 @@ def test_solutions_are_right_and_factors_bounded(linalg, n):
 
 @pytest.mark.parametrize("n", SIZES[1:])
 def test_the_column_that_depends_on_others_is_named(linalg, n):
-    """As a column of Gaussian elimination in order would be: the first that those before it make up, where all after it are independent."""
+    """As Gaussian elimination in order would do: the first that those before it make up, where all after it are independent."""
     rng = np.random.default_rng(n)
     for _ in range(20):
         last = int(rng.integers(n))
@@ -81,7 +81,8 @@ def test_the_column_that_depends_on_others_is_named(linalg, n):
         A = rng.integers(-3, 4, size=(n - 1, n - 1)) + np.diag(rng.choice([-7, 7], n - 1))
         packed, order = triangle(of_others.T @ (A + A.T) @ of_others), np.zeros(n, np.int32)    # integers, and so exact
         step = linalg.zd_symmetric_factor(n, packed, order)
-        assert step < n and linalg.zd_symmetric_dependent(n, packed, order, step, np.zeros(n)) == last
+        assert step < n
+        assert linalg.zd_symmetric_dependent(n, packed, order, step, np.zeros(n)) == last
 
 
 def test_what_is_no_number_is_no_pivot(linalg):

@@ -139,6 +139,46 @@ static const zd_structure structure = {
     .blocks = 2, .coordinates = three, .velocities = three, .mass = mass, .groups = 2, .rows = two, .first = first, .block = touched,
 };
 
+/* The same with products of their own, which are counted. */
+static int products;
+
+int count_products(void) { return products; }
+
+static void times_C(const void *data, const zd_terms *terms, const double *x, double *y)
+{
+    const double *C = terms->C;
+    (void)data;
+    products++;
+    for (int k = 0; k < 2; k++, C += 3) y[k] = C[0] * x[0] + C[1] * x[1] + C[2] * x[2];
+    for (int k = 2; k < 4; k++, C += 6) {
+        y[k] = 0;
+        for (int i = 0; i < 6; i++) y[k] += C[i] * x[i];
+    }
+}
+
+static void times_M(const void *data, const zd_terms *terms, const double *x, double *y)
+{
+    (void)data;
+    products++;
+    for (int i = 0; i < 6; i++) y[i] = terms->M[i] * x[i];
+}
+
+static const zd_operations operations = {.times_C = times_C, .times_M = times_M};
+
+const zd_kind zd_kind_two_rods_with_products = {
+    .card = {.name = "two_rods_with_products", .summary = "Two rods.", .equations = ""},
+    .system = {
+        .nq = 6, .nv = 6, .mh = 4,
+        .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
+        .evaluate = packed,
+        .structure = &structure,
+        .operations = &operations,
+    },
+    .parameters = 1, .constants = 20,
+    .parameter = parameter, .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .prepare = prepare, .start = start,
+};
+
 const zd_kind zd_kind_two_rods = {
     .card = {.name = "two_rods", .summary = "Two rods.", .equations = ""},
     .system = {

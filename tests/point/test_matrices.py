@@ -10,6 +10,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from structured import Bodies, bodies_library, chain, four_bars
 from support import FORMULATIONS, along, assert_close, condition, numbers, solved
+from zerodrift._gateway.functions import load_library
 
 STEPS = dict(step=0.01)
 SPAN = 0.2
@@ -270,3 +271,23 @@ def test_a_kind_in_c_declares_its_structure():
     other = zd.native(bodies_library(), symbol="two_rods", parameters={"gravity": 5.0})
     twin = chain(2, bend=0.0).system(packed=False, gravity=5.0)
     assert_close(zd.simulate(other, SPAN, **STEPS).p, zd.simulate(twin, SPAN, **STEPS).p, SAME)
+
+
+@needs_compiler
+def test_products_that_a_system_brings_are_what_the_core_multiplies_by():
+    """C v where velocities are corrected, and for each saved row; M x of implicit methods. Held coordinates, where C has more rows,
+    do without.
+    """
+    library = load_library(bodies_library())
+    plain, own = (zd.native(bodies_library(), symbol=f"two_rods{which}", parameters={}) for which in ("", "_with_products"))
+    at = [0.5, 0.0, 0.0, 1.5, 0.1, 0.2]
+    for formulation in FORMULATIONS:
+        options = STEPS | {"formulation": formulation, "energy": True}
+        before = library.count_products()
+        sol = zd.simulate(own, SPAN, **options)
+        corrected = sol.stats["velocity_corrections"]
+        assert library.count_products() >= before + len(sol.t) + corrected
+        assert_same_motion(sol, zd.simulate(plain, SPAN, **options))
+        for hold in ([], ["a2"]):
+            (one, _), (other, _) = (zd.assemble(system, at, hold=hold) for system in (own, plain))
+            assert_close(one, other, SAME)

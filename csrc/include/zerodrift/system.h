@@ -139,7 +139,8 @@ typedef struct zd_structure {
     const int *block;           /* (first[groups],) the blocks that each group touches, at least one, increasing */
 } zd_structure;
 
-/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. */
+/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. What asks for no more than
+ * C v or M x goes through the first and the third; factorizations take the entries. */
 typedef struct zd_operations {
     int omits_C;            /* whether C is not stored: then out->C is NULL and never asked for, and all four functions are there */
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = C x, (m,) */
