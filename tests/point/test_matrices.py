@@ -275,8 +275,8 @@ def test_a_kind_in_c_declares_its_structure():
 
 @needs_compiler
 def test_products_that_a_system_brings_are_what_the_core_multiplies_by():
-    """C v where velocities are corrected, and for each saved row; M x of implicit methods. Held coordinates, where C has more rows,
-    do without.
+    """C v where velocities are corrected, and for each saved row; M x of implicit methods. Held coordinates, where C has more
+    rows, do without.
     """
     library = load_library(bodies_library())
     plain, own = (zd.native(bodies_library(), symbol=f"two_rods{which}", parameters={}) for which in ("", "_with_products"))
