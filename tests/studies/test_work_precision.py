@@ -40,7 +40,8 @@ def test_the_error_is_that_of_the_run_itself():
     exact = zd.reference(BAR, 0.5, error=1e-10, t_eval=np.linspace(0, 0.5, 33))
     for row in measured(reference=exact).rows:
         sol = zd.simulate(BAR, 0.5, **row.setting.settings, direct=False)     # formulations are compared without
-        error = np.abs(sol(exact.solution.t)[0] - exact.solution.p).max()
+        at = zd.simulate(BAR, 0.5, **row.setting.settings, direct=False, t_eval=exact.solution.t)
+        error = np.abs(at.p - exact.solution.p).max()
         assert abs(row.error - error) <= exact.error
         assert row.steps == sol.stats["steps"]
         assert row.position_violation == np.abs(sol.position_violation).max()
@@ -72,6 +73,21 @@ def test_references_of_other_kinds(reference):
     result = measured(SYSTEMS["oscillator"], integrators=["rk4"], tolerances=[], reference=reference)
     assert all(row.error < 1e-6 for row in result.rows)
     assert np.isnan(result.reference_error)
+
+
+def test_what_the_reference_does_not_exclude_is_told():
+    """Of what depends on time, no step that was looked at tells what happens between two of them."""
+    driven = zd.System(1, mass=[[1.0]], force=lambda t: np.array([np.sin(t)]), p0=[0.0], v0=[0.0])
+    few = {"formulations": ["schur"], "integrators": ["rk4"]}
+    found = measured(driven, **few, steps=[0.1], tolerances=[])
+    tuning = zd.tune(driven, 0.5, error=1e-4, **few, rounds=1)
+    by_steps = zd.stability_map(driven, 0.5, steps=[0.1], values=[1.0], ways={"plain": {}})
+    for said, shown in ((found.reference_caveats, found), (tuning.evidence.reference_caveats, tuning),
+                        (by_steps.reference_caveats, by_steps)):
+        assert "no max_step was said" in said[0]
+        assert f"not excluded of the reference: {said[0]}" in repr(shown)
+    assert measured(driven, **few, steps=[0.1], tolerances=[],
+                    reference=zd.reference(driven, 0.5, max_step=0.1)).reference_caveats == ()
 
 
 def test_a_system_without_constraints_and_potential_has_no_such_numbers():

@@ -14,7 +14,7 @@ from ..runs import settings
 from ..runs.progress import progress_of
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
-from .work_precision import Bench, Row, Setting, default_steps
+from .work_precision import Bench, Row, Setting, default_steps, not_excluded
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
 OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
@@ -44,6 +44,8 @@ class StabilityMap:
         For each way (n,) times (k,) rows as in `WorkPrecision`; after Ctrl-C, only of the ways that were done.
     reference_error : float
         The largest certified error of the references.
+    reference_caveats : tuple of str
+        What their certificates did not exclude, see `Reference.caveats`.
     """
 
     parameter: str
@@ -51,6 +53,7 @@ class StabilityMap:
     steps: np.ndarray
     rows: dict[str, tuple[tuple[Row, ...], ...]]
     reference_error: float
+    reference_caveats: tuple[str, ...] = ()
 
     def survived(self, way: str) -> np.ndarray:
         """Which runs of that way reached their end, (n, k)."""
@@ -71,7 +74,7 @@ class StabilityMap:
             survived, error = self.survived(way), self.error(way)
             best = f"least error {np.nanmin(error):.2g}" if survived.any() else ""
             lines.append(f"  {way:20} {survived.sum():4} of {survived.size} survive  {best}".rstrip())
-        return "\n".join(lines)
+        return "\n".join(lines + not_excluded(self.reference_caveats))
 
 
 def stability_map(
@@ -141,7 +144,8 @@ def stability_map(
     combinations = {name: [_settings(name, way(value) if callable(way) else way, steps) for value in values]
                     for name, way in (WAYS if ways is None else ways).items()}
     label = parameter or ("gain α of Baumgarte's method [1/s]" if ways is None else "value")
-    reference_error = max(bench.reference_error for bench in benches)
+    of_references = (max(bench.reference_error for bench in benches),
+                     tuple(dict.fromkeys(caveat for bench in benches for caveat in bench.caveats)))
     rows: dict[str, Any] = {}
     show, close = progress_of(progress)
     try:
@@ -149,11 +153,11 @@ def stability_map(
             rows[name] = _measured(benches, lines)
             show((done + 1) / len(combinations))
     except (KeyboardInterrupt, Interrupted):
-        partial = StabilityMap(label, values, steps, rows, reference_error)
+        partial = StabilityMap(label, values, steps, rows, *of_references)
         raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} ways", partial) from None
     finally:
         close()
-    return StabilityMap(label, values, steps, rows, reference_error)
+    return StabilityMap(label, values, steps, rows, *of_references)
 
 
 def _benches(system, span, p0, v0, values, reference) -> list[Bench]:

@@ -13,7 +13,7 @@ from ..errors import Interrupted, UnreachableTolerance
 from ..runs.settings import FINEST_RTOL
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
-from .work_precision import Bench, Row, Setting, WorkPrecision, work_precision
+from .work_precision import Bench, Row, Setting, WorkPrecision, not_excluded, work_precision
 
 EXTENSIONS = 6      # the largest number of steps beyond those of the first sweep
 REFINEMENTS = 3     # each halves the logarithm of the factor between two neighbouring steps
@@ -40,8 +40,9 @@ class Tuning:
     evidence: WorkPrecision
 
     def __repr__(self) -> str:
-        return (f"Tuning of {self.evidence.system.name}: error {self.row.error:.2g} in {1e3 * self.row.seconds:.3g} ms, "
-                f"best of {len(self.evidence.rows)}\n  {self.settings}")
+        title = (f"Tuning of {self.evidence.system.name}: error {self.row.error:.2g} in {1e3 * self.row.seconds:.3g} ms, "
+                 f"best of {len(self.evidence.rows)}")
+        return "\n".join([title, f"  {self.settings}", *not_excluded(self.evidence.reference_caveats)])
 
 
 def tune(
@@ -213,7 +214,7 @@ class _Search:
 
     def evidence(self, rounds: int) -> WorkPrecision:
         rows = sorted(self.rows.values(), key=lambda row: (*map(str, row.setting.method), -_fineness(row.setting)))
-        return WorkPrecision(self.bench.system, self.bench.span, tuple(rows), self.bench.reference_error, rounds)
+        return self.bench.found(rows, rounds)
 
     def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
         """The same with all rows, not only those being measured."""

@@ -105,6 +105,8 @@ class WorkPrecision:
         How often each was timed.
     complete : bool
         False after Ctrl-C.
+    reference_caveats : tuple of str
+        What the certificate of the reference did not exclude, see `Reference.caveats`.
     """
 
     system: BaseSystem
@@ -113,6 +115,7 @@ class WorkPrecision:
     reference_error: float
     rounds: int
     complete: bool = True
+    reference_caveats: tuple[str, ...] = ()
 
     def pareto(self) -> tuple[Row, ...]:
         """The rows than which none is both faster and more accurate, from the fastest on.
@@ -161,7 +164,12 @@ class WorkPrecision:
         table += [_cells(row) for row in self.pareto()]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         lines = ["  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True)).rstrip() for cells in table]
-        return "\n".join([title, *("  " + line for line in lines)])
+        return "\n".join([title, *("  " + line for line in lines), *not_excluded(self.reference_caveats)])
+
+
+def not_excluded(caveats: Iterable[str]) -> list[str]:
+    """Lines that say what was not excluded of the reference."""
+    return [f"  not excluded of the reference: {caveat}" for caveat in caveats]
 
 
 def _cells(row: Row) -> tuple[str, ...]:
@@ -264,7 +272,8 @@ class Bench:
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
                  direct: bool | None = False) -> None:
         self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
-        self.reference_error = reference.error if isinstance(reference, certified.Reference) else np.nan
+        is_certified = isinstance(reference, certified.Reference)
+        self.reference_error, self.caveats = (reference.error, reference.caveats) if is_certified else (np.nan, ())
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
 
@@ -277,11 +286,15 @@ class Bench:
                 rows[setting] = self._row(setting, rows.get(setting))
                 show((done + 1) / (rounds * len(combinations)))
         except KeyboardInterrupt:
-            partial = WorkPrecision(self.system, self.span, tuple(rows.values()), self.reference_error, rounds, complete=False)
+            partial = self.found(rows.values(), rounds, complete=False)
             raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} rows", partial) from None
         finally:
             close()
-        return WorkPrecision(self.system, self.span, tuple(rows.values()), self.reference_error, rounds)
+        return self.found(rows.values(), rounds)
+
+    def found(self, rows: Iterable[Row], rounds: int, complete: bool = True) -> WorkPrecision:
+        """What was measured so far."""
+        return WorkPrecision(self.system, self.span, tuple(rows), self.reference_error, rounds, complete, self.caveats)
 
     def _row(self, setting: Setting, before: Row | None) -> Row:
         """A run measured; if it was before, only its time."""
