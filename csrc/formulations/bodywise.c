@@ -89,8 +89,10 @@ static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_in
     if (!has_inverse) return zd_dot(row->count, row->x, row->x) / mass;
     for (int j = 0; j < row->count;) {
         const int b = layout->block_of[row->column[j]], n = layout->velocity_at[b + 1] - layout->velocity_at[b];
-        const double *W = self->inverse + layout->M_at[b], *c = row->x + j;
-        for (int i = 0; i < n; i++) sum += c[i] * (layout->is_diagonal[b] ? W[i] * c[i] : zd_dot(n, W + i * n, c));
+        const double *L = self->inverse + layout->M_at[b], *c = row->x + j;
+        for (int i = 0; layout->is_diagonal[b] && i < n; i++) sum += c[i] * L[i] * c[i];
+        if (!layout->is_diagonal[b]) zd_forward(n, L, c, self->step);
+        if (!layout->is_diagonal[b]) sum += zd_metric_dot(n, L, self->step, self->step);
         j += n;
     }
     return sum;
@@ -100,7 +102,6 @@ static void set_weights(zd_bodywise *self, const zd_point *point)
 {
     const int n = point->system->nv, has_inverse = zd_mass_factor(point, self->inverse) == n;
     double mass = 0;
-    if (has_inverse) zd_mass_invert(self->layout, self->inverse);
     for (int i = 0; i < n; i++) mass = fmax(mass, zd_entry_of_M(point, i, i));
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);

@@ -11,7 +11,7 @@ typedef struct zd_bodywise {
     int *body_at;           /* (blocks of M,) where the velocities of each body stand in a right side of it */
     int *pair;              /* for each group, its bodies and those of these before it or it itself: the block that takes their product */
     double *weight;         /* (m,): W */
-    double *inverse;        /* stored as M is: M^-1, for the weights */
+    double *inverse;        /* stored as M is: M^-1 by its factors, for the weights */
     double *unbalanced, *step;  /* (n,), (n,) */
     double *rest, *lambda;  /* (m,), (m,) */
     const double *C;        /* of the point where it was factored */

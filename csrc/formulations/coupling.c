@@ -18,7 +18,7 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { MAX_REFINEMENTS = 4 };
+enum { MAX_REFINEMENTS = 40 };
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double GOOD = 0x1p-6;              /* of the diagonal of S: with pivots that are larger, few digits are lost */
 static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
@@ -89,7 +89,6 @@ static int invert_mass(zd_coupling *self, zd_point *point)
     if (self->is_known && self->is_constant) return ZD_DONE;
     point->failed_index = zd_mass_factor(point, self->W);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    zd_mass_invert(point->layout, self->W);
     self->is_accurate = are_alike(self);
     self->is_known = 1;
     return ZD_DONE;
@@ -116,13 +115,8 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
 /* x <- W y */
 static void times_W(const zd_coupling *self, const double *y, double *x)
 {
-    const zd_layout *layout = self->layout;
     for (int i = 0; self->is_diagonal && i < self->n; i++) x[i] = self->W[i] * y[i];
-    for (int b = 0; !self->is_diagonal && b < layout->blocks; b++) {
-        const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
-        const double *W = self->W + layout->M_at[b];
-        for (int i = 0; i < n; i++) x[first + i] = layout->is_diagonal[b] ? W[i] * y[first + i] : zd_dot(n, W + i * n, y + first);
-    }
+    if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
 }
 
 /* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */
@@ -138,10 +132,10 @@ static void exchange(zd_coupling *self, const double *force, const double *rhs, 
     times_W(self, self->force, x);                                      /* (13), (27) */
 }
 
-/* rest <- rhs - C x; returns whether it is more than the rounding of x makes it */
-static int is_left(const zd_coupling *self, const double *rhs, const double *x, double *rest)
+/* rest <- rhs - C x; returns how much that is of its terms, where it is more than the rounding of x makes it; else 0. */
+static double find_rest(const zd_coupling *self, const double *rhs, const double *x, double *rest)
 {
-    int left = 0;
+    double left = 0;
     for (int k = 0; k < self->m; k++) {
         zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double sum = rhs[k], size = fabs(rhs[k]);
@@ -151,7 +145,7 @@ static int is_left(const zd_coupling *self, const double *rhs, const double *x, 
             size += fabs(term);
         }
         rest[k] = sum;
-        left |= fabs(sum) > ROUNDING * size;
+        if (fabs(sum) > ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
     }
     return left;
 }
@@ -164,10 +158,13 @@ static void add_multipliers(zd_coupling *self, double *lambda)
 
 static void refine(zd_coupling *self, const double *rhs, double *x, double *lambda)
 {
-    for (int i = 0; i < MAX_REFINEMENTS && is_left(self, rhs, x, self->rest); i++) {
+    double before = INFINITY, left = find_rest(self, rhs, x, self->rest);
+    for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
         exchange(self, NULL, self->rest, self->step);
         for (int j = 0; j < self->n; j++) x[j] += self->step[j];
         if (lambda) add_multipliers(self, lambda);
+        before = left;
+        left = find_rest(self, rhs, x, self->rest);
     }
 }
 

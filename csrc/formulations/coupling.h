@@ -8,7 +8,7 @@
 typedef struct zd_coupling {
     int n, m;
     zd_weighted *weighted;  /* S(M^-1); NULL until it is first wanted */
-    double *W;              /* stored as M is: M^-1 */
+    double *W;              /* stored as M is: M^-1, by its factors */
     int is_diagonal;        /* whether all of M is */
     int is_constant;        /* whether M is, by what the system declares, and so W once it is known: */
     int is_known;

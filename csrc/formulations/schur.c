@@ -25,7 +25,7 @@
 
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
-static const double SMALL = 0x1p-36;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
+static const double SMALL = 0x1p-20;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
 static const double TURNED = 0.25;      /* of the squared sines by which Q turns: with less, Q1 Q0^T + Q0 Q1^T is still positive definite */
 
 typedef struct schur {

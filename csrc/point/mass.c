@@ -30,11 +30,14 @@ int zd_mass_factor(const zd_point *point, double *L)
     return n;
 }
 
-/* A diagonal block is its own reciprocals already. */
-void zd_mass_invert(const zd_layout *layout, double *L)
+void zd_mass_solve(const zd_layout *layout, const double *L, const double *y, double *x)
 {
     for (int b = 0; b < layout->blocks; b++) {
-        int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
-        if (!layout->is_diagonal[b]) ZD_SIZED(zd_invert, n, L + layout->M_at[b]);
+        const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+        const double *own = L + layout->M_at[b];
+        for (int i = 0; layout->is_diagonal[b] && i < n; i++) x[first + i] = own[i] * y[first + i];
+        if (layout->is_diagonal[b]) continue;
+        ZD_SIZED(zd_forward, n, own, y + first, x + first);
+        ZD_SIZED(zd_backward, n, own, x + first, x + first);
     }
 }

@@ -7,7 +7,7 @@
 /* L, stored as M is, with the factors of zd_cholesky(). Returns nv, or the velocity at which M is found not positive definite. */
 int zd_mass_factor(const zd_point *point, double *L);
 
-/* The inverse of each block in place of its factors. */
-void zd_mass_invert(const zd_layout *layout, double *L);
+/* x <- M^-1 y, from the factors of all blocks; x may be y */
+void zd_mass_solve(const zd_layout *layout, const double *L, const double *y, double *x);
 
 #endif

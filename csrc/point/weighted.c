@@ -223,8 +223,10 @@ static void weigh_any(const zd_piece *a, const double *A, const double *W, doubl
 {
     const int n = a->n;
     if (a->is_diagonal) weigh(a->rows, n, A, a->stride, W, product);
-    for (int i = 0; !a->is_diagonal && i < a->rows; i++)
-        for (int j = 0; j < n; j++) product[i * n + j] = zd_dot(n, A + i * a->stride, W + j * n);
+    for (int i = 0; !a->is_diagonal && i < a->rows; i++) {
+        zd_forward(n, W, A + i * a->stride, product + i * n);
+        zd_backward(n, W, product + i * n, product + i * n);
+    }
     for (int i = 0; a->copies > 1 && i < a->rows * n; i++) product[i] *= a->copies;
 }
 

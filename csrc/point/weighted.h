@@ -1,4 +1,5 @@
-/* S(W) = C W C^T of a system that declares its structure, W being stored as M is: M^-1 for (13) and (27), I for the identity metric. */
+/* S(W) = C W C^T of a system that declares its structure. W is the inverse of a matrix that is stored as M is, by Cholesky's factors of its
+ * blocks: those of M for (13) and (27), of I for the identity metric. */
 #ifndef ZD_WEIGHTED_H
 #define ZD_WEIGHTED_H
 
