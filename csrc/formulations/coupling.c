@@ -20,7 +20,7 @@
 
 enum { MAX_REFINEMENTS = 40 };
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double GOOD = 0x1p-6;              /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double GOOD = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
 static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
 
 /* Whether all of M is so declared. */
