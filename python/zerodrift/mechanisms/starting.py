@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
-from ..errors import CorrectionFailed, SingularSystem
+from ..errors import CorrectionFailed, InconsistentStart, SingularSystem
 from .assembly import Assembly, Target
+from .bodies import Body, Point
 from .drawing import Drawing
 from .forces import Motor
+from .joints import Joint, KnifeEdge
 from .measuring import measuring
 from .numbers import Numbers
 from .plane import turned
@@ -95,6 +97,8 @@ class Starting:
             return assembly.positions(p, held, wished)
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
+        except InconsistentStart as error:
+            raise InconsistentStart(f"{error}{self._loop_in_words()}") from None
 
     def _targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool) -> list[Target]:
         """The components of what is held or wished, of positions or of velocities."""
@@ -130,11 +134,23 @@ class Starting:
                 open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
         ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
         joint = max(open_by, key=lambda each: open_by[each])
-        bodies, joints = loop(tables.carrier, ends, joint)
-        parts = ["ground", *(body.name for body in tables.parts)]
-        around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
-        return (f"the loop of {', '.join(around)}, through {', '.join(through)}, cannot close: it stays open by "
+        told, _ = _around(tables, *loop(tables.carrier, ends, joint))
+        return (f"{told}, cannot close: it stays open by "
                 f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
+
+    def _loop_in_words(self) -> str:
+        """Which loop something held or driven is in."""
+        tables = Tables(self.drawing, self.numbers, in_tree=True)
+        owners = [self.drawing.elements[name.partition(".")[0]] for name in self.drawing.held]
+        owners += [motor.joint for motor in self.drawing.of(Motor)]
+        meant = {body.name for owner in owners for body in bodies_of(owner)}
+        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+        cuts = set(range(len(ends))) - set(tables.carrier)
+        for joint in sorted(cut for cut in cuts if not isinstance(tables.joints[cut], KnifeEdge)):
+            told, bodies = _around(tables, *loop(tables.carrier, ends, joint))
+            if meant & bodies - {"ground"}:
+                return f"; in {told}"
+        return ""
 
     def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
         """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
@@ -151,6 +167,22 @@ class Starting:
         moved = {assembly.core.coordinates[i].body for i in np.flatnonzero(motion > 1e-6 * motion.max())}
         names = ", ".join(repr(tables.parts[body - 1].name) for body in sorted(moved))
         raise SingularSystem(f"{names} can move without moving any mass: give it mass and inertia, or hold it by a joint")
+
+
+def _around(tables: Tables, bodies: Sequence[int], joints: Sequence[int]) -> tuple[str, set[str]]:
+    """A loop in words, and the names of its bodies."""
+    parts = ["ground", *(body.name for body in tables.parts)]
+    around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
+    return f"the loop of {', '.join(around)}, through {', '.join(through)}", set(around)
+
+
+def bodies_of(element: Any) -> tuple[Body, ...]:
+    """The bodies that an element is, or belongs to, or joins."""
+    if isinstance(element, Body):
+        return (element,)
+    if isinstance(element, Point):
+        return (element.body,)
+    return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)
 
 
 def size_of(drawing: Drawing, numbers: Numbers) -> float:
