@@ -62,10 +62,11 @@ def test_the_record_is_what_is_read(monkeypatch):
 
 def test_a_record_grows_with_its_outputs():
     """Steps that are chosen: blocks of rows are joined."""
-    sol = zd.simulate(four_bar(), 2.0, integrator="dop853", max_step=1e-3, outputs=["crank.angle"])
+    bar = four_bar(speed=3.0)
+    sol = zd.simulate(bar, 1.5, integrator="dop853", max_step=1e-3, outputs=["crank.angle"])
     assert len(sol.t) > 1024
-    np.testing.assert_allclose(sol["crank.angle"], zd.simulate(four_bar(), sol.t_span, **sol.settings | {"outputs": []})[
-        "crank.angle"], rtol=0, atol=0)
+    plain = zd.simulate(bar, sol.t_span, **sol.settings | {"outputs": []})
+    assert np.array_equal(sol["crank.angle"], plain["crank.angle"])
 
 
 def test_they_outlive_files_pickles_and_copies(tmp_path):
