@@ -134,4 +134,4 @@ def test_values_of_the_polynomial_satisfy_the_constraints(bar):
 def test_no_more_is_evaluated_than_three_stages_and_what_is_saved(bar):
     steps, times = chosen(bar, 1e-6), np.linspace(0.013, 1.987, 20)
     between = chosen(bar, 1e-6, times)
-    assert between.stats["evaluations"] - steps.stats["evaluations"] <= 20 * 11     # shorter steps would take more than that alone
+    assert between.stats["evaluations"] - steps.stats["evaluations"] <= 20 * 11     # shorter steps alone would take more

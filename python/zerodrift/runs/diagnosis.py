@@ -69,8 +69,8 @@ def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     if 0 < stats["smallest_pivot"] < SMALLEST_PIVOT:
         yield AccuracyWarning, (
             f"at t = {stats['smallest_pivot_time']:.6g}, {stats['smallest_pivot']:.1g} was left of constraint "
-            f"{solution.system.constraints[stats['smallest_pivot_row']].name!r} once others are eliminated: the motion comes near "
-            "a bifurcation or follows it through, which is not looked for among so many constraints, and accelerations lose "
+            f"{solution.system.constraints[stats['smallest_pivot_row']].name!r} once others are eliminated: the motion comes "
+            "near a bifurcation or follows it through, which is not looked for among so many constraints, and accelerations lose "
             "digits there; joint coordinates lose fewer")
 
 

@@ -87,7 +87,8 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
     sets = for_each_set(lambda unit, lanes: [f"#define ZD_UNIT {unit}", f"#define ZD_LANES {lanes}", f'#include "{file}"'])
     rows = for_each_set(lambda unit, lanes: [f"    {{{unit}, {lanes}, {len(functions)}, orders_{unit}_{lanes}}},"])
     return "\n".join([*outside, "", "/* The functions below, for each vector unit. */", *sets, "",
-                      f"const zd_direct {symbol}[] = {{", *rows, "};", "", "#else", *inside, "", "#undef ZD_UNIT", "#undef ZD_LANES", "#endif", ""]), len(stored)
+                      f"const zd_direct {symbol}[] = {{", *rows, "};", "",
+                      "#else", *inside, "", "#undef ZD_UNIT", "#undef ZD_LANES", "#endif", ""]), len(stored)
 
 
 def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]]) -> dict[int, int]:
