@@ -58,8 +58,9 @@ def direct_sets(system):
     """Of a built-in or symbolic system: its direct functions by unit and lanes, (nq, nv, mh, m), its data and its start."""
     if hasattr(system, "_direct"):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
-        table = ffi.cast("const zd_direct *", _gateway.address_of(system._direct.library("|".join(known)), "zd_symbolic_direct"))
-        rows, data = [table[i] for i in range(len(known))], system._with_direct_data()
+        library = system._direct.library_of("|".join(known))
+        table = ffi.cast("const zd_direct *", _gateway.address_of(library, "zd_symbolic_direct"))
+        rows, data = [table[i] for i in range(len(known))], system._with_direct_data(library)
     else:
         c, kind = system._core.c, _gateway.kinds()[system.name].c
         rows = [c.direct[i] for i in range(c.directs)]

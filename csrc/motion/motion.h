@@ -139,8 +139,8 @@ int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
 
 /* direct.c */
-/* Lays out the direct road, where the system brings one; the formulation's state has to be (p, v). */
-void zd_direct_take(zd_motion *motion, zd_arena *arena);
+/* Lays out the direct road, where the system brings one for this vector unit or one before it; the formulation's state has to be (p, v). */
+void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Which road a step takes that begins at the point. */
 void zd_direct_choose(zd_motion *motion);
 void zd_direct_leave(zd_motion *motion);

@@ -12,6 +12,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from support import assert_close
 from zerodrift import _gateway
+from zerodrift.runs.settings import VECTOR_UNITS
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
@@ -186,8 +187,9 @@ class Failing:
         setattr(self.order[0], member, self.function)
         self.direct = ffi.new("zd_direct[1]", [{"lanes": 1, "orders": 1, "order": self.order}])
         self.system = system("four_bar").starting()
-        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data()
-        self.system._with_direct = self.core.with_direct(address, data, self)
+        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data(self.system._direct.library())
+        made = self.core.with_direct(address, data, self)
+        self.system._with_direct = dict.fromkeys(VECTOR_UNITS, made)
 
 
 @pytest.mark.parametrize("options", [

@@ -116,6 +116,6 @@ def test_contraction_changes_no_more_than_rounding(name):
 def test_a_compiler_that_has_no_vectors_writes_the_plain_functions():
     """Of the sets that it is told to write it takes those that it can, else the one that all can."""
     functions = random_system(2)._direct
-    plain = functions.library("0x40000000")
+    plain = functions.library_of("0x40000000")
     table = ffi.cast("const zd_direct *", zd._gateway.address_of(plain, "zd_symbolic_direct"))
     assert (table[0].unit, table[0].lanes) == (0, 1)

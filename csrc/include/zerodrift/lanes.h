@@ -24,8 +24,25 @@
 
 #ifndef ZERODRIFT_LANES_H
 #define ZERODRIFT_LANES_H
-#if (ZD_SETS) & ~3
+/* Operations of the units that C has no words for. GCC has them built in, and reading its header takes longer than compiling a system. */
+#if defined(__clang__) && (ZD_SETS) & ~3
 #include <immintrin.h>
+#define ZD_FMA_4(a, b, c) _mm256_fmadd_pd(a, b, c)
+#define ZD_FMA_8(a, b, c) _mm512_fmadd_pd(a, b, c)
+#define ZD_SQRT_4(x) _mm256_sqrt_pd(x)
+#define ZD_SQRT_8(x) _mm512_sqrt_pd(x)
+#define ZD_ANY_4(bits) (_mm256_movemask_pd((__m256d)(bits)) != 0)
+#define ZD_ANY_8(bits) (_mm512_test_epi64_mask((__m512i)(bits), (__m512i)(bits)) != 0)
+#define ZD_HALF_OF_4(x, half) _mm256_extractf128_pd(x, half)
+#else
+#define ZD_FMA_4(a, b, c) __builtin_ia32_vfmaddpd256(a, b, c)
+#define ZD_FMA_8(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, -1, 4)
+#define ZD_SQRT_4(x) __builtin_ia32_sqrtpd256(x)
+#define ZD_SQRT_8(x) __builtin_ia32_sqrtpd512_mask(x, x, -1, 4)
+#define ZD_ANY_4(bits) (__builtin_ia32_movmskpd256((zd_vector)(bits)) != 0)
+typedef long long zd_eight_bits __attribute__((vector_size(64)));
+#define ZD_ANY_8(bits) (__builtin_ia32_ptestmq512((zd_eight_bits)(bits), (zd_eight_bits)(bits), -1) != 0)
+#define ZD_HALF_OF_4(x, half) __builtin_ia32_vextractf128_pd256(x, half)
 #endif
 #define ZD_JOINED_(name, unit, lanes) name##_##unit##_##lanes
 #define ZD_JOINED(name, unit, lanes) ZD_JOINED_(name, unit, lanes)
@@ -87,19 +104,19 @@ typedef uint64_t zd_vector_words __attribute__((vector_size(8 * ZD_WIDTH)));
 #define ZD_WORDS_OF(x) ((zd_vector_words)(x))
 #define ZD_REAL_OF(w) ((zd_vector)(w))
 #if ZD_UNIT && ZD_WIDTH == 8
-#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)_mm512_fmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
-#define ZD_LESS_TIMES(c, a, b) ((zd_vector)_mm512_fnmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)ZD_FMA_8(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_LESS_TIMES(c, a, b) ZD_TIMES_PLUS(-ZD_BROADCAST(a), b, c)
 #elif ZD_UNIT && ZD_WIDTH == 4
-#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)_mm256_fmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
-#define ZD_LESS_TIMES(c, a, b) ((zd_vector)_mm256_fnmadd_pd(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_TIMES_PLUS(a, b, c) ((zd_vector)ZD_FMA_4(ZD_BROADCAST(a), ZD_BROADCAST(b), ZD_BROADCAST(c)))
+#define ZD_LESS_TIMES(c, a, b) ZD_TIMES_PLUS(-ZD_BROADCAST(a), b, c)
 #else
 #define ZD_TIMES_PLUS(a, b, c) ((a) * (b) + (c))
 #define ZD_LESS_TIMES(c, a, b) ((c) - (a) * (b))
 #endif
 #if ZD_WIDTH == 8
-#define ZD_ANY(condition) (_mm512_test_epi64_mask((__m512i)(condition), (__m512i)(condition)) != 0)
+#define ZD_ANY ZD_ANY_8
 #elif ZD_WIDTH == 4
-#define ZD_ANY(condition) (_mm256_movemask_pd((__m256d)(condition)) != 0)
+#define ZD_ANY ZD_ANY_4
 #else
 #define ZD_ANY(condition) (((condition)[0] | (condition)[1]) != 0)
 #endif
@@ -185,9 +202,9 @@ typedef int64_t zd_condition __attribute__((vector_size(8 * ZD_LANES)));
 #define ZD_EITHER(a, b) ((a) | (b))
 #define ZD_NOT(a) (~(a))
 #if ZD_LANES == 8
-#define ZD_SQRT(x) ((zd_real)_mm512_sqrt_pd(x))
+#define ZD_SQRT(x) ((zd_real)ZD_SQRT_8(x))
 #elif ZD_LANES == 4
-#define ZD_SQRT(x) ((zd_real)_mm256_sqrt_pd(x))
+#define ZD_SQRT(x) ((zd_real)ZD_SQRT_4(x))
 #else
 #define ZD_SQRT(x) ((zd_real){sqrt((x)[0]), sqrt((x)[1])})
 #endif
@@ -201,14 +218,15 @@ typedef int64_t zd_condition __attribute__((vector_size(8 * ZD_LANES)));
 
 #if ZD_UNIT || ZD_LANES > 1
 #if ZD_LANES == 1
-/* By instructions, as compilers take the way through memory. */
+/* In halves, as compilers take the way through memory for a vector at once. */
 ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_take_apart)(const zd_vector x, double *to)
 {
-    const __m128d low = _mm256_castpd256_pd128(x), high = _mm256_extractf128_pd(x, 1);
-    to[0] = _mm_cvtsd_f64(low);
-    to[1] = _mm_cvtsd_f64(_mm_unpackhi_pd(low, low));
-    to[2] = _mm_cvtsd_f64(high);
-    to[3] = _mm_cvtsd_f64(_mm_unpackhi_pd(high, high));
+    typedef double half __attribute__((vector_size(16)));
+    const half low = ZD_HALF_OF_4(x, 0), high = ZD_HALF_OF_4(x, 1);
+    to[0] = low[0];
+    to[1] = low[1];
+    to[2] = high[0];
+    to[3] = high[1];
 }
 #endif
 
@@ -220,7 +238,7 @@ ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_sines_of)(const int n, const zd_real
 #else
     for (int i = 0; i < n; i += ZD_WIDTH) {
         zd_vector sine, cosine;
-        ZD_NAMED(zd_vector_sines)(_mm256_set_pd(angle[i + 3], angle[i + 2], angle[i + 1], angle[i]), &sine, &cosine);
+        ZD_NAMED(zd_vector_sines)((zd_vector){angle[i], angle[i + 1], angle[i + 2], angle[i + 3]}, &sine, &cosine);
         ZD_NAMED(zd_take_apart)(sine, s + i);
         ZD_NAMED(zd_take_apart)(cosine, c + i);
     }

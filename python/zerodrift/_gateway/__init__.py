@@ -14,6 +14,7 @@ from .base import (
     FULL,
     INTERRUPTED,
     PAUSED,
+    PROCESSOR_UNIT,
     ROW_VALUES,
     TERMS,
     Card,
@@ -37,7 +38,7 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
-    "PAUSED", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
+    "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
     "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
     "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find",
     "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",

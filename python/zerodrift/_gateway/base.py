@@ -15,6 +15,7 @@ from .._core import ffi, lib
 TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 MESSAGE_SIZE = 512
+PROCESSOR_UNIT = lib.zd_processor_unit()      # the number of the last vector unit that it has
 ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK

@@ -103,13 +103,13 @@ class Written:
         _codes[self.key] = code
         return code
 
-    def _compiled(self, direct: DirectFunctions | None) -> MechanismCore:
+    def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline") -> MechanismCore:
         """The system with compiled functions."""
         numbers = np.concatenate([self._values, np.zeros(self._code.constants + (direct.constants if direct else 0) + 1)])
         libraries, address = [self._library], None
         self._library.zd_symbolic_constants(ctypes.c_void_p(numbers.ctypes.data))
         if direct:
-            libraries.append(direct.library())
+            libraries.append(direct.library(vector))
             libraries[1].zd_symbolic_direct_constants(ctypes.c_void_p(numbers.ctypes.data))
             address = _gateway.address_of(libraries[1], DIRECT)
         numbers.flags.writeable = False
@@ -122,9 +122,9 @@ class Written:
         return DirectFunctions(self._code.program, self._sizes, self._values, p0, is_length,
                                len(self._values) + self._code.constants, OF_DIRECT)
 
-    def with_direct(self, direct: DirectFunctions) -> MechanismCore:
-        """The same with direct functions, where there are any."""
-        return self._compiled(direct) if self.is_compiled and direct.library() else self.core
+    def with_direct(self, direct: DirectFunctions, vector: str) -> MechanismCore:
+        """The same with direct functions for a vector unit, where there are any."""
+        return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
 
 
 def _reader(laws: Laws) -> Any:

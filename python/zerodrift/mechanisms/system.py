@@ -126,11 +126,17 @@ class MechanismSystem(BaseSystem):
         return self._written.key, self._written.direct_functions(p0, is_length)
 
     @functools.cached_property
-    def _core_with_direct(self) -> MechanismCore:
-        return self._written.with_direct(self._direct[1])
+    def _cores_with_direct(self) -> dict[str, MechanismCore]:
+        """By vector unit."""
+        return {}
 
-    def _direct_core(self) -> MechanismCore:
-        return self._core_with_direct if self.compiled else self._core
+    def _direct_core(self, vector: str = "baseline") -> MechanismCore:
+        if not self.compiled:
+            return self._core
+        cores = self._cores_with_direct
+        if vector not in cores:
+            cores[vector] = self._written.with_direct(self._direct[1], vector)
+        return cores[vector]
 
     @functools.cached_property
     def p0(self) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import operator
+import os
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -127,12 +128,12 @@ class _Known(NamedTuple):
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
          first_step: Any, max_step: Any, max_steps: Any, formulation: Any, integrator: Any, stabilization: Any, energy: Any,
-         correction: Any, on_singular: Any, direct: Any) -> Plan:
+         correction: Any, on_singular: Any, direct: Any, vector: Any) -> Plan:
     """The arguments of `simulate`, checked."""
     if isinstance(correction, list):
         correction = tuple(correction)
     given = (save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator, stabilization, energy,
-             correction, on_singular, direct)
+             correction, on_singular, direct, vector_unit(vector))
     try:
         found = _plan(*given)
     except TypeError:       # as it comes from arguments that cannot be remembered, too: most of these are wrong
@@ -152,15 +153,32 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
 # What follows from arguments is found once: else it would take as long as a short run. 1 is not True here.
 @functools.lru_cache(typed=True)
 def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_steps: Any, formulation: Any,
-          integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any) -> _Known:
+          integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any,
+          vector: str) -> _Known:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
         raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
     chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
-              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct}
+              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct,
+              "vector": vector}
     return _Known(chosen, core_settings((0.0, 0.0), chosen), corrections, requires)
+
+
+VECTOR_UNITS = ("baseline", "avx2", "avx512")       # by their number in the core
+
+
+def vector_unit(given: str | None) -> str:
+    """The vector unit that is asked for by the argument `vector`, else by ZERODRIFT_VECTOR, else the processor's."""
+    name, said = "vector", given
+    if given is None:
+        name, said = "ZERODRIFT_VECTOR", os.environ.get("ZERODRIFT_VECTOR") or VECTOR_UNITS[_gateway.PROCESSOR_UNIT]
+    _check.choice(name, said, VECTOR_UNITS)
+    if VECTOR_UNITS.index(said) > _gateway.PROCESSOR_UNIT:
+        has = " or ".join(map(repr, VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]))
+        raise ValueError(f"{name} must be {has}, which this processor has, not {said!r}")
+    return said
 
 
 def _times(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
@@ -249,17 +267,20 @@ _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_steps", "sa
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     like = _core_methods(chosen["formulation"], chosen["integrator"], chosen.get("on_singular", "stop"),
-                         chosen.get("direct") is None, *corrections_of(chosen))
+                         chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector", "baseline")),
+                         *corrections_of(chosen))
     changed = {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
     return _gateway.settings({"t0": span[0], "t1": span[1], **changed}, like)
 
 
 @functools.lru_cache(typed=True)
-def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: bool, *corrections: RowSettings) -> Any:
+def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: bool, vector: int,
+                  *corrections: RowSettings) -> Any:
     """The core's settings as far as they say by which methods a run is made."""
     return _gateway.settings({
         "formulation": formulation_row(formulation), "integrator": integrator_row(integrator),
-        "on_singular": on_singular_row(on_singular), "direct": direct, **given(formulation, integrator, *corrections)})
+        "on_singular": on_singular_row(on_singular), "direct": direct, "vector": vector,
+        **given(formulation, integrator, *corrections)})
 
 
 def given(*chosen: Any) -> dict[str, Any]:

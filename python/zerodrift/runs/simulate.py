@@ -50,6 +50,7 @@ def simulate(
     outputs: Any = None,
     on_singular: str = "stop",
     direct: bool | None = None,
+    vector: str | None = None,
     on_failure: str = "raise",
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
@@ -118,6 +119,10 @@ def simulate(
         constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent
         formulations and explicit integrators, where no constraint is redundant. A step at whose ends the elimination is not
         sound is made by the formulation's leading matrix; `repr` of the solution says how many were. False makes all steps so.
+    vector : {"baseline", "avx2", "avx512"}, optional
+        The vector unit that direct functions may use. Left out: what the environment variable ZERODRIFT_VECTOR says, else the
+        last that the processor has. With "baseline", all processors give the same bits; the units round less often, give the
+        same bits among each other, and take a fourth less time.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
@@ -177,8 +182,8 @@ def simulate(
     span = _check.span(t_span)
     plan = settings.plan(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
-        stabilization, energy, correction, on_singular, direct)
-    core = direct_core_of(system) if _gateway.takes_direct(plan.options) else core_of(system)
+        stabilization, energy, correction, on_singular, direct, vector)
+    core = direct_core_of(system, plan.chosen["vector"]) if _gateway.takes_direct(plan.options) else core_of(system)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
     recorded = None

@@ -321,8 +321,9 @@ class Solution:
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
             options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
-            of = core_of if self.settings.get("direct") is False else direct_core_of
-            _gateway.step(of(self.system), options, p, v)
+            vector = self.settings.get("vector", "baseline")
+            core = core_of(self.system) if self.settings.get("direct") is False else direct_core_of(self.system, vector)
+            _gateway.step(core, options, p, v)
         return p, v
 
     @property

@@ -48,12 +48,16 @@ class DirectFunctions:
         written = self._write()
         return written[0] if written else ""
 
-    def library(self, functions: str = "ZD_SET_BASELINE_1") -> ctypes.CDLL | None:
-        """The library of one set of functions, as zerodrift/units.h names them; None: there is none."""
-        if functions not in self._libraries and self.source:
+    def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
+        """The library of those for one trajectory and a vector unit; None: there are none."""
+        return self.library_of(f"ZD_SET_{vector.upper()}_1")
+
+    def library_of(self, sets: str) -> ctypes.CDLL | None:
+        """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""
+        if sets not in self._libraries and self.source:
             symbols = DIRECT, f"{DIRECT}_constants"
-            self._libraries[functions] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={functions}"])
-        return self._libraries.get(functions)
+            self._libraries[sets] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"])
+        return self._libraries.get(sets)
 
     def __getstate__(self) -> dict[str, Any]:
         self._write()

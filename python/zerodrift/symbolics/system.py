@@ -81,7 +81,7 @@ class SymbolicSystem(BaseSystem):
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
         self._direct = direct or DirectFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
-        self._with_direct: _gateway.NativeCore | None = None
+        self._with_direct: dict[str, _gateway.NativeCore] = {}     # by vector unit
 
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
@@ -97,18 +97,19 @@ class SymbolicSystem(BaseSystem):
         data.flags.writeable = False
         return data
 
-    def _direct_core(self) -> _gateway.CoreSystem:
-        library = self._direct.library() if self.compiled else None
+    def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
+        library = self._direct.library(vector) if self.compiled else None
         if library is None:
             return self._core
-        if self._with_direct is None:
-            self._with_direct = self._core.with_direct(_gateway.address_of(library, DIRECT), self._with_direct_data(), library)
-        return self._with_direct
+        if vector not in self._with_direct:
+            data = self._with_direct_data(library)
+            self._with_direct[vector] = self._core.with_direct(_gateway.address_of(library, DIRECT), data, library)
+        return self._with_direct[vector]
 
-    def _with_direct_data(self) -> np.ndarray:
+    def _with_direct_data(self, library: ctypes.CDLL) -> np.ndarray:
         """The same with the constants of the direct functions behind them."""
         data = np.concatenate([self._data(), np.zeros(self._direct.constants)])
-        self._direct.library().zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
+        library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
         return data
 
     def _in_python(self) -> _gateway.PythonCore:
@@ -123,7 +124,7 @@ class SymbolicSystem(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
         other = self._copied()
-        other._with_direct = None
+        other._with_direct = {}
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)

@@ -203,7 +203,7 @@ class BaseSystem:
             return least
         return f"{self.nv - rank}" + (f", as {self.m - rank} rows follow from others at the start" if rank < self.m else "")
 
-    def _direct_core(self) -> _gateway.CoreSystem:
+    def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
         return self._core
 
     def _parameter_units(self) -> dict[str, str]:
@@ -319,10 +319,10 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
     return tuple(places)
 
 
-def direct_core_of(system: Any) -> _gateway.CoreSystem:
-    """The same with the system's direct functions, where it has any: they are made when they are first wanted."""
+def direct_core_of(system: Any, vector: str) -> _gateway.CoreSystem:
+    """The same with the system's direct functions for a vector unit, where it has any: made when they are first wanted."""
     core_of(system)
-    return system._direct_core()
+    return system._direct_core(vector)
 
 
 def with_units(names: Sequence[str], rates: Sequence[str], units: Any,

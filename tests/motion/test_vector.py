@@ -1,0 +1,68 @@
+"""Which vector unit direct functions use: as asked for, as the environment says, or the processor's; and that it is told."""
+
+import numpy as np
+import pytest
+from zerodrift._core import lib
+
+import symbolic_counterparts
+import tolerances as tol
+import zerodrift as zd
+from native_systems import needs_compiler
+from zerodrift.runs import settings
+
+UNITS = settings.VECTOR_UNITS[: lib.zd_processor_unit() + 1]
+SYSTEMS = {"built in": zd.systems.four_bar, "symbolic": symbolic_counterparts.four_bar}
+pytestmark = needs_compiler
+
+
+def run(name, **options):
+    return zd.simulate(SYSTEMS[name](), 1.0, step=0.01, **options)
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize("vector", UNITS)
+def test_it_is_told_and_a_run_made_again_has_the_same_bits(name, vector):
+    sol = run(name, vector=vector)
+    assert sol.settings["vector"] == vector
+    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    again = zd.simulate(sol.system, sol.t_span, **sol.settings)
+    assert np.array_equal(again.p, sol.p)
+    assert np.array_equal(sol(0.123)[0], run(name, vector=vector, t_eval=[0.123]).p[0])
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_units_differ_in_rounding_from_the_baseline_and_not_among_each_other(name):
+    baseline, *units = (run(name, vector=vector) for vector in UNITS)
+    for sol in units:
+        assert not np.array_equal(sol.p, baseline.p)
+        assert np.abs(sol.p - baseline.p).max() <= tol.STEPPED * np.abs(baseline.p).max()
+        assert np.array_equal(sol.p, units[0].p)
+
+
+def test_the_environment_is_asked_where_the_argument_says_nothing(monkeypatch):
+    for vector in UNITS:
+        monkeypatch.setenv("ZERODRIFT_VECTOR", vector)
+        assert run("built in").settings["vector"] == vector
+        assert run("built in", vector="baseline").settings["vector"] == "baseline"
+    monkeypatch.delenv("ZERODRIFT_VECTOR")
+    assert run("built in").settings["vector"] == UNITS[-1]
+
+
+def test_what_there_is_not_is_refused(monkeypatch):
+    with pytest.raises(ValueError, match=r"^vector must be "):
+        run("built in", vector="neon")
+    monkeypatch.setattr(zd._gateway, "PROCESSOR_UNIT", 1)
+    with pytest.raises(ValueError, match=r"^vector must be 'baseline' or 'avx2', which this processor has, not 'avx512'$"):
+        run("built in", vector="avx512")
+    monkeypatch.setenv("ZERODRIFT_VECTOR", "avx1024")
+    with pytest.raises(ValueError, match=r"^ZERODRIFT_VECTOR must be "):
+        run("built in")
+
+
+def test_solutions_of_before_used_none():
+    assert settings.core_settings((0.0, 1.0), {k: v for k, v in run("built in").settings.items() if k != "vector"}).vector == 0
+
+
+def test_all_other_roads_have_the_same_bits_with_all_units():
+    general = [run("built in", direct=False, vector=vector).p for vector in UNITS]
+    assert all(np.array_equal(each, general[0]) for each in general)
