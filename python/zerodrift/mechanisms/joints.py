@@ -74,6 +74,8 @@ class Revolute(Joint):
     """A hinge, `Mechanism.revolute`."""
 
     kind, own, coordinate = "revolute", 1, "angle"
+    position = vector("position", "Where the joint is, by the second's point, in the drawing's axes, in m.")
+    velocity = vector("velocity", "The velocity of that point, in the drawing's axes, in m/s.")
     angle = scalar("angle", "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
     speed = scalar("speed", "The rate of `angle`, in rad/s.")
     acceleration = scalar("acceleration", "The rate of `speed`, in rad/s^2.")

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from .._gateway.mechanisms import Gauge, MechanismCore, Observed
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
+from .joints import Revolute
 from .readings import has_coordinate
 from .tables import JOINTS, Tables
 
@@ -64,6 +65,8 @@ def _positions(tables: Tables) -> Iterator[Position]:
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
+        if isinstance(joint, Revolute):     # without a second rate: that name is the acceleration of its angle
+            yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
                        lambda actuator=actuator: (tables.length_gauge(actuator),))

@@ -10,7 +10,7 @@ import numpy as np
 
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
-from .joints import Joint
+from .joints import Joint, Revolute
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
 
@@ -72,7 +72,8 @@ def readable(element: Any) -> list[str]:
     rates = {"position": "velocity", "angle": "angular_velocity"}
     found = []
     for quantity in quantities(element):
-        rate = "speed" if isinstance(element, Joint | Actuator) else rates.get(quantity)
+        is_coordinate = isinstance(element, Joint | Actuator) and quantity != "position"
+        rate = "speed" if is_coordinate else rates.get(quantity)
         found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
     found += [f"{named}.{point}.{quantity}" for point in _points(element) for quantity in ("position", "velocity")]
     return found
@@ -85,7 +86,8 @@ def quantities(element: Any) -> tuple[str, ...]:
     if isinstance(element, Point):
         return ("position",)
     if isinstance(element, Joint):
-        return (element.coordinate,) if has_coordinate(element) else ()
+        place = ("position",) if isinstance(element, Revolute) else ()
+        return (element.coordinate, *place) if has_coordinate(element) else place
     return ("length",) if isinstance(element, Spring | Actuator) else ()
 
 

@@ -126,7 +126,8 @@ class Tables:
             owner, _, _ = owner.rpartition(".")
             element, _, end = owner.partition(".")
             of = self.drawing.elements[element]
-            return self.place_gauges(getattr(of, end) if end else of)["xy".index(quantity)]
+            of = of.second if isinstance(of, Joint) else getattr(of, end) if end else of
+            return self.place_gauges(of)["xy".index(quantity)]
         of = self.drawing.elements[owner]
         if isinstance(of, Joint):
             return self.coordinate_gauge(self.joint_number[owner])

@@ -1,0 +1,206 @@
+"""`linkage`: a mechanism from points, the links between them and their lengths, as designers note it."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..errors import SingularSystem
+from .bodies import Point
+from .mechanism import Mechanism
+from .numbers import AS_GIVEN
+from .plates import Shape, on_sides
+from .starting import Starting
+
+GROUND = "ground"
+
+
+def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Mapping[Any, float] | None = None,
+            mass: float | Mapping[str, float] = 1.0, scale: float = 1.0, gravity: Any = None,
+            name: str = "linkage") -> Mechanism:
+    """A mechanism of links and hinges, closed from a sketch.
+
+    Parameters
+    ----------
+    points : dict of str to array_like (2,)
+        The sketch: where the points are, roughly. Lengths count, and what they leave open is as near to the sketch as can be.
+    links : dict of str to points
+        The points of each link: a string of one-letter names, or a sequence of names. The fixed points are those of ``"ground"``.
+    lengths : dict of points to float, optional
+        Distances of two points of one link: ``{"AB": 2.5}``, or ``{("A1", "B1"): 2.5}``. Distances that are left out are as
+        drawn; a point of a link of three or more has them in the link's frame, which goes from its first point to its second.
+        The first point of the ground, and the direction to its second, are as drawn.
+    mass : float or dict of str to float
+        In kg, of each link, or by link; those that a dict leaves out have none. A link of two points is a uniform slender rod;
+        one of more has its mass in such rods along its sides, by their length.
+    scale : float
+        Metres in the unit of points and lengths.
+    gravity : array_like (2,), optional
+        In m/s^2; left out: none.
+    name : str
+        For tables and plots.
+
+    Returns
+    -------
+    Mechanism
+        Where two links meet is a hinge with the point's name. Where more meet, hinges join them to the one that was listed
+        first, and to the ground where it is among them; they are named by the point and the link, ``"X crank"``, and the point
+        has its name. Each point has a position, ``"X.position"``. To a link of two points, `Mechanism.link` applies; the inertia
+        of others does not change with their mass.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that nobody defined or uses, links of one point, lengths of links that nobody drew, lengths that make no
+        triangle or contradict each other.
+    CorrectionFailed
+        If links cannot be joined; it says which loop stays open, and by how much.
+
+    References
+    ----------
+    Jansen's leg, below: T. Jansen, *The Great Pretender*, 010 Publishers, 2007.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> leg = zd.linkage(
+    ...     {"Z": (0, 0), "Y": (-38, -7.8), "X": (15, 0), "V": (-19, 33), "U": (-15, -40), "W": (-72, 10), "T": (-60, -30),
+    ...      "F": (-20, -85)},
+    ...     {"ground": "ZY", "crank": "ZX", "j": "XV", "k": "XU", "bed": "YVW", "c": "YU", "f": "WT", "foot": "UTF"},
+    ...     lengths={"ZX": 15, "XV": 50, "XU": 61.9, "YV": 41.5, "VW": 55.8, "YW": 40.1, "YU": 39.3, "WT": 39.4, "TU": 36.7,
+    ...              "TF": 65.7, "UF": 49},
+    ...     scale=0.01, gravity=(0, -9.81))
+    >>> drive = leg.motor("drive", "Z", speed=-6.0)
+    >>> sol = zd.simulate(leg, 1.0, step=0.002)
+    >>> sol["F.position"].shape, bool(abs(sol.position_violation).max() < 1e-12)
+    ((501, 2), True)
+    """
+    scale = _check.number("scale", scale, above=0)
+    drawn = _read_points(points, scale)
+    links = _read_links(links, drawn)
+    lengths = _read_lengths(lengths, links, scale)
+    masses = _read_masses(mass, links)
+    m = Mechanism(name, gravity=gravity)
+    found: dict[str, dict[str, Point]] = {point: {} for point in drawn}
+    for link, names in links.items():
+        made = _make(m, link, Shape(link, names, drawn, lengths), drawn, masses[link])
+        for point in names:
+            found[point][link] = made[point]
+    for point, sides in found.items():
+        _join(m, point, sides)
+    with contextlib.suppress(SingularSystem):       # massless links may get a drive that holds them
+        Starting(m._drawing(), AS_GIVEN).assembled(0.0)
+    return m
+
+
+# ---- making ----
+
+
+def _make(m: Mechanism, link: str, shape: Shape, drawn: Mapping[str, np.ndarray], mass: float) -> dict[str, Point]:
+    """Adds a link to the mechanism; its points by name."""
+    names = list(shape.places)
+    if link == GROUND:
+        is_moved = any(pair <= set(names) for pair in shape.lengths)       # else to the last bit where it is drawn
+        return {name: m.ground.point(at=shape.pose.point(place) if is_moved else drawn[name])
+                for name, place in shape.places.items()}
+    if len(names) == 2:
+        length = shape.places[names[1]][0] if frozenset(names) in shape.lengths else None
+        made = m.link(link, drawn[names[0]], drawn[names[1]], mass, length=length)
+        return dict(zip(names, (made.start, made.end), strict=True))
+    _, inertia, com = on_sides(list(shape.places.values()), mass)
+    body = m.body(link, mass, inertia, at=shape.pose.origin, angle=shape.pose.angle, com=com)
+    return {name: body.point(place) for name, place in shape.places.items()}
+
+
+def _join(m: Mechanism, name: str, sides: Mapping[str, Point]) -> None:
+    """Joins the links that meet at a point to the first of them."""
+    (_, first), *others = sides.items()
+    if len(others) == 1:
+        m.revolute(name, first, others[0][1])
+        return
+    m.point(name, first.body, first.local)
+    for link, second in others:
+        m.revolute(f"{name} {link}", first, second)
+
+
+# ---- reading arguments ----
+
+
+def _read_points(points: Any, scale: float) -> dict[str, np.ndarray]:
+    """Where the sketch has each point, in m."""
+    _check.instance("points", points, Mapping, "a dict of places by name")
+    for name in points:
+        if not isinstance(name, str):
+            raise TypeError(f"points must have strings for names, not {_check.shown(name)}")
+    return {name: scale * _check.vector(f"points[{name!r}]", place, 2) for name, place in points.items()}
+
+
+def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
+    """The points of each link, the ground's first."""
+    _check.instance("links", links, Mapping, "a dict of points by link")
+    if GROUND not in links:
+        raise ValueError(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}")
+    read = {link: _names(f"links[{link!r}]", names, points) for link, names in links.items()}
+    for link, names in read.items():
+        if len(names) < 2 - (link == GROUND):
+            raise ValueError(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}")
+        if len(set(names)) < len(names):
+            raise ValueError(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}")
+        if link in points:
+            raise ValueError(f"{link!r} is a link and a point: each needs a name of its own")
+    used = {name for names in read.values() for name in names}
+    for name in points:
+        if name not in used:
+            raise ValueError(f"point {name!r} belongs to no link: put it on one, or leave it out")
+    return {GROUND: read.pop(GROUND), **read}
+
+
+def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of points: the letters of a string, or a sequence of names."""
+    if not isinstance(given, Sequence) or not all(isinstance(name, str) for name in given):
+        raise TypeError(f"{argument} must be a string of one-letter points or a sequence of names, not {_check.shown(given)}")
+    for name in given:
+        if name not in points:
+            raise ValueError(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}")
+    return tuple(given)
+
+
+def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: float) -> dict[frozenset[str], float]:
+    """Lengths in m by the two points that they are between."""
+    _check.instance("lengths", {} if lengths is None else lengths, Mapping, "a dict of lengths by pairs of points")
+    read: dict[frozenset[str], float] = {}
+    for given, length in (lengths or {}).items():
+        pair = _pair(given, links)
+        if pair in read:
+            raise ValueError(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice")
+        read[pair] = scale * _check.number(f"lengths[{given!r}]", length, above=0)
+    return read
+
+
+def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
+    """The two points of a link that a length is between."""
+    points = dict.fromkeys(name for names in links.values() for name in names)
+    if given in links and not set(given) <= set(points):
+        raise ValueError(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}")
+    pair = frozenset(_names("lengths", given, points))
+    if len(pair) != 2 or len(given) != 2:
+        raise ValueError(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
+    if not any(pair <= set(names) for names in links.values()):
+        raise ValueError(f"lengths[{given!r}] is of a link that nobody drew: no link has both points")
+    return pair
+
+
+def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
+    """The mass of each link; the ground has none."""
+    if not isinstance(mass, Mapping):
+        mass = _check.number("mass", mass, least=0)
+        return {link: 0.0 if link == GROUND else mass for link in links}
+    for link in mass:
+        if link not in links or link == GROUND:
+            raise ValueError(f"mass names {link!r}, which is no link that moves; "
+                             f"{_check.closest(link, [each for each in links if each != GROUND])}")
+    return {link: _check.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}
