@@ -212,7 +212,9 @@ def test_they_are_made_for_runs_that_take_them_and_for_no_others(formulation, in
     options = {"step": 0.001, "formulation": formulation, "integrator": integrator}
     zd.simulate(system, 0.01, direct=False, **options)
     assert not system._direct._libraries
-    zd.simulate(system, 0.01, **options)
+    sol = zd.simulate(system, 0.01, **options)
     made = bool(system._direct._libraries)
+    sol(0.0055)
+    assert bool(system._direct._libraries) == made      # values between rows are made as the run was
     system._direct_core()
     assert (zd.simulate(system, 0.01, **options).stats["direct_steps"] > 0) == made

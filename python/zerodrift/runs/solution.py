@@ -321,9 +321,8 @@ class Solution:
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
             options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
-            vector = self.settings.get("vector", "baseline")
-            core = core_of(self.system) if self.settings.get("direct") is False else direct_core_of(self.system, vector)
-            _gateway.step(core, options, p, v)
+            takes_direct, vector = _gateway.takes_direct(options), self.settings.get("vector", "baseline")
+            _gateway.step(direct_core_of(self.system, vector) if takes_direct else core_of(self.system), options, p, v)
         return p, v
 
     @property
