@@ -24,7 +24,7 @@ typedef struct zd_runge_kutta {
     int size;
     int calls;      /* of the error estimate */
     double *k;      /* (stages, size), and for an error estimate one more, and those for values between */
-    double *stage, *end;    /* (size,): the last stage, the end of the step */
+    double *stage, *end;    /* (size,): the last stage, the end of the step; one, where no error is estimated */
     double *polynomial;     /* (ZD_COEFFICIENTS, size) */
 } zd_runge_kutta;
 
