@@ -12,6 +12,7 @@ import sympy as sp
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from mechanisms.every_element import hinged, machinery, vehicles
+from mechanisms.every_joint_by_row import by_row
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
 from tolerances import EPS
@@ -36,8 +37,8 @@ def swinging():
     return m
 
 
-MADE = {"machinery": machinery, "vehicles": vehicles, "hinged": hinged, "random 3": lambda: drawn(3),
-        "random 7": lambda: drawn(7)}
+MADE = {"machinery": machinery, "vehicles": vehicles, "hinged": hinged, "by row": by_row,
+        "random 3": lambda: drawn(3), "random 7": lambda: drawn(7)}
 
 
 def both(m, layout):
@@ -57,7 +58,7 @@ def differences(interpreted, compiled, states=3):
 
 
 def test_every_joint_and_element_is_among_them():
-    made = [element for m in (machinery(), vehicles()) for element in m._elements.values()]
+    made = [element for m in (machinery(), vehicles(), by_row()) for element in m._elements.values()]
     assert {kind.card.name for kind in joint_kinds().values()} <= {getattr(each, "kind", None) for each in made}
     assert {kind.card.name for kind in element_kinds().values()} <= {getattr(each, "kind", None) for each in made}
 

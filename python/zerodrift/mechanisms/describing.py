@@ -11,7 +11,7 @@ import numpy as np
 from .bodies import Body, Particle, Point, _Center
 from .drawing import Drawing
 from .expressions import to_json
-from .joints import Coupling
+from .joints import JOINTS, Coupling
 from .laws import Law
 from .making_couplings import _Expression, _Follows, _Sum
 from .splines import PeriodicSpline
@@ -102,25 +102,10 @@ def _point(point: Any, drawing: Drawing) -> dict[str, Any]:
 # ---- joints ----
 
 
-def _tree_joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
-    axis = {} if joint.axis is None else {"axis": _pair(joint.axis)}
-    return {**_sides(joint, drawing), **axis, "damping": joint.damping, "cut": joint.cut}
-
-
-def _weld(joint: Any, drawing: Drawing) -> dict[str, Any]:
-    return _sides(joint, drawing)
-
-
-def _rod(rod: Any, drawing: Drawing) -> dict[str, Any]:
-    return {**_sides(rod, drawing), **({} if rod.length is None else {"length": rod.length})}
-
-
-def _along(joint: Any, drawing: Drawing) -> dict[str, Any]:
-    return {**_sides(joint, drawing), "axis": _pair(joint.axis)}
-
-
-def _rolling(joint: Any, drawing: Drawing) -> dict[str, Any]:
-    return {**_sides(joint, drawing), "radius": joint.radius, "normal": _pair(joint.normal)}
+def _joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {word: getattr(joint, word) for word in joint.takes}
+    return {**_sides(joint, drawing), **{word: _pair(value) if isinstance(value, np.ndarray) else value
+                                         for word, value in given.items() if value is not None}}
 
 
 # ---- couplings, drives and forces ----
@@ -197,8 +182,7 @@ def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _tree_joint, "prismatic": _tree_joint,
-    "weld": _weld, "rod": _rod, "slot": _along, "rolling": _rolling, "knife_edge": _along, "gear": _linear,
+    **dict.fromkeys(JOINTS, _joint), "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
     "force": _force, "torque": _torque}

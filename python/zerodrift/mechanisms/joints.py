@@ -1,15 +1,22 @@
-"""Joints, as they were given: which points of which bodies they join, and along which axis of the first."""
+"""Joints, as they were given: which points of which bodies they join, and along which axis of the first.
+
+What a kind of joint is stands in the core's table: its coordinate, what it takes, what can be measured of it. A kind that has no
+class here gets one from its row.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from .._gateway.mechanisms import JointKind, joint_kinds
 from .bodies import Point
 from .laws import Law
 from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
+
+JOINTS = joint_kinds()
 
 
 class Joint:
@@ -26,14 +33,30 @@ class Joint:
         Whether it shall close a loop, and own no coordinate.
     """
 
-    kind = ""           # as the core's table calls it
-    own = 0             # coordinates that it may own where bodies hang on it
-    coordinate = None   # what motors and dampers act along: "angle" or "displacement"
+    kind = ""                           # as the core's table calls it
+    row: ClassVar[JointKind]            # its row there
+    coordinate: str | None = None       # what motors and dampers act along: "angle" or "displacement"
+    is_of_one_body = False              # whether all of its rows are about the second body, whose axis it has
+    takes: tuple[str, ...] = ()         # what its verb takes besides the sides
 
-    def __init__(self, name: str, first: Point, second: Point, *, axis: np.ndarray | None = None, damping: float = 0.0,
-                 cut: bool = False) -> None:
+    def __init_subclass__(cls) -> None:
+        """What the row says; what a class says itself stays."""
+        cls.row = JOINTS[cls.kind]
+        cls.coordinate = cls.row.coordinate
+        cls.is_of_one_body = all(each.gauge in ("glide", "skid") for each in cls.row.rows)
+        said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
+                **({name: vector(name, doc) for name, doc in PLACE.items()} if is_hinge(cls.row) else {})}
+        for name, value in said.items():
+            if name not in vars(cls):
+                setattr(cls, name, value)
+
+    def __init__(self, name: str, first: Point, second: Point, *, axis: np.ndarray | None = None, length: float | None = None,
+                 damping: float = 0.0, cut: bool = False) -> None:
         self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
-        self.damping, self.cut = damping, cut
+        self.length, self.damping, self.cut = length, damping, cut
+
+    if TYPE_CHECKING:       # the measures that the row has
+        def __getattr__(self, name: str) -> Any: ...
 
     force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds "
                    "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what "
@@ -49,9 +72,17 @@ class Joint:
         """The two bodies."""
         return self.first.body, self.second.body
 
+    def length_with(self, numbers: Numbers) -> float:
+        """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
+        if not self.row.takes_length:
+            return 0.0
+        drawn = float(np.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))))
+        return numbers(self, "length", drawn if self.length is None else self.length)
+
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path."""
-        return {} if self.coordinate is None else {"damping": self.damping}
+        length = {"length": self.length_with(now)} if self.row.takes_length else {}
+        return length if self.coordinate is None else {**length, "damping": self.damping}
 
     def angle_as_drawn(self) -> float:
         """The second body's angle less the first's in the drawing, where the joint's angle is zero."""
@@ -64,69 +95,79 @@ class Joint:
 
     def axis_as_drawn(self) -> np.ndarray:
         """The axis (2,) in the drawing, of length one."""
-        return self.first.body.pose.direction(self.axis)
+        return self.bodies[1 if self.is_of_one_body else 0].pose.direction(self.axis)
 
     def __repr__(self) -> str:
         return f"<{self.kind} {self.name}: {self.first.body.name} - {self.second.body.name}>"
 
 
+def _taken(row: JointKind) -> tuple[str, ...]:
+    """What a verb takes for a joint besides its sides."""
+    words = {"axis": row.takes_axis, "length": row.takes_length, "damping": row.coordinate,
+             "cut": row.carrier in ("turns", "slides")}
+    return tuple(word for word, is_taken in words.items() if is_taken)
+
+
+def _measures(row: JointKind) -> dict[str, str]:
+    """The scalars that can be measured of a joint, and what they are."""
+    found, unit = {}, "rad" if row.coordinate == "angle" else "m"
+    if row.coordinate == "angle":
+        found["angle"] = "How far the second body has turned against the first since the drawing, in rad; it counts turns."
+    elif row.coordinate:
+        found["displacement"] = "How far the second's point has moved along the axis since the drawing, in m."
+    if row.coordinate:
+        found["speed"] = f"The rate of `{row.coordinate}`, in {unit}/s."
+        found["acceleration"] = f"The rate of `speed`, in {unit}/s^2."
+    if holds_angle(row) or row.coordinate == "angle":
+        found["torque"] = ("The moment that the first body exerts on the second through the joint, about the second's point, in "
+                           "N m; as with `force`, without springs and couplings.")
+    if row.tension:
+        found[row.tension] = "What pulls the two points together, negative where it pushes, in N."
+    return found
+
+
+PLACE = {"position": "Where the joint is, by the second's point, in the drawing's axes, in m.",
+         "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
+
+
+def is_hinge(row: JointKind) -> bool:
+    """Whether a joint is at one place of both bodies, about which they turn."""
+    return {each.gauge for each in row.rows} == {"x", "y"}
+
+
+def holds_angle(row: JointKind) -> bool:
+    """Whether a row of the joint is an angle."""
+    return any(each.gauge == "angle" for each in row.rows)
+
+
 class Revolute(Joint):
     """A hinge, `Mechanism.revolute`."""
 
-    kind, own, coordinate = "revolute", 1, "angle"
-    position = vector("position", "Where the joint is, by the second's point, in the drawing's axes, in m.")
-    velocity = vector("velocity", "The velocity of that point, in the drawing's axes, in m/s.")
-    angle = scalar("angle", "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
-    speed = scalar("speed", "The rate of `angle`, in rad/s.")
-    acceleration = scalar("acceleration", "The rate of `speed`, in rad/s^2.")
-    torque = scalar("torque", "The moment that the first body exerts on the second through the joint, in N m; as with `force`, "
-                    "without springs and couplings.")
+    kind = "revolute"
 
 
 class Prismatic(Joint):
     """A slider, `Mechanism.prismatic`."""
 
-    kind, own, coordinate = "prismatic", 1, "displacement"
-    displacement = scalar("displacement", "How far the second's point has moved along the axis since the drawing, in m.")
-    speed = scalar("speed", "The rate of `displacement`, in m/s.")
-    acceleration = scalar("acceleration", "The rate of `speed`, in m/s^2.")
-    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
+    kind = "prismatic"
 
 
 class Weld(Joint):
     """Two bodies that are one, `Mechanism.weld`."""
 
     kind = "weld"
-    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
 
 
 class Rod(Joint):
     """A massless rod between two points, `Mechanism.rod`."""
 
     kind = "rod"
-    tension = scalar("tension", "The force in the rod, positive where it pulls, in N.")
-
-    def __init__(self, name: str, first: Point, second: Point, length: float | None) -> None:
-        super().__init__(name, first, second)
-        self.length = length
-
-    def length_with(self, numbers: Numbers) -> float:
-        """Its length; where none was given, the distance in the drawing."""
-        drawn = float(np.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))))
-        return numbers(self, "length", drawn if self.length is None else self.length)
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
-        return {"length": self.length_with(now)}
 
 
 class Slot(Joint):
     """A point on a line of a body, `Mechanism.slot`."""
 
-    kind, coordinate = "slot", "displacement"
-    displacement = scalar("displacement", "How far the point has moved along the line since the drawing, in m.")
-    speed = scalar("speed", "The rate of `displacement`, in m/s.")
-    acceleration = scalar("acceleration", "The rate of `speed`, in m/s^2.")
+    kind, takes = "slot", ("axis",)
 
 
 class KnifeEdge(Joint):
@@ -134,22 +175,40 @@ class KnifeEdge(Joint):
 
     kind = "knife_edge"
 
-    def axis_as_drawn(self) -> np.ndarray:
-        return self.second.body.pose.direction(self.axis)
-
 
 class Rolling(Joint):
     """A wheel on a line, `Mechanism.rolling`."""
 
-    kind = "rolling"
+    kind, takes = "rolling", ("radius", "normal")
 
     def __init__(self, name: str, first: Point, second: Point, radius: float, normal: np.ndarray) -> None:
-        super().__init__(name, first, second)
-        self.radius, self.normal = radius, normal       # the normal (2,) in the first's frame, towards the wheel
+        super().__init__(name, first, second, axis=np.array([normal[1], -normal[0]]))
+        self.radius = radius
+
+    @property
+    def normal(self) -> np.ndarray:
+        """Of the line (2,) in the first's frame, towards the wheel."""
+        return np.array([-self.axis[1], self.axis[0]])
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its radius."""
+        return numbers(self, "radius", self.radius)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path."""
         return {"radius": self.radius}
+
+
+def made(kind: str) -> type[Joint]:
+    """The class of a kind of joint, from its row."""
+    name = "".join(word.capitalize() for word in kind.split("_"))
+    doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
+    return type(name, (Joint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+
+
+# The kinds that have no class above, by name. Each is in this module, where a pickle or a copy looks for it.
+BY_ROW = {kind: made(kind) for kind in sorted(JOINTS.keys() - {written.kind for written in Joint.__subclasses__()})}
+globals().update({joint.__name__: joint for joint in BY_ROW.values()})
 
 
 class Coupling:

@@ -7,7 +7,8 @@ from typing import Any
 from .. import _check
 from .bodies import Body, Particle, Point
 from .elements import Elements
-from .joints import KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
+from .joint_verbs import verb
+from .joints import BY_ROW, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
 
 Side = Body | Point | str
 
@@ -172,7 +173,7 @@ class JointVerbs(Elements):
         sides = self._different(name, self._point("first", first), self._point("second", second))
         if length is not None:
             length = _check.number(f"length of {name!r}", length, above=0)
-        rod = Rod(name, *sides, length)
+        rod = Rod(name, *sides, length=length)
         _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
         return self._add(rod)
 
@@ -295,6 +296,10 @@ class JointVerbs(Elements):
         self._turning(name, "knife edge", point.body)
         first, point = self._different(name, self.ground.point(at=point.drawn), point)
         return self._add(KnifeEdge(name, first, point, axis=point.body.pose.local_direction(along)))
+
+
+for _kind, _joint in BY_ROW.items():
+    setattr(JointVerbs, _kind, verb(_joint))
 
 
 def _flag(name: str, value: Any) -> bool:

@@ -12,9 +12,9 @@ from typing import NamedTuple
 from .._gateway.mechanisms import Gauge, MechanismCore, Observed
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
-from .joints import Revolute
+from .joints import holds_angle, is_hinge
 from .readings import has_coordinate
-from .tables import JOINTS, Tables
+from .tables import Tables
 
 
 class Position(NamedTuple):
@@ -65,7 +65,7 @@ def _positions(tables: Tables) -> Iterator[Position]:
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
-        if isinstance(joint, Revolute):     # without a second rate: that name is the acceleration of its angle
+        if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
@@ -81,9 +81,8 @@ def _place(tables: Tables, name: str, of: Body | Point) -> Position:
 def _of_joints(tables: Tables) -> Iterator[Observed]:
     """The reactions of joints."""
     for i, joint in enumerate(tables.joints):
-        kind = JOINTS[joint.kind]
         yield Observed(f"{joint.name}.force", "N", "joint force", i, 2)
-        if any(each.gauge == "angle" for each in kind.rows) or (has_coordinate(joint) and kind.coordinate == "angle"):
+        if holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
             yield Observed(f"{joint.name}.torque", "N m", "joint torque", i)
-        if kind.tension:
-            yield Observed(f"{joint.name}.{kind.tension}", "N", "joint tension", i)
+        if joint.row.tension:
+            yield Observed(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)

@@ -10,7 +10,7 @@ import numpy as np
 
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
-from .joints import Joint, Revolute
+from .joints import Joint, is_hinge
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
 
@@ -86,7 +86,7 @@ def quantities(element: Any) -> tuple[str, ...]:
     if isinstance(element, Point):
         return ("position",)
     if isinstance(element, Joint):
-        place = ("position",) if isinstance(element, Revolute) else ()
+        place = ("position",) if is_hinge(element.row) else ()
         return (element.coordinate, *place) if has_coordinate(element) else place
     return ("length",) if isinstance(element, Spring | Actuator) else ()
 

@@ -13,6 +13,7 @@ from .. import _check
 from .bodies import Point
 from .describing import VERSION, WHAT
 from .expressions import from_json
+from .joints import BY_ROW, Joint
 from .mechanism import Mechanism
 from .system import LAYOUTS, MechanismSystem
 
@@ -174,13 +175,35 @@ def _slot(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> Non
 def _rolling(m: Mechanism, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
     normal, line = _direction("normal", normal), _line(m, first)
     joint = m.rolling(name, line.body, _place(m, second), radius=radius, at=line.drawn, normal=line.body.pose.direction(normal))
-    joint.first, joint.normal = line, normal
+    joint.first, joint.axis = line, np.array([normal[1], -normal[0]])
 
 
 def _knife_edge(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
     axis, point = _direction("axis", axis), _line(m, second)
     joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
     joint.first, joint.axis = _line(m, first), axis
+
+
+def _by_row(joint: type[Joint]) -> Callable[..., None]:
+    """As those above, for a kind of joint whose verb is made from its row."""
+    verb, sides = getattr(Mechanism, joint.kind), ("second",) if joint.is_of_one_body else ("first", "second")
+
+    def make(m: Mechanism, name: str, **given: Any) -> None:
+        places = {side: given.pop(side) for side in ("first", "second")}
+        if axis := given.get("axis"):
+            axis = _direction("axis", axis)
+            given["axis"] = _line(m, places[sides[0]]).body.pose.direction(axis)
+        made = verb(m, name, *(_place(m, places[side]) for side in sides), **given)
+        made.axis = axis
+        if joint.is_of_one_body:
+            made.first = _line(m, places["first"])
+
+    words, needed = inspect.signature(verb).parameters, inspect.Parameter.empty
+    optional = {word: None for word in joint.takes if words[word].default is None}
+    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
+        for word in ("first", "second", *joint.takes)])
+    return make
 
 
 def _line(m: Mechanism, given: Any) -> Point:
@@ -261,4 +284,4 @@ MADE: dict[str, Callable[..., None]] = {
     "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
     "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque}
+    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in BY_ROW.items()}}

@@ -6,7 +6,7 @@ from ..errors import ZerodriftError
 from .counting import Count, count
 from .drawing import Drawing
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
-from .joints import Joint, KnifeEdge
+from .joints import Joint
 from .numbers import AS_GIVEN
 from .tables import Tables
 
@@ -49,7 +49,7 @@ def _freedom(drawing: Drawing, counted: Count) -> str:
     tables = Tables(drawing, AS_GIVEN, in_tree=True)
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}
-    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not isinstance(joint, KnifeEdge)]
+    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]
     closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {', '.join(cuts)}" if cuts else "")
     return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); joint coordinates {core.nv}{closing}; "
             f"absolute {counted.velocities}, {_several(counted.rows, 'row')}")

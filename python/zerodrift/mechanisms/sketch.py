@@ -10,7 +10,7 @@ from ..systems.shapes import Shape
 from .bodies import Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Spring, TorsionSpring
-from .joints import Coupling, Joint, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot
+from .joints import Coupling, Joint, holds_angle, is_hinge
 from .numbers import Numbers
 from .outline import APART, around
 from .plane import Pose, turned
@@ -26,7 +26,8 @@ class Sketch:
             com = self.inertias.of[body.name][2]
             self.pose[body.name] = Pose(np.array([x, y]) - turned(angle, com), angle)
         self.gears = [coupling for coupling in drawing.of(Coupling) if coupling.kind == "gear"]
-        shown = [*drawing.of((Prismatic, Slot, Rolling)), *(joint for gear in self.gears for joint in self._geared(gear))]
+        sliding = [joint for joint in drawing.of(Joint) if "across" in _gauges(joint)]
+        shown = [*sliding, *(joint for gear in self.gears for joint in self._geared(gear))]
         self.has_shape = {joint.second.body.name for joint in shown}      # by what joins it
 
     def shapes(self) -> list[Shape]:
@@ -62,21 +63,21 @@ class Sketch:
         for joint in self.drawing.of(Joint):
             first, second = self._at(joint.first), self._at(joint.second)
             turned_with = self.pose[joint.bodies[0].name]
-            if isinstance(joint, Rod):
+            if "distance" in _gauges(joint):
                 yield Shape("rod", np.array([first, second]), joint.name)
-            elif isinstance(joint, Prismatic | Slot):
+            elif joint.row.at_contact:
+                normal, spoke = turned_with.direction(np.array([-joint.axis[1], joint.axis[0]])), self._spoke(joint)
+                radius = joint.length_with(self.numbers)
+                yield Shape("rail", np.array([first, second - radius * normal, [normal[1], -normal[0]]]), joint.name)
+                yield Shape("wheel", np.array([second, spoke]), joint.name, radius)
+            elif "across" in _gauges(joint) and joint.axis is not None:
                 axis = turned_with.direction(joint.axis)
                 rail = "rail" if joint.bodies[0] is self.drawing.ground else "groove"
                 yield Shape(rail, np.array([first, first + axis * ((second - first) @ axis), axis]), joint.name)
                 yield Shape("slider", np.array([second, axis]), joint.name)
-            elif isinstance(joint, Rolling):
-                normal, spoke = turned_with.direction(joint.normal), self._spoke(joint)
-                radius = self.numbers(joint, "radius", joint.radius)
-                yield Shape("rail", np.array([first, second - radius * normal, [normal[1], -normal[0]]]), joint.name)
-                yield Shape("wheel", np.array([second, spoke]), joint.name, radius)
-            elif isinstance(joint, KnifeEdge):
+            elif joint.is_of_one_body:
                 yield Shape("blade", np.array([second, self.pose[joint.bodies[1].name].direction(joint.axis)]), joint.name)
-            if isinstance(joint, Revolute | Slot):
+            if _is_pinned(joint):
                 yield Shape("pin", second[None], joint.name)
 
     def _forces(self) -> Iterator[Shape]:
@@ -111,11 +112,23 @@ class Sketch:
     def _held_by_ground(self) -> list[Point]:
         """The points of the ground that a hinge, a rod or a spring holds on to, each place once."""
         ground, places = self.drawing.ground, []
-        for element in self.drawing.of((Revolute, Rod, Spring, Actuator)):
+        for element in self.drawing.of((Joint, Spring, Actuator)):
+            if isinstance(element, Joint) and not ("distance" in _gauges(element) or is_hinge(element.row)):
+                continue
             for side in (element.first, element.second):
                 if side.body is ground and all(np.hypot(*(self._at(side) - self._at(other))) > APART for other in places):
                     places.append(side)
         return places
+
+
+def _gauges(joint: Joint) -> set[str]:
+    """What the rows of a joint hold."""
+    return {row.gauge for row in joint.row.rows}
+
+
+def _is_pinned(joint: Joint) -> bool:
+    """Whether a joint holds a point about which the second body turns."""
+    return bool(_gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
 
 
 def sketch(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> list[Shape]:

@@ -14,12 +14,12 @@ from .assembly import Assembly, Target
 from .bodies import Body, Point
 from .drawing import Drawing
 from .forces import Motor
-from .joints import Joint, KnifeEdge
+from .joints import Joint
 from .measuring import measuring
 from .numbers import Numbers
 from .plane import turned
 from .readings import Reading, checked_reading, reading
-from .tables import JOINTS, Tables
+from .tables import Tables
 from .tree import loop
 
 MASSLESS = 1e-13        # of the largest: how little a motion may weigh
@@ -130,7 +130,7 @@ class Starting:
         Phi = core.evaluate(assembly.t, p, np.zeros(core.nv))["Phi"]
         open_by: dict[int, float] = {}
         for row, value in zip(core.rows, Phi, strict=False):
-            if row.owner == "joint" and JOINTS[tables.joints[row.index].kind].rows[row.component].gauge != "angle":
+            if row.owner == "joint" and tables.joints[row.index].row.rows[row.component].gauge != "angle":
                 open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
         ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
         joint = max(open_by, key=lambda each: open_by[each])
@@ -146,7 +146,7 @@ class Starting:
         meant = {body.name for owner in owners for body in bodies_of(owner)}
         ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
         cuts = set(range(len(ends))) - set(tables.carrier)
-        for joint in sorted(cut for cut in cuts if not isinstance(tables.joints[cut], KnifeEdge)):
+        for joint in sorted(cut for cut in cuts if not tables.joints[cut].is_of_one_body):
             told, bodies = _around(tables, *loop(tables.carrier, ends, joint))
             if meant & bodies - {"ground"}:
                 return f"; in {told}"

@@ -25,7 +25,7 @@ from .outline import outline
 from .sketch import sketch
 from .start import targets
 from .starting import Starting
-from .tables import JOINTS, Tables
+from .tables import Tables
 
 LAYOUTS = ("joint", "absolute")
 
@@ -233,7 +233,7 @@ def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
             named.append(Variable(tables.relation_names[row.index], ""))
             continue
         joint = tables.joints[row.index]
-        rows = JOINTS[joint.kind].rows
+        rows = joint.row.rows
         gauge = rows[row.component].gauge
         unit = "rad" if gauge == "angle" else "m"
         named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{gauge}", unit))

@@ -14,12 +14,12 @@ from . import law_rows
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
-from .joints import Coupling, Joint, KnifeEdge, Rod, Rolling
+from .joints import Coupling, Joint
 from .numbers import Numbers
 from .readings import has_coordinate, reading
 from .tree import Edge, carriers
 
-JOINTS, ELEMENTS = rows.joint_kinds(), rows.element_kinds()
+ELEMENTS = rows.element_kinds()
 ORIGIN = np.zeros(2)
 
 
@@ -82,7 +82,7 @@ class Tables:
     def _tree(self) -> list[int]:
         """The joint that carries each part."""
         edges = [Edge(i, *(self.number[body.name] for body in joint.bodies), _freedoms(joint))
-                 for i, joint in enumerate(self.joints) if JOINTS[joint.kind].carrier and not joint.cut]
+                 for i, joint in enumerate(self.joints) if joint.row.carrier and not joint.cut]
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
         return carriers(len(self.parts), edges, weights)
 
@@ -91,20 +91,13 @@ class Tables:
 
     def _joint(self, joint: Joint) -> rows.Joint:
         """A row of the table of joints."""
-        kind = JOINTS[joint.kind]
         (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
-        if isinstance(joint, KnifeEdge):
-            return rows.Joint(kind.number, second, second, point2, point2, _pair(joint.axis))
-        if isinstance(joint, Rolling):
-            line = np.array([joint.normal[1], -joint.normal[0]])
-            apart = joint.second.drawn_with(self.numbers) - joint.first.drawn_with(self.numbers)
-            along = float(apart @ joint.first.body.pose.direction(line))
-            return rows.Joint(kind.number, first, second, point1, point2, _pair(line), along, 0.0, joint.angle_as_drawn(),
-                                  self.numbers(joint, "radius", joint.radius))
         axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
+        if joint.is_of_one_body:
+            return rows.Joint(joint.row.number, second, second, point2, point2, axis)
         along = joint.offset_as_drawn(self.numbers) if joint.axis is not None else 0.0
-        length = joint.length_with(self.numbers) if isinstance(joint, Rod) else 0.0
-        return rows.Joint(kind.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(), length)
+        return rows.Joint(joint.row.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(),
+                          joint.length_with(self.numbers))
 
     # ---- gauges ----
 
@@ -146,7 +139,7 @@ class Tables:
 
     def coordinate_gauge(self, joint: int) -> Gauge:
         """What reads the coordinate of a joint."""
-        kind, row = JOINTS[self.joints[joint].kind], self.joint_rows[joint]
+        kind, row = self.joints[joint].row, self.joint_rows[joint]
         zero = getattr(row, kind.zero) if kind.zero else 0.0
         return Gauge(kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero)
 
@@ -305,10 +298,9 @@ class Tables:
 
 def _freedoms(joint: Joint) -> tuple[int, int]:
     """How many coordinates a joint needs to carry its first body, and to carry its second."""
-    kind = JOINTS[joint.kind]
-    if kind.carrier == "turns":
+    if joint.row.carrier == "turns":
         return tuple(int(body.turns) for body in joint.bodies)
-    return (0, 0) if kind.carrier == "fixed" else (1, 1)
+    return (0, 0) if joint.row.carrier == "fixed" else (1, 1)
 
 
 def _pair(vector: np.ndarray) -> tuple[float, float]:
