@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from circles import complex_of, crossing, jansen_by_circles
 
 CLOSED = 1e-13          # in m, of mechanisms of about one: some hundred units of rounding
 
@@ -16,27 +17,6 @@ LINKS = {"ground": "ZY", "crank": "ZX", "j": "XV", "k": "XU", "bed": "YVW", "c":
 
 def jansen(**options):
     return zd.linkage(SKETCH, LINKS, lengths=LENGTHS, scale=0.01, **options)
-
-
-def crossing(a, b, from_a, from_b, side):
-    """Where circles about a and b meet; side 1 is left of the way from a to b. In complex numbers, as the package has none."""
-    apart = abs(b - a)
-    x = (apart**2 + from_a**2 - from_b**2) / (2 * apart)
-    return a + (x + side * 1j * np.sqrt(from_a**2 - x**2)) * (b - a) / apart
-
-
-def jansen_by_circles(crank):
-    """All points of the leg in m at crank angles (k,)."""
-    Y, X = -0.38 - 0.078j, 0.15 * np.exp(1j * crank)
-    V, U = crossing(Y, X, 0.415, 0.5, 1), crossing(Y, X, 0.393, 0.619, -1)
-    W = crossing(Y, V, 0.401, 0.558, 1)
-    T = crossing(W, U, 0.394, 0.367, -1)
-    return {"X": X, "V": V, "U": U, "W": W, "T": T, "F": crossing(U, T, 0.49, 0.657, 1)}
-
-
-def complex_of(sol, name):
-    x, y = sol[f"{name}.position"].T
-    return x + 1j * y
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])

@@ -1,6 +1,7 @@
-"""Worked models, from their energies: examples of `zerodrift.symbolic` that are systems like any other.
+"""Worked models, each one short file whose function takes the parameters as keywords.
 
-Each is one short file whose function takes the parameters as keywords. They need SymPy, the extra `symbolic`.
+From their energies, as examples of `zerodrift.symbolic`: `andrews`, `bicycle`, `closed_pendulum`, `slider_crank`. Linkages, as
+examples of `zerodrift.linkage`, with a motor: `chebyshev_lambda`, `jansen`, `peaucellier`. They need SymPy, the extra `symbolic`.
 
 >>> import zerodrift as zd
 >>> chain = zd.models.closed_pendulum(links=5)
@@ -12,10 +13,13 @@ True
 from ..symbolics import define  # noqa: F401  (where SymPy is missing, it says what to install)
 from .andrews import andrews
 from .bicycle import bicycle
+from .chebyshev_lambda import chebyshev_lambda
 from .closed_pendulum import closed_pendulum
+from .jansen import jansen
+from .peaucellier import peaucellier
 from .slider_crank import slider_crank
 
-__all__ = ["andrews", "bicycle", "closed_pendulum", "slider_crank"]
+__all__ = ["andrews", "bicycle", "chebyshev_lambda", "closed_pendulum", "jansen", "peaucellier", "slider_crank"]
 
 
 def __dir__() -> list[str]:

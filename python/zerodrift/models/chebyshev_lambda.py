@@ -1,0 +1,53 @@
+"""Chebyshev's lambda mechanism, which draws half of its path nearly straight."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..mechanisms.linkage import linkage
+from ..mechanisms.mechanism import Mechanism
+
+
+def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Any = 0.2, gravity: Any = None) -> Mechanism:
+    """The four-bar of Chebyshev's plantigrade machine: its ground is 2, coupler and rocker are 2.5 cranks long.
+
+    The coupler goes on beyond its hinge with the rocker by 2.5 cranks more, to ``P``. In the first half of a turn P goes along a
+    line that is 4 cranks above the ground, nearly straight; then it comes back in an arc. Hoecken's linkage has the same
+    proportions. The links are ``crank``, ``coupler`` and ``rocker``, and the motor is ``drive``.
+
+    Parameters
+    ----------
+    crank : float
+        Its length in m.
+    speed : float
+        Of the crank, in rad/s.
+    mass : float or dict of str to float
+        In kg, of each link, or by link.
+    gravity : array_like (2,), optional
+        In m/s^2; left out: none.
+
+    Returns
+    -------
+    Mechanism
+
+    References
+    ----------
+    P. L. Chebyshev's plantigrade machine, shown at the Exposition Universelle, Paris, 1878.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.chebyshev_lambda(), 1.0, step=0.005)
+    >>> x, y = sol["P.position"][:101].T        # the straight half
+    >>> bool(abs(np.ptp(x) - 0.4) < 0.1), bool(np.ptp(y) < 0.01 * np.ptp(x))
+    (True, True)
+    """
+    m = linkage({"A": (0, 0), "B": (0, 1), "C": (2, 2.5), "D": (2, 0), "P": (4, 4)},
+                {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
+                lengths={"AB": 1, "AD": 2, "BC": 2.5, "CP": 2.5, "BP": 5, "DC": 2.5}, scale=crank, mass=mass, gravity=gravity,
+                name="chebyshev_lambda")
+    m.motor("drive", "A", speed=speed)
+    return m

@@ -1,0 +1,25 @@
+"""Peaucellier's cell against inversion in a circle."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+
+@pytest.mark.parametrize("sizes", [{}, {"arm": 0.3, "side": 0.5, "crank": 0.2, "amplitude": 1.5, "rate": 4.0}])
+def test_the_far_corner_is_the_inverse_of_the_near_one(sizes):
+    """In the second the arms are shorter than the sides: inversion is negative, and the line is on the other side."""
+    sol = zd.simulate(zd.models.peaucellier(**sizes), 1.0, step=0.002)
+    arm, side, crank = (sizes.get(name, value) for name, value in (("arm", 0.25), ("side", 0.12), ("crank", 0.1)))
+    angle = sizes.get("amplitude", 1.2) * np.sin(sizes.get("rate", 2 * np.pi) * sol.t)
+    x = (arm**2 - side**2) / (2 * crank)
+    expected = x * np.stack([np.ones_like(angle), np.tan(angle / 2)], axis=1)
+    np.testing.assert_allclose(sol["P.position"], expected, atol=1e-11)
+
+
+def test_a_cell_whose_arms_cannot_follow():
+    with pytest.raises(ValueError, match=r"amplitude 2 leads Q from 0\.2 to 0\.10\d+ m from O, and arms of 0\.25 m with sides "
+                                         r"of 0\.12 m reach from 0\.13 to 0\.37 m"):
+        zd.models.peaucellier(amplitude=2.0)
+    with pytest.raises(ValueError, match="amplitude 1 leads Q"):
+        zd.models.peaucellier(crank=0.2, amplitude=1.0)
