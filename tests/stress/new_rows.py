@@ -2,9 +2,10 @@
 
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
-A new row is a new file and one word in `registry.c`, a new term one line in `system.h`. The tests that run are those that nobody
-wrote for it: whatever is parametrized over the core's tables, picked by the new names. The rows are small, but each one that can
-have parameters has one.
+A new row is a new file and one word in `registry.c`, a new kind of joint a file and one word in `joints/table.c`, and a new term
+one line in `system.h`. The tests that run are those that nobody wrote for it: whatever is parametrized over the core's tables,
+picked by the new names. The rows are small, but each one that can have parameters has one. The joints are then used from Python,
+beside the same mechanism of joints and couplings that are there.
 """
 
 import difflib
@@ -18,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
-REGISTRY, INTERFACE = "csrc/registry.c", "csrc/include/zerodrift/system.h"
+REGISTRY, INTERFACE, JOINTS = "csrc/registry.c", "csrc/include/zerodrift/system.h", "csrc/joints/table.c"
 
 INTEGRATOR = r"""
 /* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */
@@ -287,6 +288,92 @@ const zd_kind zd_spherical_pendulum = {
 };
 """
 
+PARALLEL = r"""
+/* The second body keeps its angle from the first, and its point moves freely: one row. */
+#include "joint.h"
+
+const zd_joint_kind zd_parallel = {
+    .card = {"parallel", "Keeps the angle between two bodies, and lets them move apart.", "(3), (5)", 0, 0, 0},
+    .rows = 1,
+    .row = {{.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+};
+"""
+
+OFFSET_SLIDER = r"""
+/* A slider whose axis runs beside the first body's point, at a distance that is given. */
+#include "joint.h"
+
+const zd_joint_kind zd_offset_slider = {
+    .card = {"offset_slider", "Slides a body along an axis that runs beside a point of the other.", "(3), (5)", 0, 0, 0},
+    .rows = 2,
+    .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+    .coordinate = "displacement", .gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG,
+    .takes_axis = 1, .takes_length = 1,
+};
+"""
+
+# A plate on a swinging arm, by a new kind of joint and by what there was; it prints how far motions and reactions are apart.
+JOINTS_USED = r"""
+import tempfile
+import numpy as np
+import sympy as sp
+import zerodrift as zd
+
+PLATE = "plate.position", "plate.angle", "arm.angle", "J.torque"
+SLIDER = *PLATE, "J.displacement", "J.speed", "J.acceleration", "J.force", "push.power"
+AXIS, PUSH = (0.6, 0.8), sp.sin(5 * sp.Symbol("t"))
+
+
+def swing(join, *more):
+    m = zd.Mechanism("swing", gravity=(0.2, -9.81))
+    arm = m.link("arm", (0, 0), (0.6, -0.5), mass=1.5)
+    m.revolute("pin", m.ground, arm.start)
+    plate = m.body("plate", 0.8, 0.03, at=(0.5, 0.9), angle=0.4, com=(0.05, 0.02))
+    m.spring("spring", arm.end, plate.center, stiffness=60.0, damping=0.5)
+    joint = join(m, arm, plate)
+    if more:
+        m.motor("push", joint, force=PUSH)
+    m.start({"arm.angular_velocity": 1.5})
+    return m
+
+
+def parallel(m, arm, plate):
+    return m.parallel("J", arm, plate.point((0, 0)))
+
+
+def coupler(m, arm, plate):
+    apart = 0.4 - np.arctan2(-0.5, 0.6)     # as drawn
+    return m.coupler("J", sp.Symbol("b") - sp.Symbol("a") - apart, of={"a": arm.angle, "b": plate.angle})
+
+
+def offset_slider(m, arm, plate):
+    return m.offset_slider("J", arm.start, plate.point((0, 0)), axis=AXIS, length=0.2, damping=0.7)
+
+
+def prismatic(m, arm, plate):
+    return m.prismatic("J", arm.point(at=0.2 * np.array([-0.8, 0.6])), plate.point((0, 0)), axis=AXIS, damping=0.7)
+
+
+def motion(m, layout, names, compiled=False):
+    sol = zd.simulate(m.system(layout, compiled=compiled), 1.0, step=0.002)
+    return np.hstack([np.asarray(sol[name]).reshape(len(sol.t), -1) for name in names])
+
+
+for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, prismatic, SLIDER, ("push",))):
+    m, other = swing(new, *more), swing(old, *more)
+    with tempfile.TemporaryDirectory() as folder:
+        again = zd.load(m.save(folder + "/m"))
+    assert len(m.system()._shapes(m.system().p0)) > 3
+    for layout in ("joint", "absolute"):
+        moved, expected = motion(m, layout, names), motion(other, layout, names)
+        assert np.array_equal(moved, motion(again, layout, names))
+        size = np.abs(expected).max(axis=0)
+        errors = [np.max(np.abs(each - expected) / np.maximum(size, 1)) for each in (moved, motion(m, layout, names, True))]
+        greatest = np.abs(moved[:, 4]).max()
+        print(f"{new.__name__:15}{layout:10}{errors[0]:9.1e} compiled {errors[1]:9.1e}   greatest torque {greatest:.3g}")
+        assert max(errors) < 1e-8       # of the steps: coordinates of joints and of bodies are integrated differently
+"""
+
 LINE_OF_TERM = '    TERM(ZD_HEAT, 0x1000, heat, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what friction turns into heat, in W") \\\n'
 
 # What is added: the file that it is in, its text, the file that is changed, where, and by what.
@@ -297,11 +384,15 @@ ADDED = {
                                     r"\1 X(zd_relaxation)"),
     "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
                  r"\1 X(zd_spherical_pendulum)"),
+    "a joint": ("csrc/joints/parallel.c", PARALLEL, JOINTS, r"(X\(zd_knife_edge_joint\))", r"\1 X(zd_parallel)"),
+    "a joint that takes something": ("csrc/joints/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
+                                     r"\1 X(zd_offset_slider)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
-NAMES = "ralston or refined or relaxation or spherical_pendulum or heat"      # by which tests are picked
+NAMES = "ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider"      # picks tests
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.py", "tests/point/test_terms.py",
-         "tests/test_structure_of_core.py"]
+         "tests/test_structure_of_core.py", "tests/joints", "tests/mechanisms/test_joint_verbs.py",
+         "tests/mechanisms/test_files.py", "tests/mechanisms/test_compiled.py"]
 
 
 def words(before, after):
@@ -339,6 +430,7 @@ def main(folder):
         new, changed, count, lines = add(folder, *how)
         print(f"{what:30}{new:12}{changed:16}{count:8}{lines:8}")
     run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
+    print(run(folder, sys.executable, "-c", JOINTS_USED))
     for picked in ([*WHOLE], ["tests", "-k", NAMES]):
         print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])
 

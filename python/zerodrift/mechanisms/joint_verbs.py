@@ -49,7 +49,7 @@ def _draws_length(joint: type[Joint]) -> bool:
 def _signature(joint: type[Joint]) -> inspect.Signature:
     initial = {"at": None, "damping": 0.0, "cut": False, **({"length": None} if _draws_length(joint) else {})}
     sides = ["point"] if joint.is_of_one_body else ["first", "second"]
-    named = [*joint.takes, *([] if joint.is_of_one_body else ["at"])]
+    named = [*([] if joint.is_of_one_body else ["at"]), *joint.takes]
     given = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in ["self", "name", *sides]]
     given += [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial.get(name, inspect.Parameter.empty))
               for name in named]
