@@ -3,8 +3,10 @@
 import numpy as np
 
 import zerodrift as zd
+from zerodrift.mechanisms.force_verbs import force_verb, taken
 from zerodrift.mechanisms.joint_verbs import verb
 from zerodrift.mechanisms.joints import JOINTS, made
+from zerodrift.mechanisms.made_forces import ELEMENTS, made_force
 
 AXIS, NORMAL, LENGTH = (0.8, 0.6), (-0.6, 0.8), 0.4
 
@@ -27,9 +29,14 @@ def added(m, first, second, joint, name="J", damping=0.0):
 
 
 def by_row():
-    """Each kind once, with damping where it has a coordinate."""
+    """Each kind once, with damping where it has a coordinate; and each kind of element."""
     m = zd.Mechanism("by row", gravity=(0.1, -9.81))
     for i, kind in enumerate(JOINTS):
         _, first, second = two_bodies(kind, m, at=(3.0 * i, 0.1 * i))
         added(m, first, second, made(kind), name=f"J {kind}", damping=0.2)
+    for i, kind in enumerate(ELEMENTS):
+        _, first, second = two_bodies("rod", m, at=(3.0 * i, 5.0))
+        force = made_force(kind)
+        given = {"axis": AXIS, "stiffness": 20.0 + i, "damping": 0.3, "value": 1.7}
+        force_verb(force)(m, f"F {kind}", first, second, **{word: given[word] for word in taken(force) if word in given})
     return m

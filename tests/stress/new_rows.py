@@ -312,6 +312,19 @@ const zd_joint_kind zd_offset_slider = {
 };
 """
 
+SOFT_GUIDE = r"""
+/* A point is pulled back to a line of the first body, and moves along it freely. */
+#include "joint.h"
+
+const zd_element_kind zd_soft_guide = {
+    .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
+    .gauges = 1,
+    .gauge = {ZD_GAUGE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
+    .is_spring = 1,
+    .effort = "force", .sign = 1,
+};
+"""
+
 # A plate on a swinging arm, by a new kind of joint and by what there was; it prints how far motions and reactions are apart.
 JOINTS_USED = r"""
 import tempfile
@@ -319,6 +332,7 @@ import numpy as np
 import sympy as sp
 import zerodrift as zd
 
+MOVED = "plate.position", "plate.angle", "arm.angle", "pin.force"
 PLATE = "plate.position", "plate.angle", "arm.angle", "J.torque"
 SLIDER = *PLATE, "J.displacement", "J.speed", "J.acceleration", "J.force", "push.power"
 AXIS, PUSH = (0.6, 0.8), sp.sin(5 * sp.Symbol("t"))
@@ -354,12 +368,21 @@ def prismatic(m, arm, plate):
     return m.prismatic("J", arm.point(at=0.2 * np.array([-0.8, 0.6])), plate.point((0, 0)), axis=AXIS, damping=0.7)
 
 
+def soft_guide(m, arm, plate):
+    return m.soft_guide("J", arm, plate.point((0, 0)), axis=arm.pose.direction(np.array([1.0, 0.0])), stiffness=60.0, damping=0.5)
+
+
+def bushing(m, arm, plate):
+    return m.bushing("J", arm, plate.point((0, 0)), stiffness=(0.0, 60.0), damping=(0.0, 0.5))
+
+
 def motion(m, layout, names, compiled=False):
     sol = zd.simulate(m.system(layout, compiled=compiled), 1.0, step=0.002)
     return np.hstack([np.asarray(sol[name]).reshape(len(sol.t), -1) for name in names])
 
 
-for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, prismatic, SLIDER, ("push",))):
+for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, prismatic, SLIDER, ("push",)),
+                              (soft_guide, bushing, MOVED, ())):
     m, other = swing(new, *more), swing(old, *more)
     with tempfile.TemporaryDirectory() as folder:
         again = zd.load(m.save(folder + "/m"))
@@ -370,7 +393,7 @@ for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, pr
         size = np.abs(expected).max(axis=0)
         errors = [np.max(np.abs(each - expected) / np.maximum(size, 1)) for each in (moved, motion(m, layout, names, True))]
         greatest = np.abs(moved[:, 4]).max()
-        print(f"{new.__name__:15}{layout:10}{errors[0]:9.1e} compiled {errors[1]:9.1e}   greatest torque {greatest:.3g}")
+        print(f"{new.__name__:15}{layout:10}{errors[0]:9.1e} compiled {errors[1]:9.1e}   greatest reaction {greatest:.3g}")
         assert max(errors) < 1e-8       # of the steps: coordinates of joints and of bodies are integrated differently
 """
 
@@ -387,12 +410,13 @@ ADDED = {
     "a joint": ("csrc/joints/parallel.c", PARALLEL, JOINTS, r"(X\(zd_knife_edge_joint\))", r"\1 X(zd_parallel)"),
     "a joint that takes something": ("csrc/joints/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
                                      r"\1 X(zd_offset_slider)"),
+    "an element": ("csrc/joints/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_torque\))", r"\1 X(zd_soft_guide)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
-NAMES = "ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider"      # picks tests
+NAMES = "ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide"
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.py", "tests/point/test_terms.py",
          "tests/test_structure_of_core.py", "tests/joints", "tests/mechanisms/test_joint_verbs.py",
-         "tests/mechanisms/test_files.py", "tests/mechanisms/test_compiled.py"]
+         "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_files.py", "tests/mechanisms/test_compiled.py"]
 
 
 def words(before, after):

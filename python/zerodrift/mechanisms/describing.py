@@ -13,6 +13,7 @@ from .drawing import Drawing
 from .expressions import to_json
 from .joints import JOINTS, Coupling
 from .laws import Law
+from .made_forces import FORCES_BY_ROW, MadeForce
 from .making_couplings import _Expression, _Follows, _Sum
 from .splines import PeriodicSpline
 
@@ -181,8 +182,18 @@ def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
     return {"body": torque.body.name, "against": torque.against.name, "value": _law(torque.law)}
 
 
+def _made_force(made: MadeForce, drawing: Drawing) -> dict[str, Any]:
+    axis = {} if made.axis is None else {"axis": _pair(made.axis)}
+    if made.law is not None:
+        return {**_sides(made, drawing), **axis, "value": _law(made.law)}
+    each = {quantity: [made.values[path] for path in made.paths(quantity)] for quantity in ("stiffness", "damping")}
+    length = {"length": made.values["length"]} if "length" in made.values else {}
+    return {**_sides(made, drawing), **axis, **each, **length}
+
+
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(JOINTS, _joint), "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
+    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys(FORCES_BY_ROW, _made_force),
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
     "force": _force, "torque": _torque}

@@ -92,17 +92,18 @@ def _documentation(joint: type[Joint]) -> str:
              "left_out": "; left out: as drawn" if _draws_length(joint) else ""}
     sides = POINT if joint.is_of_one_body else SIDES
     parameters = {"name": ("str", ""), **sides, **{word: TAKEN[word] for word in joint.takes}}
-    lines = [joint.row.card.summary, "", *_wrapped(joint.row.card.description), "Parameters", "----------"]
+    lines = [joint.row.card.summary, "", *wrapped(joint.row.card.description), "Parameters", "----------"]
     for name, (kind, text) in parameters.items():
-        lines += [f"{name} : {kind}", *_wrapped(text.format(**words), "    ")[:-1]]
+        lines += [f"{name} : {kind}", *wrapped(text.format(**words), "    ")[:-1]]
     lines += ["", "Returns", "-------", joint.__name__, "", "Raises", "------", "ValueError, TypeError"]
-    lines += _wrapped("If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not "
+    lines += wrapped("If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not "
                       "what it may be, or a particle would need an orientation.", "    ")
-    lines += ["Notes", "-----", *_wrapped(f"Source: {joint.row.card.equations}" + _reference(joint))]
+    lines += ["Notes", "-----", *wrapped(f"Source: {joint.row.card.equations}" + _reference(joint))]
     return "\n".join([*lines, "Examples", "--------", *_example(joint)])
 
 
-def _wrapped(text: str, indent: str = "") -> list[str]:
+def wrapped(text: str, indent: str = "") -> list[str]:
+    """A paragraph as lines, with an empty one after it; none of an empty text."""
     return [*textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent), ""] if text else []
 
 

@@ -10,8 +10,10 @@ import numpy as np
 from .. import _check
 from .bodies import Body, Particle, Point
 from .elements import Elements
+from .force_verbs import force_verb
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Joint
+from .made_forces import FORCES_BY_ROW
 
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
           "force": ("displacement",)}
@@ -306,6 +308,10 @@ class ForceVerbs(Elements):
         if body is against:
             raise ValueError(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
         return self._add(Torque(name, body, against, self._law(f"value of torque {name!r}", value, of)))
+
+
+for _kind, _force in FORCES_BY_ROW.items():
+    setattr(ForceVerbs, _kind, force_verb(_force))
 
 
 def _least(quantity: str, name: str, value: Any) -> float:

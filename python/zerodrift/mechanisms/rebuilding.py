@@ -13,7 +13,9 @@ from .. import _check
 from .bodies import Point
 from .describing import VERSION, WHAT
 from .expressions import from_json
+from .force_verbs import NEEDED, taken
 from .joints import BY_ROW, Joint
+from .made_forces import FORCES_BY_ROW, MadeForce
 from .mechanism import Mechanism
 from .system import LAYOUTS, MechanismSystem
 
@@ -279,9 +281,29 @@ def _torque(m: Mechanism, name: str, *, body: Any, against: Any, value: Any) -> 
     m.torque(name, body, value=value, of=of, against=against)
 
 
+def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
+    """As those above, for a kind of element whose verb is made from its row."""
+    verb = getattr(Mechanism, force.kind)
+
+    def make(m: Mechanism, name: str, **given: Any) -> None:
+        sides = given.pop("first"), given.pop("second")
+        if axis := given.get("axis"):
+            axis = _direction("axis", axis)
+            given["axis"] = _line(m, sides[0]).body.pose.direction(axis)
+        if "value" in given:
+            given["value"], given["of"] = _law(given["value"], "value")
+        verb(m, name, *(_place(m, side) for side in sides), **given).axis = axis
+
+    initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
+    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=value) for word, value in initial.items()])
+    return make
+
+
 MADE: dict[str, Callable[..., None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _revolute, "prismatic": _prismatic,
     "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
     "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in BY_ROW.items()}}
+    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in BY_ROW.items()},
+    **{kind: _force_by_row(force) for kind, force in FORCES_BY_ROW.items()}}

@@ -7,6 +7,7 @@ from .counting import Count, count
 from .drawing import Drawing
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Joint
+from .made_forces import MadeForce
 from .numbers import AS_GIVEN
 from .tables import Tables
 
@@ -16,7 +17,7 @@ def headline(drawing: Drawing) -> str:
     bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
     forces = [_several(len(drawing.of(kind)), word) for kind, word in (
         (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
-        (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
+        (MadeForce, "other force"), (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
     gravity = f"gravity ({drawing.gravity[0]:g}, {drawing.gravity[1]:g})" if drawing.gravity.any() else "no gravity"
     said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
     return f"<Mechanism {drawing.name}: plane, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"

@@ -11,6 +11,7 @@ from .bodies import Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Spring, TorsionSpring
 from .joints import Coupling, Joint, holds_angle, is_hinge
+from .made_forces import MadeForce
 from .numbers import Numbers
 from .outline import APART, around
 from .plane import Pose, turned
@@ -83,6 +84,11 @@ class Sketch:
     def _forces(self) -> Iterator[Shape]:
         for spring in self.drawing.of(Spring):
             yield Shape("spring", np.array([self._at(spring.first), self._at(spring.second)]), spring.name)
+        for made in self.drawing.of(MadeForce):
+            if made.row.is_spring and made.has("distance"):
+                yield Shape("spring", np.array([self._at(made.first), self._at(made.second)]), made.name)
+            elif made.row.is_spring:
+                yield Shape("bushing", self._at(made.second)[None], made.name)
         for actuator in self.drawing.of(Actuator):
             yield Shape("cylinder", np.array([self._at(actuator.first), self._at(actuator.second)]), actuator.name)
         for spring in self.drawing.of(TorsionSpring):

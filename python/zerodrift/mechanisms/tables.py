@@ -15,11 +15,11 @@ from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from .joints import Coupling, Joint
+from .made_forces import ELEMENTS, MadeForce
 from .numbers import Numbers
 from .readings import has_coordinate, reading
 from .tree import Edge, carriers
 
-ELEMENTS = rows.element_kinds()
 ORIGIN = np.zeros(2)
 
 
@@ -55,7 +55,7 @@ class Tables:
         self._damp()
         for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling),
                           (Spring, self._spring), (Bushing, self._bushing), (TorsionSpring, self._torsion_spring),
-                          (Force, self._force), (Torque, self._torque)):
+                          (Force, self._force), (Torque, self._torque), (MadeForce, self._made_force)):
             for element in drawing.of(kind):
                 add(element)
 
@@ -294,6 +294,23 @@ class Tables:
         gauge = self._gauge(torque.name, Gauge("angle", self.number[torque.against.name], self.number[torque.body.name]))
         self._effort(torque.name, "value", gauge, torque)
         self._observe_effort(torque)
+
+
+    def _made_force(self, made: MadeForce) -> None:
+        """An effort along each of its gauges; its measure is the first one's."""
+        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
+        axis, index = (1.0, 0.0) if made.axis is None else _pair(made.axis), len(self.efforts)
+        for i, (kind, zero) in enumerate(made.row.gauges):
+            gauge = Gauge(kind, first, second, point1, point2, axis, made.zero(zero, self.numbers))
+            number = self._gauge(f"{made.name} {i}", gauge)
+            if made.law is not None:
+                self._effort(made.name, "value", number, made)
+                continue
+            stiffness, damping = (made.paths(quantity)[i] for quantity in ("stiffness", "damping"))
+            self.efforts.append(rows.Effort("spring", number, self.numbers(made, stiffness, made.values[stiffness]),
+                                            self.numbers(made, damping, made.values[damping])))
+        self.effort_of[made.name] = index
+        self._observe_effort(made)
 
 
 def _freedoms(joint: Joint) -> tuple[int, int]:
