@@ -178,6 +178,8 @@ double zd_count_steps(double t0, double t1, double step);
 
 /* Whether a run with these settings takes direct functions, where its system brings any; for another they need not be made. */
 int zd_takes_direct(const zd_settings *settings);
+/* The vector unit of the direct functions that a run of this system takes; -1: it takes none. */
+int zd_direct_unit(const zd_system *system, const zd_settings *settings);
 
 /* All memory of a run is taken here. On failure returns NULL and says why in `status` and `message`, of at least one character. */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,

@@ -21,9 +21,9 @@ static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less 
 static const double SHRUNK = 0x1p-4;        /* within a step: what lies between its ends is then no longer known from them */
 static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
 
-/* For one trajectory, and not several at once: those of the last unit up to this one. */
-static const zd_direct *of_one(const zd_system *system, enum zd_unit unit)
+const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit)
 {
+    if (zd_constraints(system) > system->nv) return NULL;
     const zd_direct *found = NULL;
     for (int i = 0; i < system->directs; i++) {
         const zd_direct *direct = &system->direct[i];
@@ -35,8 +35,8 @@ static const zd_direct *of_one(const zd_system *system, enum zd_unit unit)
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 {
     const zd_system *system = &motion->system;
-    const zd_direct *direct = of_one(system, unit);
-    if (!direct || zd_constraints(system) > system->nv) return;
+    const zd_direct *direct = zd_direct_of(system, unit);
+    if (!direct) return;
     motion->road = (zd_road){
         .direct = direct,
         .scale = zd_take_doubles(arena, (size_t)(direct->orders * zd_constraints(system))),

@@ -139,6 +139,8 @@ int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
 
 /* direct.c */
+/* Those for one trajectory, and not several at once, of the last unit up to this one; NULL: the system brings none. */
+const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit);
 /* Lays out the direct road, where the system brings one for this vector unit or one before it; the formulation's state has to be (p, v). */
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Which road a step takes that begins at the point. */

@@ -29,6 +29,12 @@ int zd_takes_direct(const zd_settings *settings)
            !zd_formulation_of(settings->formulation)->settle;
 }
 
+int zd_direct_unit(const zd_system *system, const zd_settings *settings)
+{
+    const zd_direct *direct = zd_takes_direct(settings) ? zd_direct_of(system, settings->vector) : NULL;
+    return direct ? (int)direct->unit : -1;
+}
+
 /* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
  * arena to learn the size, then for good. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)

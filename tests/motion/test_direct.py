@@ -82,10 +82,14 @@ def test_steps_that_are_chosen_take_it():
     {"formulation": "mixed"}, {"formulation": "independent"}, {"integrator": "rattle"}, {"integrator": "trapezoidal"},
     {"direct": False},
 ], ids=str)
-def test_what_it_does_not_serve_takes_the_general_road(options):
+def test_what_it_does_not_serve_takes_the_general_road(options, tmp_path):
     sol = zd.simulate(system("four_bar"), 0.1, step=0.01, **options)
     assert sol.stats["direct_steps"] == 0
-    assert "direct" not in repr(sol)
+    assert sol.settings["vector"] is None
+    (name, value), = options.items()
+    why = f"{name} {value!r} takes none" if value else "direct=False"
+    assert f"\n  road       no direct functions: {why}\n" in repr(sol)
+    assert repr(zd.load(sol.save(tmp_path / "motion"))) == repr(sol)
 
 
 def test_redundant_rows_take_the_general_road():
@@ -98,6 +102,7 @@ def test_redundant_rows_take_the_general_road():
     sol = zd.simulate(made.with_parameters(b=0.0), 0.1, step=0.01)
     assert sol.stats["rank"] == 1
     assert sol.stats["direct_steps"] == 0
+    assert "no direct functions: some constraints are redundant" in repr(sol)
 
 
 def test_values_between_steps_are_those_of_shorter_steps():

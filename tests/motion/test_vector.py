@@ -59,6 +59,22 @@ def test_what_there_is_not_is_refused(monkeypatch):
         run("built in")
 
 
+@pytest.mark.parametrize("vector", UNITS[1:])
+def test_where_the_compiler_has_no_vectors_the_baseline_is_told(vector):
+    system = symbolic_counterparts.four_bar()
+    plain = system._direct.library_of("0x40000000")     # no set that a compiler could write
+    system._direct._libraries[f"ZD_SET_{vector.upper()}_1"] = plain
+    sol = zd.simulate(system, 1.0, step=0.01, vector=vector)
+    assert sol.settings["vector"] == "baseline"
+    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    assert np.array_equal(sol.p, run("symbolic", vector="baseline").p)
+
+
+def test_a_run_on_the_general_road_used_none():
+    assert run("built in", formulation="mixed").settings["vector"] is None
+    assert zd.simulate(zd.systems.oscillator(), 1.0, step=0.1).settings["vector"] is None
+
+
 def test_solutions_of_before_used_none():
     assert settings.core_settings((0.0, 1.0), {k: v for k, v in run("built in").settings.items() if k != "vector"}).vector == 0
 

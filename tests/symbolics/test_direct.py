@@ -11,6 +11,8 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import numbers
+from zerodrift.symbolics import direct, direct_emission
+from zerodrift.symbolics.lowering import Lowering
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
@@ -161,21 +163,64 @@ def redundant(scale):
 @pytest.mark.parametrize("scale", [0, 1e-9, 1e-4])
 def test_nothing_is_written_where_rows_depend_on_each_other_or_nearly(scale):
     system = redundant(scale)
+    assert "no direct" not in repr(system)     # as nothing was written yet, it is not known
+    sol = zd.simulate(system, 0.1, step=0.01)
     assert not system._direct.source
-    assert "direct" not in repr(zd.simulate(system, 0.1, step=0.01))
+    assert_says(system, sol, "constraints depend on each other at the start, or nearly")
 
 
-def test_nothing_is_written_that_is_too_long(monkeypatch):
-    from zerodrift.symbolics import direct_emission
-    monkeypatch.setattr(direct_emission, "MOST_STATEMENTS", 10)
-    assert not random_system(0)._direct.source
+def assert_says(system, sol, why):
+    """The system and its motion say why there are no direct functions, and no vector unit was used."""
+    assert repr(system).endswith(f" constraints, no direct functions: {why}>")
+    assert f"\n  road       no direct functions: {why}\n" in repr(sol)
+    assert sol.settings["vector"] is None
+    again = zd.simulate(system, sol.t_span, **sol.settings)
+    assert np.array_equal(again.p, sol.p)
+
+
+@pytest.mark.parametrize(("bound", "why"), [
+    ("MOST_OPERATIONS", f"the equations take more than {direct_emission.MOST_OPERATIONS} operations"),
+    ("MOST_STATEMENTS", "a function would have more than 10 statements")])
+def test_nothing_is_written_that_is_too_long(bound, why, monkeypatch):
+    system = redundant(1.0)
+    monkeypatch.setattr(direct_emission, bound, 10)
+    sol = zd.simulate(system, 0.1, step=0.01)
+    assert not system._direct.source
+    assert_says(system, sol, why)
+    assert_says(pickle.loads(pickle.dumps(system)), sol, why)
+
+
+def test_a_system_that_is_too_large_says_so_at_once(monkeypatch):
+    """Its program is not kept."""
+    why = f"the equations take more than {direct_emission.MOST_OPERATIONS} operations"
+    monkeypatch.setattr(direct_emission, "MOST_OPERATIONS", 3)
+    x, vx = sp.symbols("x vx")
+    system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, potential=sp.sin(1.25 * x), parameters={}, p0=[0.0], v0=[1.0])
+    assert repr(system).endswith(f"no direct functions: {why}>")
+    assert_says(system, zd.simulate(system, 0.01, step=0.01), why)
 
 
 def test_nothing_is_written_with_functions_that_numpy_has_not():
     x, vx = sp.symbols("x vx")
     system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, constraints=[x * sp.erf(x + 2)], parameters={}, p0=[0.0],
                          v0=[0.0])
-    assert not system._direct.source
+    sol = zd.simulate(system, 0.1, step=0.01)
+    assert_says(system, sol, "erf is no function of NumPy's")
+
+
+def test_nothing_is_written_with_functions_of_ones_own():
+    class Twice(sp.Function):
+        pass
+
+    lowering = Lowering(None)
+    lowering.emit("call", Twice, lowering.emit("number", 1.0))
+    assert direct.as_json(lowering, {}) == "Twice is no function of SymPy's"
+
+
+def test_more_constraints_than_velocities_have_none():
+    x, vx = sp.symbols("x vx")
+    system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, constraints=[x, 2 * x], parameters={}, p0=[0.0], v0=[0.0])
+    assert_says(system, zd.simulate(system, 0.1, step=0.01), "there are more constraints than velocities")
 
 
 def test_they_are_compiled_once_for_all_parameters_and_starts():

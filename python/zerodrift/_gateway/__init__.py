@@ -33,14 +33,26 @@ from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .measures import Outputs
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
-from .runs import Record, Results, Run, acceleration, accelerations, count_steps, project, settings, step, takes_direct
+from .runs import (
+    Record,
+    Results,
+    Run,
+    acceleration,
+    accelerations,
+    count_steps,
+    direct_unit,
+    project,
+    settings,
+    step,
+    takes_direct,
+)
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
-    "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
-    "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
-    "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "doubles", "error_of", "find",
+    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED", "PAUSED",
+    "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore",
+    "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher", "acceleration",
+    "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "doubles", "error_of", "find",
     "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
     "required", "settings", "step", "takes_direct", "terms_of",
 ]

@@ -47,6 +47,12 @@ def takes_direct(options: Any) -> bool:
     return bool(lib.zd_takes_direct(options))
 
 
+def direct_unit(core: CoreSystem, options: Any) -> int | None:
+    """The number of the vector unit whose direct functions a run of this system takes; None: it takes none."""
+    unit = lib.zd_direct_unit(core.c, options)
+    return unit if unit >= 0 else None
+
+
 def count_steps(t0: float, t1: float, step: float) -> int:
     """Steps from t0 to t1."""
     return int(lib.zd_count_steps(t0, t1, step))

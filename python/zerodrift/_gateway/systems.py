@@ -73,6 +73,11 @@ class CoreSystem(Measuring):
     error: BaseException | None = None      # what a system written in Python raised
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
+    @property
+    def has_direct(self) -> bool:
+        """Whether it brings direct functions."""
+        return self.c.directs > 0
+
     def for_run(self) -> CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""
         return self

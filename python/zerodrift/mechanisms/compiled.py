@@ -41,7 +41,7 @@ class Code:
     constants: int
     scratch: int
     c_source: str
-    program: dict[str, Any] | None
+    program: dict[str, Any] | str       # as of symbolics/system.py
 
 
 class Written:

@@ -12,7 +12,7 @@ from .._gateway import Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
-from ..symbolics.direct_functions import DirectFunctions
+from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
 from . import advice
@@ -138,6 +138,11 @@ class MechanismSystem(BaseSystem):
             cores[vector] = self._written.with_direct(self._direct[1], vector)
         return cores[vector]
 
+    def _why_not_direct(self) -> str | None:
+        if not self._is_written_out:
+            return None
+        return self._direct[1].why_none if self.compiled else NO_COMPILER
+
     @functools.cached_property
     def p0(self) -> np.ndarray:
         """Where `simulate` starts, at t = 0."""
@@ -188,7 +193,7 @@ class MechanismSystem(BaseSystem):
         return super()._described() | more
 
     def __repr__(self) -> str:
-        how = ", compiled" if self.compiled else ""
+        how = f", compiled{self._direct[1].in_words}" if self.compiled else ""
         return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
                 f"nonholonomic constraints>")
 

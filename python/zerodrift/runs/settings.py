@@ -267,7 +267,7 @@ _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_steps", "sa
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
     """The core's settings from a solution's."""
     like = _core_methods(chosen["formulation"], chosen["integrator"], chosen.get("on_singular", "stop"),
-                         chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector", "baseline")),
+                         chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector") or "baseline"),
                          *corrections_of(chosen))
     changed = {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
     return _gateway.settings({"t0": span[0], "t1": span[1], **changed}, like)

@@ -14,7 +14,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import Interrupted, SingularSystem
 from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
-from . import diagnosis, settings
+from . import diagnosis, road, settings
 from . import events as _events
 from . import outputs as _outputs
 from .keyboard import Keyboard
@@ -184,6 +184,7 @@ def simulate(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct, vector)
     core = direct_core_of(system, plan.chosen["vector"]) if _gateway.takes_direct(plan.options) else core_of(system)
+    plan.chosen["vector"] = road.unit(core, plan.options)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
     recorded = None
@@ -244,22 +245,22 @@ def _solution(system, span, chosen, run, record, results, watcher, outcome, reco
     """Everything that a run left behind."""
     record.join()
     return Solution._of_run(
-        functools.partial(_arrays_and_stats, record, results, outcome.seconds, recorded), status=outcome.status,
+        functools.partial(_arrays_and_stats, record, results, outcome.seconds, recorded, system, chosen), status=outcome.status,
         success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
         system=system, t_span=span, **_events_found(watcher))
 
 
 def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
-                      recorded: _outputs.Recorded | None) -> dict[str, Any]:
+                      recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
     """What a solution has of them, under its own names."""
-    arrays = record.take()
+    arrays, stats = record.take(), results.as_stats() | {"seconds": seconds}
     return {
         "t": arrays["t"], "p": arrays["p"], "v": arrays["v"], "multipliers": arrays["multipliers"],
         "position_violation": arrays["position_violation"], "velocity_violation": arrays["velocity_violation"],
         "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
         "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
         "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
-        "stats": results.as_stats() | {"seconds": seconds},
+        "stats": stats | {"general_road": road.why_general(system, chosen, stats)},
         "outputs": recorded.columns(arrays["outputs"]) if recorded and recorded.core else {}}
 
 

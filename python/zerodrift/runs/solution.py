@@ -62,7 +62,8 @@ class Solution:
         `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while. Where a
         declared structure has more than 40 rows, `smallest_pivot` is the least that was left of a row, in squares of the mass
         metric, once others were eliminated, `smallest_pivot_time`, in s, when, and `smallest_pivot_row` of which row: near a
-        bifurcation it is small, and accelerations lose digits.
+        bifurcation it is small, and accelerations lose digits. `general_road` says why no step was made by direct functions,
+        where the system could have some.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -71,6 +72,7 @@ class Solution:
         What happened, in a sentence.
     settings : dict
         As `simulate` takes them: ``simulate(system, t_span, **settings)`` repeats the run; events, being functions, are not kept.
+        `vector` is the unit that the direct functions of the run were written for, None where it had none.
     system : system
         What moved.
     t_span : tuple of float
@@ -156,6 +158,8 @@ class Solution:
         if stats.get("direct_steps"):
             left = stats["steps"] - stats["direct_steps"]
             lines.append("  road       direct functions" + (f", which {left} steps left" if left else ""))
+        elif stats.get("general_road"):
+            lines.append(f"  road       no direct functions: {stats['general_road']}")
         if self.system.m:
             lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
                          f"max |Psi| = {_largest(self.velocity_violation)}")
@@ -321,7 +325,7 @@ class Solution:
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
             options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
-            takes_direct, vector = _gateway.takes_direct(options), self.settings.get("vector", "baseline")
+            takes_direct, vector = _gateway.takes_direct(options), self.settings.get("vector") or "baseline"
             _gateway.step(direct_core_of(self.system, vector) if takes_direct else core_of(self.system), options, p, v)
         return p, v
 

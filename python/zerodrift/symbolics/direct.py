@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import direct_emission, orders
-from .direct_emission import Bounded, TooLarge
+from .direct_emission import Bounded
 from .elimination import Elimination
 from .lowering import Lowering
 from .plain import NAMED, Function
@@ -17,16 +17,16 @@ HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#includ
            "#include <zerodrift/units.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 
-def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | None:
-    """A program that can be kept; None where it is too large for direct functions, or has functions that are not SymPy's."""
+def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | str:
+    """A program that can be kept; or why not: it is too large for direct functions, or has functions that are not SymPy's."""
     if len(lowering.operations) > direct_emission.MOST_OPERATIONS:
-        return None
+        return direct_emission.TOO_LARGE
     operations = []
     for code, arguments, _ in lowering.operations:
         if code == "call":
             name = arguments[0].__name__
             if not isinstance(arguments[0], Function) and getattr(_sympy(), name, None) is not arguments[0]:
-                return None
+                return f"{name} is no function of SymPy's"
             arguments = (name, *arguments[1:])
         operations.append([code, *arguments])
     return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}
@@ -52,17 +52,14 @@ def _restored(program: dict[str, Any]) -> Bounded:
 
 def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
           lengths: np.ndarray, *, offset: int, symbol: str, heading: list[str] | None = None,
-          file: str = "system.c", lanes_header: str = "<zerodrift/lanes.h>", data: str = "data") -> tuple[str, int] | None:
-    """The C source and its number of constants; None where there are no orders that serve, or too many operations."""
+          file: str = "system.c", lanes_header: str = "<zerodrift/lanes.h>", data: str = "data") -> tuple[str, int]:
+    """The C source and its number of constants; raises `Unwritten` where no order serves, or there are too many operations."""
     lowering, terms = _restored(program), program["terms"]
     chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
-    try:
-        eliminations = [Elimination(lowering, terms, sizes, order) for order in chosen]
-        functions = [{"accelerate": each.accelerations()} | ({"correct": each.corrections(), "land": each.landing()}
-                                                             if each.order else {"correct": {}, "land": {}})
-                     for each in eliminations]
-        return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
-                                      heading=HEADING if heading is None else heading, file=file,
-                                      lanes_header=lanes_header, data=data) if chosen else None
-    except TooLarge:
-        return None
+    eliminations = [Elimination(lowering, terms, sizes, order) for order in chosen]
+    functions = [{"accelerate": each.accelerations()} | ({"correct": each.corrections(), "land": each.landing()}
+                                                         if each.order else {"correct": {}, "land": {}})
+                 for each in eliminations]
+    return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
+                                  heading=HEADING if heading is None else heading, file=file,
+                                  lanes_header=lanes_header, data=data)

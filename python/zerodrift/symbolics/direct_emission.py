@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .elimination import Elimination, Order
+from .elimination import Elimination, Order, Unwritten
 from .emission import CWriter, indented
 from .graph import FIXED
 from .lane_emission import LaneWriter, for_each_set
 from .lowering import SIMPLE, Lowering
 
 MOST_OPERATIONS = 4000      # of the functions of one order
+TOO_LARGE = f"the equations take more than {MOST_OPERATIONS} operations"
 MOST_STATEMENTS = 1000      # of one function
 AT = "ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_time, const double *at_p,"
 ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
@@ -22,10 +23,6 @@ OPTIONAL = ("lambda", "power"), ("pivots",)     # outputs that may not be wanted
 HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND}
 
 
-class TooLarge(Exception):
-    """There are more operations than are worth writing."""
-
-
 class Bounded(Lowering):
     """Operations of which there are only so many."""
 
@@ -33,7 +30,7 @@ class Bounded(Lowering):
 
     def emit(self, code, *arguments):
         if len(self.operations) > self.most:
-            raise TooLarge
+            raise Unwritten(TOO_LARGE)
         return super().emit(code, *arguments)
 
 
@@ -98,7 +95,7 @@ def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]
         program = _Program(lowering, outputs, {})
         needed = program.needed(outputs)
         if len(needed) > MOST_OPERATIONS:
-            raise TooLarge
+            raise Unwritten(TOO_LARGE)
         outside = {number for numbers in outputs.values() for number in numbers}
         for number in needed:
             operation = lowering.operations[number]
@@ -143,7 +140,7 @@ def _function(program: _Program, head: list[str], offset: int, data: str) -> lis
 
 def _whole(head: list[str], body: list[str]) -> list[str]:
     if len(body) > MOST_STATEMENTS:
-        raise TooLarge
+        raise Unwritten(f"a function would have more than {MOST_STATEMENTS} statements")
     return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
 
 

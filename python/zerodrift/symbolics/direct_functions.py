@@ -10,6 +10,7 @@ import numpy as np
 from . import compiling
 
 DIRECT = "zd_symbolic_direct"       # what they are called in their library
+NO_COMPILER = "there is no C compiler"      # why a system has none
 
 
 class DirectFunctions:
@@ -20,21 +21,31 @@ class DirectFunctions:
     no SymPy.
     """
 
-    def __init__(self, program: dict[str, Any] | None, sizes: tuple[int, int, int, int], values: np.ndarray,
+    def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int], values: np.ndarray,
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data") -> None:
         self._definition = program, sizes, values, p0, is_length
         self._offset, self._data = offset, data     # `data` is C for the doubles of a system
         self._libraries: dict[str, ctypes.CDLL | None] = {}
         self._written: tuple[str, int] | None = None
-        self._is_written = program is None     # there is nothing to be written
+        self.why_none = program if isinstance(program, str) else ""     # as far as is known before they are written
+        self._is_written = bool(self.why_none)
 
     def _write(self) -> tuple[str, int] | None:
         """The C source and how many constants it has; None: there is none."""
         if not self._is_written:
             from . import direct
-            self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
+            from .elimination import Unwritten
+            try:
+                self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
+            except Unwritten as reason:
+                self.why_none = str(reason)
             self._is_written = True
         return self._written
+
+    @property
+    def in_words(self) -> str:
+        """For the `repr` of a system: why it has none."""
+        return f", no direct functions: {self.why_none}" if self.why_none else ""
 
     @property
     def constants(self) -> int:

@@ -31,6 +31,10 @@ class Solve(NamedTuple):
 Order = tuple[Solve, ...]
 
 
+class Unwritten(Exception):
+    """Why there is no elimination that is worth writing."""
+
+
 class Arithmetic:
     """Operations with those left out that do nothing."""
 

@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from . import numeric
-from .elimination import Order, Solve
+from .elimination import Order, Solve, Unwritten
 from .lowering import Lowering
 
 MOST = 4                # orders, as the interface has it
@@ -28,7 +28,7 @@ SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or 
 
 def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
            p0: np.ndarray | None, lengths: np.ndarray) -> list[Order]:
-    """The orders to be written, best first; none where no order serves the start.
+    """The orders to be written, best first; raises `Unwritten` where no order serves the start.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
     if not m:
         return [()]
     if m > sizes[1]:
-        return []
+        raise Unwritten("there are more constraints than velocities")
     try:
         C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
-    except numeric.Unknown:
-        return []
+    except numeric.Unknown as unknown:
+        raise Unwritten(f"{unknown} is no function of NumPy's") from None
     orders: list[Order] = []
     while len(orders) < MOST and len(C):
         order, served = _Search(C, LARGE).run()
@@ -55,6 +55,8 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
             break
         orders.append(order)
         C = C[~served]
+    if not orders:
+        raise Unwritten("constraints depend on each other at the start, or nearly")
     return orders
 
 

@@ -18,7 +18,7 @@ from ..errors import NoCompilerWarning
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from ..systems.structure import Structure, checked
 from . import compiling
-from .direct_functions import DIRECT, DirectFunctions
+from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Code:
     python_source: str
     drawing: tuple[int, int]            # points, dimension
     drawing_source: str
-    program: dict[str, Any] | None      # the operations of the terms, where direct functions can be written from them
+    program: dict[str, Any] | str       # from which direct functions are written, or why they are not
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> Code:
@@ -106,6 +106,9 @@ class SymbolicSystem(BaseSystem):
             self._with_direct[vector] = self._core.with_direct(_gateway.address_of(library, DIRECT), data, library)
         return self._with_direct[vector]
 
+    def _why_not_direct(self) -> str:
+        return self._direct.why_none if self.compiled else NO_COMPILER
+
     def _with_direct_data(self, library: ctypes.CDLL) -> np.ndarray:
         """The same with the constants of the direct functions behind them."""
         data = np.concatenate([self._data(), np.zeros(self._direct.constants)])
@@ -162,7 +165,7 @@ class SymbolicSystem(BaseSystem):
         return drawing.reshape(count, dimension)
 
     def __repr__(self) -> str:
-        how = "" if self.compiled else ", evaluated in Python"
+        how = self._direct.in_words if self.compiled else ", evaluated in Python"
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:

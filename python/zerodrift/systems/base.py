@@ -206,6 +206,11 @@ class BaseSystem:
     def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
         return self._core
 
+    def _why_not_direct(self) -> str | None:
+        """Why it has no direct functions, as far as is known; empty: it has some; None: systems of its kind have none."""
+        core = getattr(self, "_core", None)
+        return "" if core is not None and core.has_direct else None
+
     def _parameter_units(self) -> dict[str, str]:
         """The units of the parameters, where they are known."""
         return {}
