@@ -179,7 +179,7 @@ def assert_says(system, sol, why):
 
 
 @pytest.mark.parametrize(("bound", "why"), [
-    ("MOST_OPERATIONS", f"the equations take more than {direct_emission.MOST_OPERATIONS} operations"),
+    ("MOST_OPERATIONS", f"they would take more than {direct_emission.MOST_OPERATIONS} operations"),
     ("MOST_STATEMENTS", "a function would have more than 10 statements")])
 def test_nothing_is_written_that_is_too_long(bound, why, monkeypatch):
     system = redundant(1.0)
@@ -192,7 +192,7 @@ def test_nothing_is_written_that_is_too_long(bound, why, monkeypatch):
 
 def test_a_system_that_is_too_large_says_so_at_once(monkeypatch):
     """Its program is not kept."""
-    why = f"the equations take more than {direct_emission.MOST_OPERATIONS} operations"
+    why = f"they would take more than {direct_emission.MOST_OPERATIONS} operations"
     monkeypatch.setattr(direct_emission, "MOST_OPERATIONS", 3)
     x, vx = sp.symbols("x vx")
     system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, potential=sp.sin(1.25 * x), parameters={}, p0=[0.0], v0=[1.0])

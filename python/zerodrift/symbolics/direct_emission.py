@@ -11,7 +11,7 @@ from .lane_emission import LaneWriter, for_each_set
 from .lowering import SIMPLE, Lowering
 
 MOST_OPERATIONS = 4000      # of the functions of one order
-TOO_LARGE = f"the equations take more than {MOST_OPERATIONS} operations"
+TOO_LARGE = f"they would take more than {MOST_OPERATIONS} operations"
 MOST_STATEMENTS = 1000      # of one function
 AT = "ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_time, const double *at_p,"
 ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
