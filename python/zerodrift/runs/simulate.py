@@ -118,7 +118,8 @@ def simulate(
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
         constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent
         formulations and explicit integrators, where no constraint is redundant. A step at whose ends the elimination is not
-        sound is made by the formulation's leading matrix; `repr` of the solution says how many, or why all, were. False makes all so.
+        sound is made by the formulation's leading matrix; `repr` of the solution says how many were, or why all.
+        False makes all steps so.
     vector : {"baseline", "avx2", "avx512"}, optional
         The vector unit that direct functions may use. Left out: what the environment variable ZERODRIFT_VECTOR says, else the
         last that the processor has. With "baseline", all processors give the same bits; the units round less often, give the
