@@ -21,61 +21,28 @@ enum { MAX_ITERATIONS = 12 };
 static const double WEIGHT = 0x1p22;            /* of a row in units of what its bodies have as mass in it */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
 
-typedef struct plan {
-    const zd_layout *layout;
-    const zd_system *system;
-    zd_pattern pattern;
-    zd_ordering ordering;
-} plan;
-
-static int bodies_of(const zd_layout *layout, int g) { return layout->touched_at[g + 1] - layout->touched_at[g]; }
-
-static int count_pairs(const zd_layout *layout)
-{
-    int pairs = 0;
-    for (int g = 0; g < layout->groups; g++) pairs += bodies_of(layout, g) * (bodies_of(layout, g) + 1) / 2;
-    return pairs;
-}
-
-static void fill(zd_bodywise *self)
-{
-    const zd_layout *layout = self->layout;
-    int next = 0;
-    for (int b = 0; b < layout->blocks; b++) self->body_at[b] = self->blocks->at[self->blocks->place[b]];
-    for (int g = 0; g < layout->groups; g++)
-        for (int i = layout->touched_at[g]; i < layout->touched_at[g + 1]; i++)
-            for (int j = layout->touched_at[g]; j <= i; j++)
-                self->pair[next++] = zd_blocks_find(self->blocks, layout->touched[i], layout->touched[j]);
-}
-
 static void *take(zd_arena *arena, const void *of)
 {
-    const plan *it = of;
-    const size_t n = (size_t)it->system->nv, m = (size_t)zd_constraints(it->system);
+    const zd_system *system = of;
+    const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_bodywise self = {
-        .layout = it->layout,
-        .blocks = zd_blocks_take(arena, &it->ordering),
-        .body_at = zd_take(arena, (size_t)it->layout->blocks * sizeof(int)),
-        .pair = zd_take(arena, (size_t)count_pairs(it->layout) * sizeof(int)),
         .weight = zd_take_doubles(arena, m),
-        .inverse = zd_take_doubles(arena, (size_t)zd_size_of_M(it->system)),
+        .inverse = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .unbalanced = zd_take_doubles(arena, n),
         .step = zd_take_doubles(arena, n),
         .rest = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
     };
-    if (arena->base) fill(&self);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
 zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
 {
-    const zd_layout *layout = point->layout;
-    plan it = {.layout = layout, .system = point->system};
-    it.pattern = (zd_pattern){layout->blocks, point->system->structure->velocities, layout->groups, layout->touched_at, layout->touched};
-    if (!zd_ordering_find(&it.pattern, &it.ordering)) return NULL;
-    zd_bodywise *self = zd_store_take(store, take, &it);
-    zd_ordering_free(&it.ordering);
+    zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout);
+    zd_bodywise *self = bodies ? zd_store_take(store, take, point->system) : NULL;
+    if (!self) return NULL;
+    self->layout = point->layout;
+    self->bodies = bodies;
     return self;
 }
 
@@ -110,77 +77,21 @@ static void set_weights(zd_bodywise *self, const zd_point *point)
     }
 }
 
-static void add_mass(zd_bodywise *self, const double *M)
-{
-    const zd_layout *layout = self->layout;
-    for (int b = 0; b < layout->blocks; b++) {
-        const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
-        double *to = self->blocks->S + zd_blocks_find(self->blocks, b, b);
-        const double *own = M + layout->M_at[b];
-        for (int i = 0; i < (layout->is_diagonal[b] ? n : n * n); i++) to[layout->is_diagonal[b] ? i * (n + 1) : i] = own[i];
-    }
-}
-
-/* to (a, b) <- to + A^T W B of `rows` rows that are `stride` apart; the other way round where the first is eliminated first. */
-static void add_product(const double *A, int a, const double *B, int b, const double *W, int rows, int stride, int is_later, double *to)
-{
-    for (int k = 0; k < rows; k++, A += stride, B += stride)
-        for (int i = 0; i < a; i++) {
-            const double weighted = W[k] * A[i];
-            for (int j = 0; j < b; j++) to[is_later ? i * b + j : j * a + i] += weighted * B[j];
-        }
-}
-
-/* C^T W C of one group; returns the next of its pairs. */
-static const int *add_group(zd_bodywise *self, int g, const int *pair)
-{
-    const zd_layout *layout = self->layout;
-    const int rows = layout->row_at[g + 1] - layout->row_at[g], *velocity_at = layout->velocity_at, *place = self->blocks->place;
-    const double *W = self->weight + layout->row_at[g], *A = self->C + layout->C_at[g];
-    for (int i = layout->touched_at[g]; i < layout->touched_at[g + 1]; i++) {
-        const int one = layout->touched[i], a = velocity_at[one + 1] - velocity_at[one];
-        const double *B = self->C + layout->C_at[g];
-        for (int j = layout->touched_at[g]; j <= i; j++) {
-            const int other = layout->touched[j], b = velocity_at[other + 1] - velocity_at[other];
-            add_product(A, a, B, b, W, rows, layout->width[g], place[one] >= place[other], self->blocks->S + *pair++);
-            B += b;
-        }
-        A += a;
-    }
-    return pair;
-}
-
 int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
 {
     self->point = point;
     self->C = point->terms.C;
     set_weights(self, point);
-    zd_blocks_clear(self->blocks);
-    add_mass(self, point->terms.M);
-    const int *pair = self->pair;
-    for (int g = 0; g < self->layout->groups; g++) pair = add_group(self, g, pair);
-    const zd_pivots pivots = zd_blocks_factor(self->blocks, NULL, 0);
+    zd_blocks_clear(self->bodies->blocks);
+    zd_bodies_add_mass(self->bodies, point->terms.M);
+    zd_bodies_add_rows(self->bodies, self->C, self->weight);
+    const zd_pivots pivots = zd_blocks_factor(self->bodies->blocks, NULL, 0);
     if (pivots.failed < 0) return ZD_DONE;
-    for (int b = 0; b < self->layout->blocks; b++) {
-        const int n = self->layout->velocity_at[b + 1] - self->layout->velocity_at[b], off = pivots.failed - self->body_at[b];
-        if (off >= 0 && off < n) point->failed_index = self->layout->velocity_at[b] + off;
-    }
+    point->failed_index = zd_bodies_velocity(self->bodies, pivots.failed);
     return ZD_NOT_DEFINITE;
 }
 
 /* ---- solution ---- */
-
-/* x <- (M + C^T W C)^-1 b */
-static void eliminate(zd_bodywise *self, const double *b, double *x)
-{
-    const zd_layout *layout = self->layout;
-    double *y = self->blocks->x;
-    for (int i = 0; i < layout->blocks; i++)
-        memcpy(y + self->body_at[i], b + layout->velocity_at[i], (size_t)(layout->velocity_at[i + 1] - layout->velocity_at[i]) * sizeof *y);
-    zd_blocks_solve(self->blocks, y);
-    for (int i = 0; i < layout->blocks; i++)
-        memcpy(x + layout->velocity_at[i], y + self->body_at[i], (size_t)(layout->velocity_at[i + 1] - layout->velocity_at[i]) * sizeof *y);
-}
 
 /* unbalanced <- force - M x - C^T lambda + C^T W rest, rest <- rhs - C x. Returns how much of them is left, in units of what their terms are;
  * of the former without W. */
@@ -224,7 +135,7 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
         const double left = find_rest(self, force, rhs, x);
         if (!(left > ROUNDING) || (i > 1 && !(left < 0.25 * before))) break;
         before = left;
-        eliminate(self, self->unbalanced, self->step);
+        zd_bodies_solve(self->bodies, self->unbalanced, self->step);
         for (int k = 0; k < m; k++) {
             const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
             self->lambda[k] += self->weight[k] * (zd_row_times(&row, self->step) - self->rest[k]);      /* (8) */

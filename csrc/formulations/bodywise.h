@@ -2,14 +2,12 @@
 #ifndef ZD_BODYWISE_H
 #define ZD_BODYWISE_H
 
-#include "../linalg/blocks.h"
+#include "../point/bodies.h"
 #include "../point/point.h"
 
 typedef struct zd_bodywise {
     const zd_layout *layout;
-    zd_blocks *blocks;      /* M + C^T W C: block rows are bodies */
-    int *body_at;           /* (blocks of M,) where the velocities of each body stand in a right side of it */
-    int *pair;              /* for each group, its bodies and those of these before it or it itself: the block that takes their product */
+    zd_bodies *bodies;      /* M + C^T W C */
     double *weight;         /* (m,): W */
     double *inverse;        /* stored as M is: M^-1 by its factors, for the weights */
     double *unbalanced, *step;  /* (n,), (n,) */

@@ -1,0 +1,26 @@
+/* Matrices whose block rows are the bodies of a system that declares its structure: C^T W C, and what has blocks where M has. */
+#ifndef ZD_BODIES_H
+#define ZD_BODIES_H
+
+#include "../linalg/blocks.h"
+#include "layout.h"
+
+typedef struct zd_bodies {
+    const zd_layout *layout;
+    zd_blocks *blocks;
+    int *at;                /* (blocks of M,) where the velocities of each body stand in a right side */
+    int *pair;              /* for each group, its bodies and those of these before it or it itself: the block that takes their product */
+} zd_bodies;
+
+/* All that is symbolic, and memory for the factors; NULL where there is none. */
+zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout);
+/* Adds blocks that are stored as M is. */
+void zd_bodies_add_mass(zd_bodies *self, const double *M);
+/* Adds C^T W C; W (m,) */
+void zd_bodies_add_rows(zd_bodies *self, const double *C, const double *W);
+/* x (nv,) <- that inverse, by its factors, times b */
+void zd_bodies_solve(zd_bodies *self, const double *b, double *x);
+/* Which velocity has this place in the order of elimination. */
+int zd_bodies_velocity(const zd_bodies *self, int place);
+
+#endif
