@@ -19,6 +19,13 @@ def jansen_by_circles(crank):
     return {"X": X, "V": V, "U": U, "W": W, "T": T, "F": crossing(U, T, 0.49, 0.657, 1)}
 
 
+def four_bar_by_circles(crank, lengths, side):
+    """The joints B and C of a four-bar at crank angles (k,), of ground (along x), crank, coupler and rocker lengths."""
+    ground, a, b, c = lengths
+    B = a * np.exp(1j * crank)
+    return B, crossing(B, ground, b, c, side)
+
+
 def complex_of(sol, name):
     """Where a point is in a motion, (k,)."""
     x, y = sol[f"{name}.position"].T

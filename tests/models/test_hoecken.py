@@ -1,0 +1,34 @@
+"""Hoecken's linkage against the right angle at its rocker's foot, and the numbers that Norton tables."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from circles import complex_of
+
+
+@pytest.mark.parametrize(("ground", "coupler"), [(2.5, 3.25), (2.2, 2.8)])
+def test_the_path_is_that_of_a_right_angle(ground, coupler):
+    """B, D and P have one distance from C, so by Thales' theorem B D P is a right angle, and D P is known from D B."""
+    sol = zd.simulate(zd.models.hoecken(ground=ground, coupler=coupler), 1.0, step=0.005)
+    to_crank = 0.1 * np.exp(1j * sol["crank.angle"]) - 0.1 * ground
+    expected = 0.1 * ground - 1j * to_crank / np.abs(to_crank) * np.sqrt((0.2 * coupler)**2 - np.abs(to_crank)**2)
+    assert np.abs(complex_of(sol, "P") - expected).max() < 1e-12
+    assert np.ptp(sol["crank.angle"]) > 6.2
+
+
+@pytest.mark.parametrize(("ground", "coupler", "degrees", "length", "percent"), [
+    (2.500, 3.250, 140, 3.623, 0.023), (2.200, 2.800, 180, 4.181, 0.096)])
+def test_it_is_as_straight_as_tabled(ground, coupler, degrees, length, percent):
+    """Of Norton's table: over so many degrees P goes so many cranks along x, and leaves its line by so many percent of that."""
+    sol = zd.simulate(zd.models.hoecken(crank=1.0, ground=ground, coupler=coupler, speed=2 * np.pi), 1.0, step=1 / 720)
+    x, y = sol["P.position"][360 - degrees:361 + degrees].T
+    assert np.ptp(x) == pytest.approx(length, abs=6e-4)
+    assert 100 * np.ptp(y) / np.ptp(x) == pytest.approx(percent, abs=6e-4)
+
+
+def test_a_crank_that_cannot_turn_round():
+    with pytest.raises(ValueError, match=r"coupler must be more than half of ground and crank, 1\.75, so that .*, not 1\.5"):
+        zd.models.hoecken(coupler=1.5)
+    with pytest.raises(ValueError, match="ground must be greater than 1, not 1"):
+        zd.models.hoecken(ground=1.0)
