@@ -1,8 +1,7 @@
 """Worked models, each one short file whose function takes the parameters as keywords.
 
-From their energies, as examples of `zerodrift.symbolic`: `andrews`, `bicycle`, `closed_pendulum`, `slider_crank`. Linkages, as
-examples of `zerodrift.linkage`, with a motor: `chebyshev_lambda`, `hoecken`, `jansen`, `klann`, `peaucellier`, `stephenson`,
-`watt`. From bodies and joints: `four_bar`, `four_bars`. They need SymPy, the extra `symbolic`.
+From their energies, as examples of `zerodrift.symbolic`: `andrews`, `bicycle`, `closed_pendulum`, `slider_crank`. All others are
+mechanisms, from bodies and joints or, linkages, from a sketch. They need SymPy, the extra `symbolic`.
 
 >>> import zerodrift as zd
 >>> chain = zd.models.closed_pendulum(links=5)
@@ -21,13 +20,18 @@ from .four_bars import four_bars
 from .hoecken import hoecken
 from .jansen import jansen
 from .klann import klann
+from .pantograph import pantograph
 from .peaucellier import peaucellier
+from .quick_return import quick_return
+from .scissor_lift import scissor_lift
 from .slider_crank import slider_crank
 from .stephenson import stephenson
+from .toggle_press import toggle_press
 from .watt import watt
 
-__all__ = ["andrews", "bicycle", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars", "hoecken", "jansen", "klann",
-           "peaucellier", "slider_crank", "stephenson", "watt"]
+__all__ = ["andrews", "bicycle", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars", "hoecken",
+           "jansen", "klann", "pantograph", "peaucellier", "quick_return", "scissor_lift", "slider_crank",
+           "stephenson", "toggle_press", "watt"]
 
 
 def __dir__() -> list[str]:

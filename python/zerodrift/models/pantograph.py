@@ -1,0 +1,66 @@
+"""A pantograph, whose pen draws what its tracer goes over, to another size."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..mechanisms.linkage import linkage
+from ..mechanisms.mechanism import Mechanism
+from ._swing import swing
+
+MIDDLE = np.array([1.0, 0.6])       # of the figure, in arms from O
+
+
+def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate: float = 2 * np.pi, mass: Any = 0.1,
+               gravity: Any = None) -> Mechanism:
+    """Four bars about a parallelogram, such that ``O``, the tracer ``Q`` and the pen ``P`` are in line, and O P is ratio O Q.
+
+    The tracer is led along a lying eight, size wide to each side and half as high, so that both freedoms are driven. The bars
+    are ``main`` (O A B), ``pen`` (B C P), ``short`` (A Q) and ``side`` (C Q).
+
+    Parameters
+    ----------
+    arm : float
+        O A and A Q, in m.
+    ratio : float
+        By what the pen enlarges, above 1.
+    size : float
+        Half the width of the eight, in m, less than a third of the arm.
+    rate : float
+        Of the figure, in rad/s.
+    mass : float or dict of str to float
+        In kg, of each bar, or by bar.
+    gravity : array_like (2,), optional
+        In m/s^2; left out: none.
+
+    Returns
+    -------
+    Mechanism
+
+    References
+    ----------
+    C. Scheiner, Pantographice seu ars delineandi, Rome, 1631.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.pantograph(ratio=3.0), 1.0, step=0.005)
+    >>> bool(abs(sol["P.position"] - 3.0 * sol["Q.position"]).max() < 1e-12)
+    True
+    """
+    a, k = _check.number("arm", arm, above=0), _check.number("ratio", ratio, above=1)
+    if not 0 <= _check.number("size", size) < a / 3:
+        raise ValueError(f"size must be from 0 to less than a third of the arm, {a / 3:g}, not {size:g}")
+    import sympy as sp
+
+    Q = a * MIDDLE
+    A = Q / 2 + np.sqrt(a**2 / (Q @ Q) - 1 / 4) * np.array([-Q[1], Q[0]])
+    m = linkage({"O": (0, 0), "A": A, "B": k * A, "C": k * A + Q - A, "P": k * Q, "Q": Q},
+                {"ground": "O", "main": "OAB", "pen": "BCP", "short": "AQ", "side": "CQ"}, mass=mass, gravity=gravity,
+                name="pantograph")
+    m.constraint("tracer along", sp.Symbol("Q.position.x") - Q[0] - swing(size, rate))
+    m.constraint("tracer up", sp.Symbol("Q.position.y") - Q[1] - swing(size / 2, 2 * rate))
+    return m

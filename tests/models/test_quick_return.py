@@ -1,0 +1,35 @@
+"""The quick return against its closed form, of both kinds: a lever that swings, and one that turns round."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+TURNING = {"ground": 0.01, "crank": 0.025, "lever": 0.03, "rod": 0.09, "height": 0.005, "speed": 15.0}
+
+
+@pytest.mark.parametrize("sizes", [{}, TURNING], ids=["shaper", "Whitworth"])
+def test_the_ram_is_where_the_lever_s_angle_has_it(sizes):
+    g, a, b, c, height = (sizes.get(name, value) for name, value in (
+        ("ground", 0.025), ("crank", 0.010), ("lever", 0.065), ("rod", 0.030), ("height", 0.050)))
+    sol = zd.simulate(zd.models.quick_return(**sizes), 0.42, step=0.001)
+    crank = sizes.get("speed", -15.0) * sol.t
+    lever = np.unwrap(np.arctan2(g + a * np.sin(crank), a * np.cos(crank)))
+    x = b * np.cos(lever) + np.sqrt(c**2 - (b * np.sin(lever) - height)**2)
+    np.testing.assert_allclose(sol["lever.angle"], lever, atol=1e-11)
+    np.testing.assert_allclose(sol["ram.position.x"], x, atol=1e-12)
+    assert (np.ptp(lever) > 2 * np.pi) == (a > g)
+
+
+def test_it_returns_faster_than_it_cuts():
+    """The lever's ends are where the crank is at right angles to it, so times are as pi + 2 asin(a / g) to pi - 2 asin(a / g)."""
+    turn = 2 * np.pi / 15
+    sol = zd.simulate(zd.models.quick_return(), turn, step=turn / 5000)
+    share = (sol["lever.angular_velocity"] > 0).mean()
+    assert share == pytest.approx(0.5 - np.arcsin(0.4) / np.pi, abs=5e-4)
+
+
+@pytest.mark.parametrize("wrong", [{"rod": 0.014}, {"crank": 0.025}, {"crank": 0.04}])
+def test_a_rod_that_does_not_reach(wrong):
+    with pytest.raises(ValueError, match=r"rod must be longer than 0\.\d+ m, by which the lever's end goes aside"):
+        zd.models.quick_return(**wrong)
