@@ -12,13 +12,13 @@ GROUND, GRAVITY = sp.symbols("l0 g")
 VALUES = dict(zip([*LENGTHS, *MASSES, GROUND, GRAVITY], [0.3, 1.0, 0.6, 1.5, 5.0, 3.0, 1.0, 9.81], strict=True))
 
 
-def bar(drive=None, inertias=None, **options):
-    """The paper's four-bar, by its energies; `drive` prescribes alpha1. Links are slender rods, but for other `inertias`."""
+def bar(drive=None, **options):
+    """The paper's four-bar, by its energies; `drive` prescribes alpha1. Links are slender rods."""
     angles = dynamicsymbols("alpha1:4")
     kinetic = potential = x = y = sp.S.Zero
     points = [(0, 0)]
-    inertias = [mass * length**2 / 12 for mass, length in zip(MASSES, LENGTHS, strict=True)] if inertias is None else inertias
-    for angle, length, mass, inertia in zip(angles, LENGTHS, MASSES, inertias, strict=True):
+    for angle, length, mass in zip(angles, LENGTHS, MASSES, strict=True):
+        inertia = mass * length**2 / 12
         arm = sp.Matrix([sp.cos(angle), sp.sin(angle)]) * length
         middle = sp.Matrix([x, y]) + arm / 2
         kinetic += mass * middle.diff(T).dot(middle.diff(T)) / 2 + inertia * angle.diff(T) ** 2 / 2
@@ -80,11 +80,22 @@ def of_parameters(*names):
 
 
 def four_bar_of_parameters(drive=None, more=()):
+    """With the energies of section 4.1, in which like terms are collected: what is written from these has less to compute."""
     core = SYSTEMS["driven_four_bar" if more else "four_bar"]
     inertias = sp.symbols("J1:4")
     values = [1.0, 0.3, 1.0, 0.6, 1.5, 5.0, 3.0, 0.01125, 5 / 12, 0.09, 9.81]
     parameters = dict(zip([GROUND, *LENGTHS, *MASSES, *inertias, GRAVITY], values, strict=True)) | dict(more)
-    return bar(drive, inertias, parameters=parameters, p0=core.p0, v0=core.v0)
+    angles, beyond = dynamicsymbols("alpha1:4"), [sum(MASSES[i + 1:]) for i in range(3)]
+    kinetic = sum((J + (m / 4 + after) * length**2) * angle.diff(T) ** 2 / 2
+                  for angle, length, m, J, after in zip(angles, LENGTHS, MASSES, inertias, beyond, strict=True))
+    kinetic += sum((MASSES[j] / 2 + beyond[j]) * LENGTHS[i] * LENGTHS[j] * sp.cos(angles[j] - angles[i])
+                   * angles[i].diff(T) * angles[j].diff(T) for i, j in ((0, 1), (0, 2), (1, 2)))
+    potential = sum((m / 2 + after) * length * GRAVITY * sp.sin(angle)
+                    for angle, length, m, after in zip(angles, LENGTHS, MASSES, beyond, strict=True))
+    closure = [sum(length * of(angle) for angle, length in zip(angles, LENGTHS, strict=True)) for of in (sp.cos, sp.sin)]
+    constraints = [closure[0] - GROUND, closure[1]] + ([] if drive is None else [angles[0] - drive])
+    return zd.symbolic(angles, kinetic=kinetic, potential=potential, constraints=constraints, parameters=parameters, p0=core.p0,
+                       v0=core.v0)
 
 
 def driven_four_bar_of_parameters():

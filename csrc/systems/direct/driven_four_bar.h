@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
-enum { ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS = 18, ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS = 51 };
+enum { ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS = 18, ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS = 46 };
 
 extern const zd_direct zd_driven_four_bar_direct[];
 /* What follows from the parameters, which the first of these doubles are. */

@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Where among the constants of the system those of its direct functions begin, and where they end. */
-enum { ZD_FOUR_BAR_DIRECT_BEGINS = 14, ZD_FOUR_BAR_DIRECT_ENDS = 41 };
+enum { ZD_FOUR_BAR_DIRECT_BEGINS = 14, ZD_FOUR_BAR_DIRECT_ENDS = 36 };
 
 extern const zd_direct zd_four_bar_direct[];
 /* What follows from the parameters, which the first of these doubles are. */

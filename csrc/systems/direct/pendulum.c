@@ -96,21 +96,23 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
-    const zd_real x18 = p0 * k[6];
-    const zd_real x31 = 1.0 / x18;
-    const zd_real x33 = (p1 * k[6]) * x31;
-    const zd_real x35 = k[1] * x33;
-    const zd_real x55 = x31 * ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
-    const zd_real x59 = (1.0 / ZD_FMA(x33, x35, k[1])) * ZD_FMS(x35, x55, k[5]);
-    const zd_real x62 = ZD_FNMA(x33, x59, x55);
-    vdot[0] = x62;
-    vdot[1] = x59;
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x40 = k[1] * x20;
+    const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
+    const zd_real x48 = 1.0 / (x19 * x46);
+    const zd_real x49 = x46 * x48;
+    const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
+    const zd_real x76 = (x19 * x48) * ZD_FNMA(x19, k[5] * x19, x40 * x68);
+    const zd_real x82 = ZD_FNMA(x76, x20 * x49, x49 * x68);
+    vdot[0] = x82;
+    vdot[1] = x76;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x31 * (k[1] * x62));
+        if (lambda) lambda[0] = -(x49 * (k[1] * x82));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
-        pivots[0] = x18;
+        pivots[0] = x19;
         pivots[1] = ZD_SPLAT(1.0);
     }
     return ZD_DONE;
@@ -130,22 +132,23 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
-    const zd_real x17 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
-    const zd_real x18 = p0 * k[6];
-    const zd_real x19 = p1 * k[6];
-    const zd_real x31 = 1.0 / x18;
-    const zd_real x33 = x19 * x31;
-    const zd_real x35 = k[1] * x33;
-    const zd_real x40 = 1.0 / ZD_FMA(x33, x35, k[1]);
-    const zd_real x73 = x17 * x31;
-    const zd_real x76 = x40 * (x35 * x73);
-    const zd_real x80 = x31 * ZD_FMA(x19, v1, x18 * v0);
-    const zd_real x83 = x40 * (x35 * x80);
-    Phi[0] = x17;
-    dp[0] = ZD_FNMA(x33, x76, x73);
-    dp[1] = x76;
-    dv[0] = ZD_FNMA(x33, x83, x80);
-    dv[1] = x83;
+    const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x40 = k[1] * x20;
+    const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
+    const zd_real x48 = 1.0 / (x19 * x46);
+    const zd_real x49 = x46 * x48;
+    const zd_real x50 = x19 * x48;
+    const zd_real x78 = x20 * x49;
+    const zd_real x94 = ZD_FMA(x20, v1, x19 * v0);
+    const zd_real x97 = x50 * (x18 * x40);
+    const zd_real x105 = x50 * (x40 * x94);
+    Phi[0] = x18;
+    dp[0] = ZD_FNMA(x78, x97, x18 * x49);
+    dp[1] = x97;
+    dv[0] = ZD_FNMA(x78, x105, x49 * x94);
+    dv[1] = x105;
     return ZD_DONE;
 }
 
@@ -170,44 +173,47 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
-    const zd_real x17 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
-    Phi[0] = x17;
+    const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
+    Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
-        const zd_real x18 = p0 * k[6];
-        const zd_real x19 = p1 * k[6];
-        const zd_real x31 = 1.0 / x18;
-        const zd_real x33 = x19 * x31;
-        const zd_real x35 = k[1] * x33;
-        const zd_real x40 = 1.0 / ZD_FMA(x33, x35, k[1]);
-        const zd_real x73 = x17 * x31;
-        const zd_real x76 = x40 * (x35 * x73);
-        dp[0] = ZD_FNMA(x33, x76, x73);
-        dp[1] = x76;
+        const zd_real x19 = p0 * k[6];
+        const zd_real x20 = p1 * k[6];
+        const zd_real x40 = k[1] * x20;
+        const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
+        const zd_real x48 = 1.0 / (x19 * x46);
+        const zd_real x49 = x46 * x48;
+        const zd_real x50 = x19 * x48;
+        const zd_real x78 = x20 * x49;
+        const zd_real x97 = x50 * (x18 * x40);
+        dp[0] = ZD_FNMA(x78, x97, x18 * x49);
+        dp[1] = x97;
         return ZD_NO_CONVERGENCE;
     }
-    const zd_real x18 = p0 * k[6];
-    const zd_real x19 = p1 * k[6];
-    const zd_real x31 = 1.0 / x18;
-    const zd_real x33 = x19 * x31;
-    const zd_real x35 = k[1] * x33;
-    const zd_real x40 = 1.0 / ZD_FMA(x33, x35, k[1]);
-    const zd_real x92 = x31 * ZD_FMA(x19, before1, x18 * before0);
-    const zd_real x95 = x40 * (x35 * x92);
-    const zd_real v0 = before0 - ZD_FNMA(x33, x95, x92);
-    const zd_real v1 = before1 - x95;
-    const zd_real x99 = (k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0)) * x31;
-    const zd_real x105 = x40 * ZD_FMA(x35, x99, k[5]);
-    const zd_real x109 = ZD_FMS(x33, x105, x99);
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x40 = k[1] * x20;
+    const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
+    const zd_real x48 = 1.0 / (x19 * x46);
+    const zd_real x49 = x46 * x48;
+    const zd_real x50 = x19 * x48;
+    const zd_real x78 = x20 * x49;
+    const zd_real x115 = ZD_FMA(x20, before1, x19 * before0);
+    const zd_real x118 = x50 * (x40 * x115);
+    const zd_real v0 = before0 - ZD_FNMA(x78, x118, x49 * x115);
+    const zd_real v1 = before1 - x118;
+    const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
+    const zd_real x128 = x50 * ZD_FMA(x28, x40, x19 * (k[5] * x19));
+    const zd_real x134 = ZD_FNMA(x28, x49, x78 * x128);
     v[0] = v0;
     v[1] = v1;
-    vdot[0] = x109;
-    vdot[1] = -x105;
+    vdot[0] = x134;
+    vdot[1] = -x128;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x31 * (k[1] * x109));
+        if (lambda) lambda[0] = -(x49 * (k[1] * x134));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
-        pivots[0] = x18;
+        pivots[0] = x19;
         pivots[1] = ZD_SPLAT(1.0);
     }
     return ZD_DONE;
@@ -233,21 +239,23 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
-    const zd_real x19 = p1 * k[6];
-    const zd_real x42 = 1.0 / x19;
-    const zd_real x44 = (p0 * k[6]) * x42;
-    const zd_real x46 = k[1] * x44;
-    const zd_real x117 = x42 * ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
-    const zd_real x123 = (1.0 / ZD_FMA(x44, x46, k[1])) * ZD_FMA(k[5], x44, x46 * x117);
-    const zd_real x126 = ZD_FNMA(x44, x123, x117);
-    vdot[0] = x123;
-    vdot[1] = x126;
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x42 = k[1] * x19;
+    const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
+    const zd_real x64 = 1.0 / (x20 * x46);
+    const zd_real x65 = x46 * x64;
+    const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
+    const zd_real x148 = (x20 * x64) * ZD_FMA(x20, k[5] * x19, x42 * x68);
+    const zd_real x156 = ZD_FNMA(x148, x19 * x65, x65 * x68);
+    vdot[0] = x148;
+    vdot[1] = x156;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x42 * ZD_FMA(k[1], x126, k[5]));
+        if (lambda) lambda[0] = -(x65 * ZD_FMA(k[1], x156, k[5]));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
-        pivots[0] = x19;
+        pivots[0] = x20;
         pivots[1] = ZD_SPLAT(1.0);
     }
     return ZD_DONE;
@@ -267,22 +275,23 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
     (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
-    const zd_real x17 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
-    const zd_real x18 = p0 * k[6];
-    const zd_real x19 = p1 * k[6];
-    const zd_real x42 = 1.0 / x19;
-    const zd_real x44 = x18 * x42;
-    const zd_real x46 = k[1] * x44;
-    const zd_real x51 = 1.0 / ZD_FMA(x44, x46, k[1]);
-    const zd_real x134 = x17 * x42;
-    const zd_real x137 = x51 * (x46 * x134);
-    const zd_real x141 = x42 * ZD_FMA(x19, v1, x18 * v0);
-    const zd_real x144 = x51 * (x46 * x141);
-    Phi[0] = x17;
-    dp[0] = x137;
-    dp[1] = ZD_FNMA(x44, x137, x134);
-    dv[0] = x144;
-    dv[1] = ZD_FNMA(x44, x144, x141);
+    const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x42 = k[1] * x19;
+    const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
+    const zd_real x64 = 1.0 / (x20 * x46);
+    const zd_real x65 = x46 * x64;
+    const zd_real x66 = x20 * x64;
+    const zd_real x94 = ZD_FMA(x20, v1, x19 * v0);
+    const zd_real x152 = x19 * x65;
+    const zd_real x166 = x66 * (x18 * x42);
+    const zd_real x174 = x66 * (x42 * x94);
+    Phi[0] = x18;
+    dp[0] = x166;
+    dp[1] = ZD_FNMA(x152, x166, x18 * x65);
+    dv[0] = x174;
+    dv[1] = ZD_FNMA(x152, x174, x65 * x94);
     return ZD_DONE;
 }
 
@@ -307,44 +316,47 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
     (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
-    const zd_real x17 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
-    Phi[0] = x17;
+    const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
+    Phi[0] = x18;
     if (!(fabs(Phi[0]) <= allowed[0])) {
-        const zd_real x18 = p0 * k[6];
-        const zd_real x19 = p1 * k[6];
-        const zd_real x42 = 1.0 / x19;
-        const zd_real x44 = x18 * x42;
-        const zd_real x46 = k[1] * x44;
-        const zd_real x51 = 1.0 / ZD_FMA(x44, x46, k[1]);
-        const zd_real x134 = x17 * x42;
-        const zd_real x137 = x51 * (x46 * x134);
-        dp[0] = x137;
-        dp[1] = ZD_FNMA(x44, x137, x134);
+        const zd_real x19 = p0 * k[6];
+        const zd_real x20 = p1 * k[6];
+        const zd_real x42 = k[1] * x19;
+        const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
+        const zd_real x64 = 1.0 / (x20 * x46);
+        const zd_real x65 = x46 * x64;
+        const zd_real x66 = x20 * x64;
+        const zd_real x152 = x19 * x65;
+        const zd_real x166 = x66 * (x18 * x42);
+        dp[0] = x166;
+        dp[1] = ZD_FNMA(x152, x166, x18 * x65);
         return ZD_NO_CONVERGENCE;
     }
-    const zd_real x18 = p0 * k[6];
-    const zd_real x19 = p1 * k[6];
-    const zd_real x42 = 1.0 / x19;
-    const zd_real x44 = x18 * x42;
-    const zd_real x46 = k[1] * x44;
-    const zd_real x51 = 1.0 / ZD_FMA(x44, x46, k[1]);
-    const zd_real x148 = x42 * ZD_FMA(x19, before1, x18 * before0);
-    const zd_real x151 = x51 * (x46 * x148);
-    const zd_real v0 = before0 - x151;
-    const zd_real v1 = before1 - ZD_FNMA(x44, x151, x148);
-    const zd_real x155 = (k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0)) * x42;
-    const zd_real x160 = x51 * ZD_FNMA(x46, x155, k[5] * x44);
-    const zd_real x163 = ZD_FMA(x44, x160, x155);
+    const zd_real x19 = p0 * k[6];
+    const zd_real x20 = p1 * k[6];
+    const zd_real x42 = k[1] * x19;
+    const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
+    const zd_real x64 = 1.0 / (x20 * x46);
+    const zd_real x65 = x46 * x64;
+    const zd_real x66 = x20 * x64;
+    const zd_real x115 = ZD_FMA(x20, before1, x19 * before0);
+    const zd_real x152 = x19 * x65;
+    const zd_real x182 = x66 * (x42 * x115);
+    const zd_real v0 = before0 - x182;
+    const zd_real v1 = before1 - ZD_FNMA(x152, x182, x65 * x115);
+    const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
+    const zd_real x191 = x66 * ZD_FNMA(x28, x42, x20 * (k[5] * x19));
+    const zd_real x197 = ZD_FMA(x152, x191, x28 * x65);
     v[0] = v0;
     v[1] = v1;
-    vdot[0] = x160;
-    vdot[1] = -x163;
+    vdot[0] = x191;
+    vdot[1] = -x197;
     if (lambda || power) {
-        if (lambda) lambda[0] = x42 * ZD_FMS(k[1], x163, k[5]);
+        if (lambda) lambda[0] = x65 * ZD_FMS(k[1], x197, k[5]);
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
-        pivots[0] = x19;
+        pivots[0] = x20;
         pivots[1] = ZD_SPLAT(1.0);
     }
     return ZD_DONE;

@@ -8,9 +8,10 @@ import numpy as np
 
 from . import direct_emission, orders
 from .direct_emission import Bounded
-from .elimination import Elimination
+from .joint import elimination
 from .lowering import Lowering
 from .plain import NAMED, Function
+from .restoring import restored
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
 HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/system.h>",
@@ -43,20 +44,14 @@ def _sympy() -> Any:
     return sympy
 
 
-def _restored(program: dict[str, Any]) -> Bounded:
-    lowering = Bounded(None)
-    for code, *arguments in program["operations"]:
-        lowering.emit(code, *([_function(arguments[0]), *arguments[1:]] if code == "call" else arguments))
-    return lowering
-
-
 def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
           lengths: np.ndarray, *, offset: int, symbol: str, heading: list[str] | None = None,
           file: str = "system.c", lanes_header: str = "<zerodrift/lanes.h>", data: str = "data") -> tuple[str, int]:
     """The C source and its number of constants; raises `Unwritten` where no order serves, or there are too many operations."""
-    lowering, terms = _restored(program), program["terms"]
+    lowering = Bounded(None)
+    terms = restored(lowering, program["operations"], program["terms"], _function)
     chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
-    eliminations = [Elimination(lowering, terms, sizes, order) for order in chosen]
+    eliminations = [elimination(lowering, terms, sizes, order) for order in chosen]
     functions = [{"accelerate": each.accelerations()} | ({"correct": each.corrections(), "land": each.landing()}
                                                          if each.order else {"correct": {}, "land": {}})
                  for each in eliminations]

@@ -7,18 +7,16 @@ eliminated from each row (block LU), C x = rhs becomes x = x0 + D a, and with fo
     dp   = A (x0 + D a),    D^T M D a = -(M D)^T x0,    C x0 = [Phi; 0]         and dv likewise from Psi
     C_s^T lambda = (f - d - M vdot)_s                   s: the velocities that are solved for
 
-D^T M D is factored as L D L^T. Zeros and ones take no operations, and no operation is written twice.
+Zeros and ones take no operations, and no operation is written twice.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
+from .arithmetic import Arithmetic, Matrix, Vector, adjugate
 from .lowering import Lowering
-
-Vector = list[int]      # of operations, as is a
-Matrix = list[Vector]
+from .reduced_mass import ReducedMass
 
 
 class Solve(NamedTuple):
@@ -35,79 +33,6 @@ class Unwritten(Exception):
     """Why there is no elimination that is worth writing."""
 
 
-class Arithmetic:
-    """Operations with those left out that do nothing."""
-
-    def __init__(self, lowering: Lowering) -> None:
-        self.lowering = lowering
-        self.zero, self.one, self._minus_one = (lowering.emit("number", value) for value in (0.0, 1.0, -1.0))
-
-    def _negated(self, a: int) -> int | None:
-        """What an operation is the negative of."""
-        operation = self.lowering.operations[a]
-        return operation.arguments[0] if operation.code == "negative" else None
-
-    def minus(self, a: int) -> int:
-        if a == self.zero:
-            return a
-        inner = self._negated(a)
-        if inner is not None:
-            return inner
-        return self.lowering.emit("number", -1.0) if a == self.one else self.one if a == self._minus_one else (
-            self.lowering.emit("negative", a))
-
-    def plus(self, a: int, b: int) -> int:
-        if self.zero in (a, b):
-            return a if b == self.zero else b
-        if (inner := self._negated(b)) is not None:
-            return self.difference(a, inner)
-        if (inner := self._negated(a)) is not None:
-            return self.difference(b, inner)
-        return self.lowering.emit("+", a, b)
-
-    def difference(self, a: int, b: int) -> int:
-        if b == self.zero:
-            return a
-        if a == self.zero:
-            return self.minus(b)
-        if a == b:
-            return self.zero
-        if (inner := self._negated(b)) is not None:
-            return self.plus(a, inner)
-        if (inner := self._negated(a)) is not None:
-            return self.minus(self.plus(inner, b))
-        return self.lowering.emit("-", a, b)
-
-    def times(self, a: int, b: int) -> int:
-        if self.zero in (a, b):
-            return self.zero
-        for x, y in ((a, b), (b, a)):
-            if x == self.one:
-                return y
-            if x == self._minus_one:
-                return self.minus(y)
-            if (inner := self._negated(x)) is not None:
-                return self.minus(self.times(inner, y))
-        return self.lowering.emit("*", a, b)
-
-    def over(self, a: int, b: int) -> int:
-        if a == self.zero or b == self.one:
-            return a
-        for x, value in ((a, lambda inner: self.over(inner, b)), (b, lambda inner: self.over(a, inner))):
-            if (inner := self._negated(x)) is not None:
-                return self.minus(value(inner))
-        return self.lowering.emit("/", a, b)
-
-    def sum(self, terms: Sequence[int]) -> int:
-        total = self.zero
-        for term in terms:
-            total = self.plus(total, term)
-        return total
-
-    def dot(self, a: Sequence[int], b: Sequence[int]) -> int:
-        return self.sum([self.times(x, y) for x, y in zip(a, b, strict=True)])
-
-
 class Elimination:
     """The constraints eliminated along one order; `terms` are the operations of A, M, d, f, Phi, C, Phi_t, xi, power."""
 
@@ -122,7 +47,7 @@ class Elimination:
         self.free = [j for j in range(self.nv) if j not in solved]
         self.D = self._complement()
         self.MD = [[do.dot(row, column) for column in _transposed(self.D, len(self.free))] for row in self.M]
-        self._factor_mass()
+        self.mass = self._reduced_mass()
 
     def _vector(self, name: str, size: int) -> Vector:
         return self.terms.get(name) or [self.do.zero] * size
@@ -157,21 +82,9 @@ class Elimination:
 
     def _inverse(self, B: Matrix) -> tuple[Matrix, int]:
         """The inverse of a matrix of up to three rows, and its determinant."""
-        do = self.do
-        if len(B) == 1:
-            return [[do.over(do.one, B[0][0])]], B[0][0]
-        adjugate = [[self._cofactor(B, i, j) for i in range(len(B))] for j in range(len(B))]
-        determinant = do.dot(B[0], [row[0] for row in adjugate])
+        do, (entries, determinant) = self.do, adjugate(self.do, B)
         share = do.over(do.one, determinant)
-        return [[do.times(entry, share) for entry in row] for row in adjugate], determinant
-
-    def _cofactor(self, B: Matrix, i: int, j: int) -> int:
-        do = self.do
-        rest = [[entry for b, entry in enumerate(row) if b != j] for a, row in enumerate(B) if a != i]
-        minor = rest[0][0]
-        if len(rest) == 2:
-            minor = do.difference(do.times(rest[0][0], rest[1][1]), do.times(rest[0][1], rest[1][0]))
-        return minor if (i + j) % 2 == 0 else do.minus(minor)
+        return [[do.times(entry, share) for entry in row] for row in entries], determinant
 
     def _backwards(self, x: Vector, right: Vector) -> Vector:
         """X, of which the free entries are given, with U x = right."""
@@ -219,32 +132,13 @@ class Elimination:
 
     # ---- D^T M D ----
 
-    def _factor_mass(self) -> None:
-        """D^T M D = L diag(d) L^T, 1 / d, and the share of each diagonal entry that is left as its d."""
-        do, r = self.do, len(self.free)
-        columns, MD = _transposed(self.D, r), _transposed(self.MD, r)
-        scaled: Matrix = [[do.zero] * r for _ in range(r)]      # L diag(d)
-        self.mass_L: Matrix = [[do.zero] * r for _ in range(r)]
-        self.mass_inverse: Vector = []
-        self.shares: Vector = []
-        for b in range(r):
-            for a in range(b, r):
-                taken = do.dot(self.mass_L[b][:b], scaled[a][:b])
-                scaled[a][b] = do.difference(do.dot(columns[a], MD[b]), taken)
-                if a == b:
-                    self.mass_inverse.append(do.over(do.one, scaled[b][b]))
-                    self.shares.append(do.one if taken == do.zero else do.over(scaled[b][b], do.plus(scaled[b][b], taken)))
-                self.mass_L[a][b] = do.times(scaled[a][b], self.mass_inverse[b])
+    def _reduced_mass(self) -> ReducedMass:
+        columns, MD = (_transposed(matrix, len(self.free)) for matrix in (self.D, self.MD))
+        return ReducedMass(self.do, [[self.do.dot(column, each) for each in MD] for column in columns], self._inverted)
 
-    def _along(self, right: Vector) -> Vector:
-        """A with D^T M D a = right."""
-        do, r, a = self.do, len(self.free), list(right)
-        for i in range(r):
-            a[i] = do.difference(a[i], do.sum([do.times(self.mass_L[i][c], a[c]) for c in range(i)]))
-        a = [do.times(value, inverse) for value, inverse in zip(a, self.mass_inverse, strict=True)]
-        for i in reversed(range(r)):
-            a[i] = do.difference(a[i], do.sum([do.times(self.mass_L[c][i], a[c]) for c in range(i + 1, r)]))
-        return a
+    def _inverted(self, determinant: int) -> int:
+        """1 / the determinant of a block of D^T M D."""
+        return self.do.over(self.do.one, determinant)
 
     def solution(self, force: Vector | None, right: Vector) -> Vector:
         """X with M x + C^T lambda = force and C x = right."""
@@ -252,7 +146,7 @@ class Elimination:
         along = [do.minus(do.dot(column, x0)) for column in _transposed(self.MD, r)]
         if force is not None:
             along = [do.plus(do.dot(column, force), value) for column, value in zip(_transposed(self.D, r), along, strict=True)]
-        a = self._along(along)
+        a = self.mass.solve(along)
         return [do.plus(x, do.dot(row, a)) for x, row in zip(x0, self.D, strict=True)]
 
     # ---- what is wanted ----
@@ -271,7 +165,7 @@ class Elimination:
         multipliers = self.multipliers(rest)
         power = do.plus(self._vector("power", 1)[0], do.dot(multipliers, self._vector("Phi_t", self.m)))
         return {"pdot": self._rates(v) if "A" in self.terms else [], "vdot": vdot, "lambda": multipliers, "power": [power],
-                "pivots": self.determinants + self.shares}
+                "pivots": self.determinants + self.mass.shares}
 
     def corrections(self) -> dict[str, Vector]:
         """Phi, dp and dv."""

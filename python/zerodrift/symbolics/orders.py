@@ -3,6 +3,8 @@
 Configurations are drawn at random and brought onto the constraints by Newton's method. An order is found greedily: of the
 solves whose determinants are large in all configurations that are left, the one of the fewest rows that fills in the fewest
 entries is next. Where none is large in all of them, configurations are given up for the next order to serve; the start is not.
+Two or three rows that move are solved at once where that serves as many configurations: one division takes less time than two, of
+which the second waits for the first.
 """
 
 from __future__ import annotations
@@ -48,7 +50,7 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
         raise Unwritten(f"{unknown} is no function of NumPy's") from None
     orders: list[Order] = []
     while len(orders) < MOST and len(C):
-        order, served = _Search(C, LARGE).run()
+        order, served = max((_Search(C, LARGE, at_once).run() for at_once in (True, False)), key=lambda each: each[1].sum())
         if not served.any() and not orders:     # the start ought to be served, if less well
             order, served = _Search(C, ENOUGH).run()
         if not served.any():
@@ -97,8 +99,8 @@ def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> n
 class _Search:
     """The search for one order that serves as many configurations C (k, m, nv) as it can, the first of them before all others."""
 
-    def __init__(self, C: np.ndarray, large: dict[int, float]) -> None:
-        self.large = large
+    def __init__(self, C: np.ndarray, large: dict[int, float], at_once: bool = False) -> None:
+        self.large, self.at_once = large, at_once
         self.C, self.entries = C.copy(), C != 0
         self.entries[:] = self.entries.any(axis=0)
         self.served = np.ones(len(C), dtype=bool)
@@ -118,7 +120,7 @@ class _Search:
     def _best(self) -> Solve | None:
         """Of the fewest rows, a solve that is large everywhere; else the one that is so in the most configurations."""
         partial: list[tuple[int, Solve, np.ndarray]] = []
-        for size in range(1, min(3, len(self.rows)) + 1):
+        for size in self._sizes():
             full = []
             for solve, determinants in self._candidates(size):
                 large = (determinants >= self.large[size]) & self.served
@@ -133,6 +135,12 @@ class _Search:
         count, solve, large = max(partial, key=lambda each: (each[0], -len(each[1].rows)))
         self.served = large
         return solve if count else None
+
+    def _sizes(self) -> list[int]:
+        """How many rows are solved at once, in order of preference."""
+        sizes = list(range(1, min(3, len(self.rows)) + 1))
+        moving = np.ptp(self.C[:, sorted(self.rows)], axis=0).any(axis=1)
+        return sizes[::-1] if self.at_once and len(self.rows) <= 3 and moving.all() else sizes
 
     def _candidates(self, size: int) -> Iterator[tuple[Solve, np.ndarray]]:
         """Solves of so many rows, and the sizes of their determinants (k,)."""

@@ -1,0 +1,99 @@
+"""Arithmetic with operations of a program: sums, products and small determinants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .lowering import Lowering
+
+Vector = list[int]      # of operations, as is a
+Matrix = list[Vector]
+
+
+class Arithmetic:
+    """Operations with those left out that do nothing."""
+
+    def __init__(self, lowering: Lowering) -> None:
+        self.lowering = lowering
+        self.zero, self.one, self._minus_one = (lowering.emit("number", value) for value in (0.0, 1.0, -1.0))
+
+    def _negated(self, a: int) -> int | None:
+        """What an operation is the negative of."""
+        operation = self.lowering.operations[a]
+        return operation.arguments[0] if operation.code == "negative" else None
+
+    def minus(self, a: int) -> int:
+        if a == self.zero:
+            return a
+        inner = self._negated(a)
+        if inner is not None:
+            return inner
+        return self.lowering.emit("number", -1.0) if a == self.one else self.one if a == self._minus_one else (
+            self.lowering.emit("negative", a))
+
+    def plus(self, a: int, b: int) -> int:
+        if self.zero in (a, b):
+            return a if b == self.zero else b
+        if (inner := self._negated(b)) is not None:
+            return self.difference(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.difference(b, inner)
+        return self.lowering.emit("+", a, b)
+
+    def difference(self, a: int, b: int) -> int:
+        if b == self.zero:
+            return a
+        if a == self.zero:
+            return self.minus(b)
+        if a == b:
+            return self.zero
+        if (inner := self._negated(b)) is not None:
+            return self.plus(a, inner)
+        if (inner := self._negated(a)) is not None:
+            return self.minus(self.plus(inner, b))
+        return self.lowering.emit("-", a, b)
+
+    def times(self, a: int, b: int) -> int:
+        if self.zero in (a, b):
+            return self.zero
+        for x, y in ((a, b), (b, a)):
+            if x == self.one:
+                return y
+            if x == self._minus_one:
+                return self.minus(y)
+            if (inner := self._negated(x)) is not None:
+                return self.minus(self.times(inner, y))
+        return self.lowering.emit("*", a, b)
+
+    def over(self, a: int, b: int) -> int:
+        if a == self.zero or b == self.one:
+            return a
+        for x, value in ((a, lambda inner: self.over(inner, b)), (b, lambda inner: self.over(a, inner))):
+            if (inner := self._negated(x)) is not None:
+                return self.minus(value(inner))
+        return self.lowering.emit("/", a, b)
+
+    def sum(self, terms: Sequence[int]) -> int:
+        total = self.zero
+        for term in terms:
+            total = self.plus(total, term)
+        return total
+
+    def dot(self, a: Sequence[int], b: Sequence[int]) -> int:
+        return self.sum([self.times(x, y) for x, y in zip(a, b, strict=True)])
+
+
+def adjugate(do: Arithmetic, B: Matrix) -> tuple[Matrix, int]:
+    """The determinant of a matrix of up to three rows times its inverse, and the determinant."""
+    if len(B) == 1:
+        return [[do.one]], B[0][0]
+    entries = [[_cofactor(do, B, i, j) for i in range(len(B))] for j in range(len(B))]
+    return entries, do.dot(B[0], [row[0] for row in entries])
+
+
+def _cofactor(do: Arithmetic, B: Matrix, i: int, j: int) -> int:
+    rest = [[entry for b, entry in enumerate(row) if b != j] for a, row in enumerate(B) if a != i]
+    minor = rest[0][0]
+    if len(rest) == 2:
+        minor = do.difference(do.times(rest[0][0], rest[1][1]), do.times(rest[0][1], rest[1][0]))
+    return minor if (i + j) % 2 == 0 else do.minus(minor)
