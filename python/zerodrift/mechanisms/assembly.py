@@ -87,9 +87,9 @@ class Assembly:
         residual, _ = self._residual(p, held)
         return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
 
-    def led_to(self, p: np.ndarray) -> np.ndarray:
-        """From positions at another time to those to which drives lead."""
-        return self._track(p, ())
+    def led_to(self, p: np.ndarray, held: Sequence[Target] = ()) -> np.ndarray:
+        """From closed positions, as at another time, to those to which drives lead, and what is held."""
+        return self._track(p, held)
 
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""

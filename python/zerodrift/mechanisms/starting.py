@@ -56,18 +56,24 @@ class Starting:
 
         Drives of constant speed count from t = 0, and so does then what is held: from there they lead to their places at t.
         """
-        tables = self._tables(self.drives)
-        assembly = self._assembly(tables, t)
-        p = assembly.led_to(self.assembled(0.0)[1]) if t and self.has_speeds else self._positions(tables, assembly)
+        tables, assembly, p = self.closed(t)
         self._check_mass(tables, assembly, p)
         return assembly, p
+
+    def closed(self, t: float) -> tuple[Tables, Assembly, np.ndarray]:
+        """The same with its tables, and whatever moves without mass."""
+        tables = self._tables(self.drives)
+        assembly = self._assembly(tables, t)
+        if t and self.has_speeds:
+            return tables, assembly, assembly.led_to(self.closed(0.0)[2])
+        return tables, assembly, self._positions(tables, assembly)
 
     def at(self, t: float, *, nudge: bool = False) -> tuple[np.ndarray, np.ndarray]:
         """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged a little, where asked for."""
         assembly, p = self.assembled(t)
         if nudge:
             p = assembly.nudged(p, set())
-        held, wished = (self._targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
+        held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
         return assembly.core.poses(p, assembly.velocities(p, held, wished))
 
     def _tables(self, starts: Mapping[str, float]) -> Tables:
@@ -92,7 +98,7 @@ class Starting:
 
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
         p, _ = assembly.core.state(self.drawn(tables))
-        held, wished = (self._targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
+        held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
         try:
             return assembly.positions(p, held, wished)
         except CorrectionFailed:
@@ -100,7 +106,7 @@ class Starting:
         except InconsistentStart as error:
             raise InconsistentStart(f"{error}{self._loop_in_words()}") from None
 
-    def _targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool) -> list[Target]:
+    def targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool = False) -> list[Target]:
         """The components of what is held or wished, of positions or of velocities."""
         if not given:
             return []

@@ -1,0 +1,1 @@
+"""Motions without forces: positions of a mechanism along its one freedom."""

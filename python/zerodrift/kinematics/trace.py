@@ -1,0 +1,172 @@
+"""`trace`: the positions of a mechanism by the values of a measure."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..mechanisms.measures import name_of
+from ..mechanisms.system import MechanismSystem
+from ..systems.base import system_of
+from . import walk
+from .curve import Knot, Segment
+from .motion import Motion
+from .traced import DeadPoint, Reach, Trace
+
+
+def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), through: bool = False, count: int = 361) -> Trace:
+    """The positions of a mechanism at given values of a measure, such as the angles of its crank; no forces, no time.
+
+    All positions lie on the branch on which the mechanism starts, as drawn or as `start` says: it is followed in small steps.
+    Motors and actuators that prescribe a motion are left out, as the measure takes their place.
+
+    Parameters
+    ----------
+    system : Mechanism or its system
+        Besides what is held it has one freedom.
+    measure : measure or str
+        A scalar measure of positions: ``crank.angle``, ``"slide.displacement"``, ``"P.position.x"``.
+    values : array_like (k,), optional
+        In rad or m, in any order. Left out: `count` positions over a full turn of an angle that turns fully; of everything else,
+        from the start through all dead points until the mechanism is back, evenly along the way.
+    hold : dict of measure to value, or measures, optional
+        What stays where it is put, or where it starts: one measure for each freedom more than one.
+    through : bool
+        Whether the way is never gone back: then, where values turn, it goes on through the next dead point and has them on the
+        branch behind it. False: all values lie between the same two dead points.
+    count : int
+        How many positions where values are left out, besides dead points.
+
+    Returns
+    -------
+    Trace
+
+    Raises
+    ------
+    ValueError
+        If there is no such measure; if a value is out of reach, which says where the dead point is; if values turn back where no
+        dead point follows.
+    SingularSystem
+        If the mechanism has another number of freedoms than one; the error says what to hold.
+
+    Notes
+    -----
+    A dead point is where a measure turns back while the mechanism goes on: of a crank, the positions in which the links behind it
+    are in one line. `trace` steps along the arc of all coordinates, for which dead points are points as others are.
+
+    References
+    ----------
+    E. L. Allgower, K. Georg, Introduction to Numerical Continuation Methods, SIAM, 2003.
+
+    Examples
+    --------
+    The path of the toe of Jansen's leg over a turn of its crank:
+
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> turn = zd.trace(zd.models.jansen(), "crank.angle")
+    >>> turn["F.position"].shape
+    (361, 2)
+    """
+    system = _mechanism(system)
+    motion = Motion(system, name_of(measure, "measure"), hold)
+    _check.instance("through", through, (bool, np.bool_), "True or False")
+    count = _check.count("count", count, least=2)
+    if values is None:
+        return _whole(motion, count)
+    values = _values(values)
+    met = (walk.through if through else walk.on_one_side)(motion, values)
+    x, slopes = motion.curve.positions(met.segments, values)
+    dead = [_dead_point(motion, knot, place) for knot, place in met.dead]
+    return _traced(motion, values, x, slopes, dead)
+
+
+def reach(system: Any, measure: Any, *, hold: Any = ()) -> Reach:
+    """How far a measure can go on the branch on which a mechanism starts: its range, which dead points end, or a full turn.
+
+    Parameters
+    ----------
+    system : Mechanism or its system
+    measure : measure or str
+        As `zerodrift.trace` takes it: the angle of a crank, most of all.
+    hold : dict of measure to value, or measures, optional
+        As there.
+
+    Returns
+    -------
+    Reach
+
+    Raises
+    ------
+    ValueError, SingularSystem
+        As of `trace`.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> leg = zd.models.jansen()
+    >>> zd.reach(leg, "crank.angle").turns_fully
+    True
+    >>> zd.reach(leg, "F.position.y")
+    <reach of F.position.y: -0.9183 ... -0.6938 m, between dead points>
+    """
+    motion = Motion(_mechanism(system), name_of(measure, "measure"), hold)
+    pieces, turned = walk.whole(motion)
+    ends = np.array([segment.last.value for segment in pieces] + [motion.knot.value])
+    dead = tuple(_dead_point(motion, knot) for knot in _dead_knots(pieces))
+    return Reach(motion.measure, motion.unit, *((-np.inf, np.inf) if turned else (float(ends.min()), float(ends.max()))), dead)
+
+
+def _mechanism(system: Any) -> MechanismSystem:
+    system = system_of(system)
+    if not isinstance(system, MechanismSystem):
+        raise TypeError(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
+    return system
+
+
+def _values(given: Any) -> np.ndarray:
+    array = _check.real("values must hold", given, ragged="values must be a regular array, not be")
+    if array.ndim != 1 or not array.size:
+        raise ValueError(f"values must have shape (k,) and at least one entry, not shape {array.shape}")
+    return _check.vector("values", array, array.size)
+
+
+def _whole(motion: Motion, count: int) -> Trace:
+    """All of the branch, or one turn."""
+    pieces, turned = walk.whole(motion)
+    if turned:
+        values = motion.knot.value + np.linspace(0, 2 * np.pi, count)
+        x, slopes = motion.curve.positions(walk.pick(pieces, values), values)
+        return _traced(motion, values, x, slopes, [])
+    ends = np.cumsum([segment.arc for segment in pieces])
+    dead = _dead_knots(pieces)
+    places = [float(ends[i]) for i, segment in enumerate(pieces) if any(segment.last is knot for knot in dead)]
+    arcs = np.sort(np.concatenate([np.linspace(0, ends[-1], count), places]))
+    knots = []
+    for arc in arcs:
+        i = min(int(np.searchsorted(ends, arc)), len(pieces) - 1)
+        is_dead = arc == ends[i] and any(pieces[i].last is knot for knot in dead)
+        knots.append(pieces[i].last if is_dead else motion.curve.at(pieces[i], arc - ends[i] + pieces[i].arc))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slopes = np.array([knot.tangent / knot.slope if knot.slope else np.full(knot.x.size, np.inf) for knot in knots])
+    after = [int(np.searchsorted(arcs, place)) for place in places]
+    return _traced(motion, np.array([knot.value for knot in knots]), np.array([knot.x for knot in knots]), slopes,
+                   [_dead_point(motion, knot, place) for knot, place in zip(dead, after, strict=True)])
+
+
+def _dead_knots(pieces: list[Segment]) -> list[Knot]:
+    """The knots in which the measure turns back."""
+    return [first.last for first, second in itertools.pairwise(pieces) if first.sense != second.sense]
+
+
+def _dead_point(motion: Motion, knot: Knot, place: int | None = None) -> DeadPoint:
+    p, _ = motion.coordinates(knot.x[None], np.zeros((1, knot.x.size)))
+    return DeadPoint(knot.value, p[0], place)
+
+
+def _traced(motion: Motion, values: np.ndarray, x: np.ndarray, slopes: np.ndarray, dead: list[DeadPoint]) -> Trace:
+    p, rates = motion.coordinates(x, slopes)
+    return Trace(motion.system, motion.measure, motion.unit, values, p, rates, tuple(dead))

@@ -1,0 +1,178 @@
+"""What `trace` and `reach` return."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check
+from ..mechanisms.measures import name_of
+from ..mechanisms.system import MechanismSystem
+
+
+class DeadPoint(NamedTuple):
+    """Where a measure turns back while the mechanism goes on.
+
+    Attributes
+    ----------
+    value : float
+        Of the measure, in rad or m.
+    p : ndarray (nq,)
+        The position, in the system's coordinates.
+    before : int or None
+        The number of the traced position that comes next, or is the dead point itself.
+    """
+
+    value: float
+    p: np.ndarray
+    before: int | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trace:
+    """Positions of a mechanism by the values of one of its measures; ``trace["P.position"]`` reads any measure of them.
+
+    Attributes
+    ----------
+    system : system
+        Of the mechanism, with its coordinates.
+    measure, unit : str
+        By what it was traced, and "rad" or "m".
+    values : ndarray (k,)
+        Of that measure.
+    p : ndarray (k, nq)
+        The positions, in the coordinates of `system`.
+    slopes : ndarray (k, nq)
+        Their derivatives by the measure; infinite at dead points.
+    dead_points : tuple of DeadPoint
+        Those that were passed, in order.
+    """
+
+    system: MechanismSystem
+    measure: str
+    unit: str
+    values: np.ndarray
+    p: np.ndarray
+    slopes: np.ndarray
+    dead_points: tuple[DeadPoint, ...]
+
+    def __post_init__(self) -> None:
+        for array in (self.values, self.p, self.slopes, *(dead.p for dead in self.dead_points)):
+            array.setflags(write=False)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, name: Any) -> np.ndarray:
+        """A measure of positions at every position.
+
+        Parameters
+        ----------
+        name : str or measure
+
+        Returns
+        -------
+        ndarray (k,), or (k, 2) of a vector
+
+        Raises
+        ------
+        KeyError
+            If there is none of that name, or it is one of velocities or forces.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> turn = zd.trace(zd.models.chebyshev_lambda(), "crank.angle")
+        >>> turn["rocker.angle"].shape, turn["P.position"].shape
+        ((361,), (361, 2))
+        """
+        place, core = self._find(name), self.system._measuring
+        zeros = np.zeros((len(self), core.nv))
+        return place.pick(core.measure(place.number, np.zeros(len(self)), self.p, zeros))
+
+    def derivative(self, name: Any) -> np.ndarray:
+        """The derivative of a measure by the traced one: a ratio of speeds, and of forces the other way round.
+
+        Parameters
+        ----------
+        name : str or measure
+
+        Returns
+        -------
+        ndarray (k,), or (k, 2) of a vector
+            Infinite at dead points, where the traced measure is at rest and others are not.
+
+        Raises
+        ------
+        KeyError
+            As of ``trace[name]``.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> turn = zd.trace(zd.models.chebyshev_lambda(), "crank.angle")
+        >>> bool(abs(turn.derivative("rocker.angle")[:-1].mean()) < 1e-12)     # it swings, and comes back
+        True
+        """
+        place, core = self._find(name), self.system._measuring
+        rest = np.zeros(core.nv)
+        with np.errstate(invalid="ignore"):
+            values = np.array([core.measure_at(place.number, 0.0, p, rest)["row"] @ slope
+                               for p, slope in zip(self.p, self.slopes, strict=True)])
+        return place.pick(values)
+
+    def _find(self, name: Any) -> Any:
+        """Where a measure of positions is found."""
+        name, watching = name_of(name, "name"), self.system._watching
+        place = watching.find(name)
+        if place is None:
+            raise KeyError(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}")
+        depends = self.system._measuring.measure_depends(place.number)
+        if depends != "positions":
+            hint = "; derivative() of a position has its ratio to that of the traced measure" if depends == "velocities" else ""
+            raise KeyError(f"{name!r} depends on {depends}, and a trace has positions alone{hint}")
+        return place
+
+    def _ipython_key_completions_(self) -> list[str]:
+        core = self.system._measuring
+        return [name for name, number in self.system._watching.number.items() if core.measure_depends(number) == "positions"]
+
+    def __repr__(self) -> str:
+        dead = ", ".join(f"{point.value:.6g}" for point in self.dead_points)
+        through = f", through dead points at {dead} {self.unit}" if dead else ""
+        return (f"<trace of {self.system.name}: {len(self)} positions, {self.measure} from {self.values[0]:.6g} to "
+                f"{self.values[-1]:.6g} {self.unit}{through}>")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Reach:
+    """How far a measure can go.
+
+    Attributes
+    ----------
+    measure, unit : str
+    low, high : float
+        The least and the largest value on the branch; infinite where it turns fully.
+    dead_points : tuple of DeadPoint
+        In the order in which they are met when the measure grows from the start; none where it turns fully.
+    """
+
+    measure: str
+    unit: str
+    low: float
+    high: float
+    dead_points: tuple[DeadPoint, ...]
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether there is no end, as of a crank in a four-bar of Grashof's kind."""
+        return not np.isfinite(self.high)
+
+    def __contains__(self, value: float) -> bool:
+        return bool(self.low <= value <= self.high)
+
+    def __repr__(self) -> str:
+        what = "turns fully" if self.turns_fully else f"{self.low:.4g} ... {self.high:.4g} {self.unit}, between dead points"
+        return f"<reach of {self.measure}: {what}>"

@@ -1,0 +1,140 @@
+"""Which pieces of the curve of positions are gone through: as far as values ask for, a whole turn, or back to the start."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from .curve import Curve, Knot, Segment, touches
+from .motion import Motion
+
+MOST = 20_000           # pieces: a curve that has neither turned nor closed by then has no end
+
+
+class Met(NamedTuple):
+    """Pieces in which values were met, in their order; and dead points passed, each with the place of the next value."""
+
+    segments: list[Segment]
+    dead: list[tuple[Knot, int]]
+
+
+def on_one_side(motion: Motion, values: np.ndarray) -> Met:
+    """Values in any order between the dead points on both sides of the start."""
+    check_start(motion)
+    forward = _as_far_as(motion, motion.knot, values.max(), values)
+    backward = _as_far_as(motion, motion.knot.reversed(), values.min(), values)
+    return Met(pick([segment.reversed() for segment in backward[::-1]] + forward, values), [])
+
+
+def pick(pieces: list[Segment], values: np.ndarray) -> list[Segment]:
+    """Of pieces in which the measure grows, that for each value."""
+    ends = np.array([segment.last.value for segment in pieces])
+    return [pieces[place] for place in np.minimum(np.searchsorted(ends, values), len(pieces) - 1)]
+
+
+def check_start(motion: Motion) -> None:
+    """Refuses to begin where neither way is up."""
+    if motion.knot.slope == 0:
+        raise ValueError(f"{motion.system.name} starts in a dead point of {motion.measure!r}, at {_shown(motion.knot.value)}, or "
+                         "that does not change with its positions: start aside (m.start), or trace another measure")
+
+
+def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> list[Segment]:
+    """The pieces from a knot to a value, at least one of them; a dead point before that is an error."""
+    pieces: list[Segment] = []
+    for segment in itertools.islice(motion.curve.segments(knot), MOST):
+        if pieces and segment.sense != pieces[0].sense:
+            break
+        pieces.append(segment)
+        if (segment.last.value - last) * segment.sense >= 0:
+            return pieces
+    dead = pieces[-1].last.value
+    if touches(dead, last):
+        return pieces
+    raise _beyond(motion, dead, last, values)
+
+
+def _beyond(motion: Motion, dead: float, value: float, values: np.ndarray) -> ValueError:
+    """The error that says which value cannot be reached, and where the dead point is."""
+    place, side = int(np.flatnonzero(values == value)[0]), "least" if value < dead else "largest"
+    return ValueError(f"values[{place}] = {_shown(value)} is out of reach: the {side} value of {motion.measure!r}, at a dead "
+                      f"point, is {_shown(dead)} {motion.unit}")
+
+
+def through(motion: Motion, values: np.ndarray) -> Met:
+    """Values one after the other, never back: where they turn, the curve goes on through the next dead point."""
+    check_start(motion)
+    pieces = motion.curve.segments(_first(motion, values))
+    segment, found, dead = next(pieces), [], []
+    for i, value in enumerate(values):
+        if i and (value - values[i - 1]) * segment.sense < 0:
+            segment = _after_dead_point(motion, segment, pieces, i, values)
+            dead.append((segment.first, i))
+        while (value - segment.last.value) * segment.sense > 0 and not _ends_at(segment, value):
+            following = next(pieces)
+            if following.sense != segment.sense:
+                raise _beyond(motion, segment.last.value, value, values)
+            segment = following
+        found.append(segment)
+    return Met(found, dead)
+
+
+def _first(motion: Motion, values: np.ndarray) -> Knot:
+    """The first value on the branch of the start, in the sense of the values; a dead point is left towards the start."""
+    first = on_one_side(motion, values[:1]).segments[0]
+    if _ends_at(first, values[0]):
+        return first.last.reversed()
+    if first.first.slope == 0 and touches(first.first.value, values[0]):
+        return first.first
+    x, _ = motion.curve.positions([first], values[:1])
+    knot = motion.curve.knot(x[0], first.last.x - first.first.x)
+    differences = np.diff(values)[np.diff(values) != 0]
+    return knot if not differences.size or differences[0] > 0 else knot.reversed()
+
+
+def _ends_at(segment: Segment, value: float) -> bool:
+    """Whether a piece ends at a dead point of that value."""
+    return segment.last.slope == 0 and touches(segment.last.value, value)
+
+
+def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment], place: int, values: np.ndarray) -> Segment:
+    """The first piece behind the next dead point."""
+    for following in itertools.islice(pieces, MOST):
+        if following.sense != segment.sense:
+            return following
+        if motion.is_angle and abs(following.last.value - values[place - 1]) > 2 * np.pi:
+            break
+    raise ValueError(f"values turn back at values[{place}] = {_shown(values[place])}, and the branch does not, as "
+                     f"{motion.measure!r} goes on without a dead point; without through=True, values may come in any order")
+
+
+def whole(motion: Motion) -> tuple[list[Segment], bool]:
+    """A turn of the measure, or the curve until it closes, and whether it turned."""
+    start, pieces = motion.knot, []
+    angles = motion.turns()
+    for segment in itertools.islice(motion.curve.segments(start), MOST):
+        pieces.append(segment)
+        if motion.is_angle and segment.last.value - start.value >= 2 * np.pi and all(each.sense > 0 for each in pieces):
+            return pieces, True
+        if len(pieces) > 2 and (closing := _closing(motion.curve, segment, start, angles)) is not None:
+            pieces[-1] = Segment(segment.first, closing, float(np.linalg.norm(closing.x - segment.first.x)) or segment.arc)
+            return pieces, False
+    raise ValueError(f"{motion.measure!r} has no end that was found: it neither turns fully, nor do the positions come back to "
+                     "their start; give values")
+
+
+def _closing(curve: Curve, segment: Segment, start: Knot, angles: np.ndarray) -> Knot | None:
+    """The start, turned on by whole turns, where a piece passes it."""
+    turns = np.where(angles, 2 * np.pi * np.round((segment.last.x - start.x) / (2 * np.pi)), 0.0)
+    before, behind = ((knot.x - turns - start.x) @ start.tangent for knot in (segment.first, segment.last))
+    near = np.linalg.norm(segment.last.x - turns - start.x) <= 1.5 * segment.arc
+    if not (near and before < 0 <= behind and segment.last.tangent @ start.tangent > 0.5):
+        return None
+    return curve.knot(start.x + turns, start.tangent)
+
+
+def _shown(value: float) -> str:
+    return f"{value:.10g}"
