@@ -9,6 +9,7 @@ import zerodrift as zd
 from structured import Bodies
 from support import assert_close, condition, solved
 
+STEPS = {"step": 1e-3}
 LARGEST_CONDITION = 1e9     # beyond, too few digits are left to compare
 
 
@@ -81,4 +82,27 @@ def check_acceleration(seed, formulation):
     bound *= 1e3 * tol.EPS
     assert_close(got, vdot, bound, scale=1.0, what=f"vdot, seed {seed}")
     assert_close(reactions, multipliers, bound, scale=1.0, what=f"multipliers, seed {seed}")
+    return True
+
+
+def check_motion(seed, formulation):
+    """Whether a network moves as its twin that declares nothing; False: too ill-conditioned to tell, or the twin cannot go on either.
+
+    What is compared are steps of order four, so that it does not matter that independent variables are chosen differently.
+    """
+    network = Network(seed)
+    if network.m == network.n:
+        return False
+    e = network.system().evaluate(network.p, network.v)
+    bound = condition(e.M, e.C)
+    if bound > LARGEST_CONDITION:
+        return False
+    start = zd.assemble(network.system(), network.p, network.v)
+    try:
+        other = zd.simulate(network.system(packed=False), 2e-3, *start, formulation=formulation, **STEPS)
+    except zd.ZerodriftError:
+        return False
+    one = zd.simulate(network.system(), 2e-3, *start, formulation=formulation, **STEPS)
+    for name in ("p", "v"):
+        assert_close(getattr(one, name), getattr(other, name), 1e-9 + bound * tol.EPS * 1e3, scale=1.0, what=f"{name}, seed {seed}")
     return True

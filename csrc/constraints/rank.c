@@ -24,7 +24,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int may_be_large)
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
 {
     size_t m = (size_t)zd_constraints(system);
     zd_rank self = {
@@ -33,7 +33,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int may_be_large
         .mh = system->mh,
         .most_rows = (int)m,
         .most_holonomic = system->mh,
-        .is_large = may_be_large && zd_rank_is_of_many(system),
+        .is_large = is_large,
         .start_square = zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &self, sizeof self);

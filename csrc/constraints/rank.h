@@ -64,12 +64,13 @@ struct zd_selection {
 /* Where less than this share of a row is left, it determines velocities with noticeably fewer digits: see stepping/variables.c. */
 #define ZD_ILL_CONDITIONED 0x1p-6
 
-/* Of a system that declares its structure and has more rows, dense matrices would cost more than all else, and what is small anywhere in
- * it says nothing of the whole: bifurcations are not looked for, and rows that follow from others at the start are left out for good. */
-enum { ZD_LOOKED_ROWS = 40 };
+/* Of a system that declares its structure and has more rows or velocities, dense matrices would cost more than all else, and what is small
+ * anywhere in it says nothing of the whole: bifurcations are not looked for, and rows that follow from others at the start are left out for
+ * good. */
+enum { ZD_LOOKED_ROWS = 40, ZD_LOOKED_VELOCITIES = 300 };
 static inline int zd_rank_is_of_many(const zd_system *system)
 {
-    int rows = 0;
+    int rows = system->structure && system->nv > ZD_LOOKED_VELOCITIES ? ZD_LOOKED_ROWS + 1 : 0;
     for (int g = 0; system->structure && g < system->structure->groups && rows <= ZD_LOOKED_ROWS; g++) rows += system->structure->rows[g];
     return rows > ZD_LOOKED_ROWS;
 }
@@ -77,8 +78,8 @@ static inline int zd_rank_is_of_many(const zd_system *system)
 /* Of the diagonal of M: smaller pivots make M^-1 no metric. */
 #define ZD_LEAST_PIVOT 0x1p-44
 
-/* `may_be_large`: whether the formulation can do without dense matrices. */
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int may_be_large);
+/* `is_large`: whether nothing dense is made. */
+zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large);
 /* Has the memory for a choice; ZD_NO_MEMORY if there is none. */
 int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Chooses the rows that count at the point, with so much of their length left; C and M are known there. */

@@ -154,7 +154,7 @@ const zd_formulation zd_augmented = {
         .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
     },
     ZD_DEPENDENT_STATE,
-    .takes_many_rows = 1,
+    .takes_many_rows = ZD_MANY_ROWS,
     .take = take,
     .lend_workspace = lend_workspace,
     .factor = factor,

@@ -38,7 +38,7 @@ static void *take(zd_arena *arena, const void *of)
 
 zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
 {
-    zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout);
+    zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout, NULL);
     zd_bodywise *self = bodies ? zd_store_take(store, take, point->system) : NULL;
     if (!self) return NULL;
     self->layout = point->layout;

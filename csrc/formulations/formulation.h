@@ -2,13 +2,19 @@
 #ifndef ZD_FORMULATION_H
 #define ZD_FORMULATION_H
 
-#include "../point/point.h"
+#include "../constraints/rank.h"
+
+enum zd_many {
+    ZD_FEW_ROWS_ONLY,
+    ZD_MANY_ROWS,
+    ZD_MANY_ROWS_WITHOUT_A,     /* where pdot = v */
+};
 
 typedef struct zd_formulation {
     zd_card card;
     int drifts_from;        /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
     int inverts_mass;       /* whether M has to be definite; else M is only where the constraints leave the velocities free */
-    int takes_many_rows;    /* whether it does without dense matrices where a declared structure has many rows: see ZD_LOOKED_ROWS */
+    enum zd_many takes_many_rows;   /* whether it does without dense matrices where a declared structure has many rows */
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
     /* Both are told of as many constraints as are independent. */
     int (*state_size)(const zd_system *system);
@@ -28,5 +34,12 @@ typedef struct zd_formulation {
     int (*settle)(void *self, zd_point *point);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
 } zd_formulation;
+
+/* Whether nothing dense is made of this system: see ZD_LOOKED_ROWS. */
+static inline int zd_takes_many_rows(const zd_formulation *self, const zd_system *system)
+{
+    const int takes = self->takes_many_rows == ZD_MANY_ROWS || (self->takes_many_rows == ZD_MANY_ROWS_WITHOUT_A && !(system->provides & ZD_A));
+    return takes && zd_rank_is_of_many(system);
+}
 
 #endif

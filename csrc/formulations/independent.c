@@ -15,12 +15,18 @@ typedef struct independent {
     double *pdot;               /* (nq,) */
 } independent;
 
+extern const zd_formulation zd_independent;
+
 /* What ties surplus coordinates has to be known: a unit quaternion has one too many. */
 static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions; }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
+    if (zd_takes_many_rows(&zd_independent, system)) {
+        independent self = {.minimal = zd_minimal_take_many(arena, system)};
+        return zd_take_filled(arena, &self, sizeof self);
+    }
     zd_embedding embedding = zd_embedding_take(arena, system);
     independent self = {
         .minimal = zd_minimal_take(arena, system, zd_embedding_workspace(&embedding)),
@@ -38,9 +44,20 @@ static int state_size(const zd_system *system)
 static int enter(void *memory, zd_point *point, double t, const double *y)
 {
     independent *self = memory;
+    zd_partitioned *many = self->minimal.many;
+    if (many) {
+        int status = zd_partitioned_place(many, point, t, y);
+        return status ? status : zd_minimal_enter(&self->minimal, point, y + many->k);
+    }
     zd_minimal_note_lead_time(&self->minimal, point, t);
     int status = zd_embedding_place(&self->embedding, point, t, y);
     return status ? status : zd_minimal_enter(&self->minimal, point, y + self->embedding.k);
+}
+
+static int leave_many(zd_minimal *minimal, zd_point *point, double *y)
+{
+    int status = zd_partitioned_coordinates(minimal->many, point, y);
+    return status ? status : zd_minimal_leave(minimal, point, y + minimal->many->k);
 }
 
 static int leave(void *memory, zd_point *point, double *y)
@@ -48,6 +65,7 @@ static int leave(void *memory, zd_point *point, double *y)
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
     if (!suits(point->system)) return ZD_UNSUITED;
+    if (self->minimal.many) return leave_many(&self->minimal, point, y);
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
     if (changed && !point->system->mn && (!point->terms.A || point->system->quaternions)) {     /* (19): u is qdot */
@@ -62,11 +80,15 @@ static int rate(void *memory, zd_point *point, double *ydot)
 {
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
+    if (self->minimal.many) {
+        zd_partitioned_pick_coordinates(self->minimal.many, point->v, ydot);               /* (21) */
+        return zd_minimal_rate(&self->minimal, point, ydot + self->minimal.many->k);       /* (19), (22) */
+    }
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, self->pdot);
     zd_embedding_rates(embedding, self->pdot, ydot);                                       /* (21) */
-    return zd_complement_rate(&self->minimal.complement, point, ydot + embedding->k);      /* (19), (22) */
+    return zd_minimal_rate(&self->minimal, point, ydot + embedding->k);      /* (19), (22) */
 }
 
 const zd_formulation zd_independent = {
@@ -83,6 +105,7 @@ const zd_formulation zd_independent = {
                      "constrained dynamic systems, Journal of Mechanical Design 104 (1982) 247-255",
     },
     .drifts_from = 0,
+    .takes_many_rows = ZD_MANY_ROWS_WITHOUT_A,
     .suits = suits,
     .state_size = state_size,
     .take = take,

@@ -7,6 +7,7 @@
 #include "minimal.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../constraints/limits.h"
 #include "../constraints/rows.h"
@@ -31,6 +32,11 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *wor
         .b = zd_take_doubles(arena, n),
         .du = zd_take_doubles(arena, n),
     };
+}
+
+zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system)
+{
+    return (zd_minimal){.many = zd_partitioned_take(arena, system)};
 }
 
 void zd_minimal_lend(void *memory, double **Q, double **G)
@@ -59,6 +65,7 @@ static int need_room(zd_minimal *self, const zd_point *point)
 int zd_minimal_factor(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
+    if (self->many) return zd_structured_factor(self->many->structured, point, 0);
     int status = zd_complement_at(&self->complement, point);
     if (!status) status = need_room(self, point);
     if (status) return status;
@@ -80,6 +87,10 @@ void zd_minimal_solve(void *memory, const double *force, const double *rhs, doub
 {
     zd_minimal *self = memory;
     int r = self->complement.r;
+    if (self->many) {
+        zd_structured_solve(self->many->structured, force, rhs, x, lambda);
+        return;
+    }
     zd_complement_particular(&self->complement, rhs, x);                /* gamma */
     unbalanced(self, force, x);
     zd_complement_project(&self->complement, self->b, self->du);
@@ -132,6 +143,7 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
 int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
+    if (self->many) return zd_partitioned_settle(self->many, point);
     int status = zd_complement_at(&self->complement, point);
     if (!status && point->rank->lost) return settle_on_branch(self, point);
     if (!status) status = check_size(self);
@@ -147,12 +159,14 @@ void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t
 
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
 {
-    for (int j = 0; j < self->size; j++) self->u[j] = u[j];
+    const int size = self->many ? self->many->size : self->size;
+    memcpy(self->many ? self->many->u : self->u, u, (size_t)size * sizeof *u);
     return zd_minimal_settle(self, point);
 }
 
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
 {
+    if (self->many) return zd_partitioned_speeds(self->many, point, u);
     int status = zd_complement_review(&self->complement, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
@@ -160,4 +174,11 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
     for (int j = 0; j < self->size && !status; j++) u[j] = self->u[j];
     self->lead_time = 0;
     return status;
+}
+
+int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot)
+{
+    if (!self->many) return zd_complement_rate(&self->complement, point, udot);
+    zd_partitioned_pick_speeds(self->many, point->vdot, udot);
+    return ZD_DONE;
 }

@@ -3,8 +3,10 @@
 #define ZD_MINIMAL_H
 
 #include "complement.h"
+#include "partitioned.h"
 
 typedef struct zd_minimal {
+    zd_partitioned *many;       /* in place of all that follows, where a declared structure has many rows */
     zd_complement complement;
     double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */
@@ -19,6 +21,8 @@ typedef struct zd_minimal {
 
 /* `workspace` (m, n) as the complement's. */
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace);
+/* Where a declared structure has many rows. */
+zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system);
 void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
@@ -28,6 +32,8 @@ void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
 /* The point's u, in terms of independent velocities that are reviewed first. */
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
+/* udot of the point's vdot, (15) */
+int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);
 
 #endif

@@ -9,8 +9,9 @@
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    double *workspace = zd_take_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
-    zd_minimal self = zd_minimal_take(arena, system, workspace);
+    const int are_many = zd_rank_is_of_many(system);
+    double *workspace = are_many ? NULL : zd_take_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
+    zd_minimal self = are_many ? zd_minimal_take_many(arena, system) : zd_minimal_take(arena, system, workspace);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -38,7 +39,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
     int status = zd_point_need(point, ZD_A);
     if (status) return status;
     zd_point_rate(point, point->v, ydot);                               /* (17): pdot = A D u */
-    return zd_complement_rate(&self->complement, point, ydot + point->system->nq);
+    return zd_minimal_rate(self, point, ydot + point->system->nq);
 }
 
 const zd_formulation zd_mixed = {
@@ -54,6 +55,7 @@ const zd_formulation zd_mixed = {
                      "systems, Multibody System Dynamics 7 (2002) 265-284, section 2.3",
     },
     .drifts_from = ZD_PHI,
+    .takes_many_rows = ZD_MANY_ROWS,
     .state_size = state_size,
     .take = take,
     .lend_workspace = zd_minimal_lend,

@@ -124,7 +124,7 @@ const zd_formulation zd_nullspace = {
         .reference = "W. Blajer, A geometric unification of constrained system dynamics, Multibody System Dynamics 1 (1997) 3-21",
     },
     ZD_DEPENDENT_STATE,
-    .takes_many_rows = 1,
+    .takes_many_rows = ZD_MANY_ROWS,
     .take = take,
     .lend_workspace = lend_workspace,
     .factor = factor,

@@ -284,7 +284,7 @@ const zd_formulation zd_schur = {
     },
     ZD_DEPENDENT_STATE,
     .inverts_mass = 1,
-    .takes_many_rows = 1,
+    .takes_many_rows = ZD_MANY_ROWS,
     .take = take,
     .finds_rows = finds_rows,
     .factor = factor,

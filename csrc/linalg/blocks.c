@@ -148,7 +148,7 @@ ZD_INLINE void invert(const int n, zd_blocks *self, int row, double *P, unsigned
             P[i * n + j] *= P[j * n + j];
             pivot -= P[i * n + j] * scaled;
         }
-        if (left_out) left_out[row + i] = !(pivot > least * self->diagonal[row + i]);
+        if (left_out && least >= 0) left_out[row + i] = !(pivot > least * self->diagonal[row + i]);
         const int is_pivot = !(left_out && left_out[row + i]) && judge(pivots, row + i, pivot, self->diagonal[row + i], rounding);
         P[i * n + i] = is_pivot ? 1 / pivot : 0;
         for (int k = i + 1; k < n; k++) {

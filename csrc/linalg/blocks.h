@@ -35,7 +35,7 @@ zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering);
 int zd_blocks_find(const zd_blocks *self, int i, int j);
 void zd_blocks_clear(zd_blocks *self);
 /* S, whose blocks have been filled, into its factors. Where `left_out` (rows,) is not NULL, rows whose pivots are not more than `least` of their
- * diagonal entries are noted there, and are as if they were not there, with their columns. */
+ * diagonal entries are noted there, and are as if they were not there, with their columns; with `least` below zero, those noted there already. */
 zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least);
 /* x (rows,), in the order of elimination, <- S^-1 x; those left out become zero. */
 void zd_blocks_solve(const zd_blocks *self, double *x);

@@ -22,6 +22,7 @@ typedef struct queues {
 
 typedef struct search {
     const zd_pattern *pattern;
+    const int *given;       /* the order; NULL: it is looked for */
     int *degree;            /* (count,): -1: it is eliminated */
     int *in_at, *in;        /* (count + 1,), (members,): the cliques that each is in: given ones first, then those that eliminations make */
     int *in_count;          /* (count,) */
@@ -68,11 +69,12 @@ static int next_of(queues *self)
 
 static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
 
-static search lay_out(zd_arena *arena, const zd_pattern *pattern)
+static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *given)
 {
     const int count = pattern->count;
     return (search){
         .pattern = pattern,
+        .given = given,
         .degree = take_ints(arena, count),
         .in_at = take_ints(arena, count + 1),
         .in = take_ints(arena, pattern->begin[pattern->cliques]),
@@ -127,7 +129,7 @@ static void begin_search(search *self, const int *column)
             self->in[self->in_at[k] + self->in_count[k]++] = c;
         }
     for (int d = 0; d <= LARGEST_DEGREE; d++) self->waiting.first[d] = self->waiting.last[d] = -1;
-    for (int k = 0; k < pattern->count; k++) append(&self->waiting, self->degree[k] = degree_of(self, column, k), k);
+    for (int k = 0; !self->given && k < pattern->count; k++) append(&self->waiting, self->degree[k] = degree_of(self, column, k), k);
 }
 
 /* Room for as many more members as block rows are left, at the most. */
@@ -175,7 +177,7 @@ static void enter_clique(search *self, const int *column, int k, int step)
         in[kept++] = self->pattern->cliques + k;
         self->in_count[i] = kept;
     }
-    for (int j = self->begin[step]; j < self->begin[step + 1]; j++) {
+    for (int j = self->begin[step]; !self->given && j < self->begin[step + 1]; j++) {
         const int i = self->members[j], now = degree_of(self, column, i);
         if (now == self->degree[i]) continue;
         take_away(&self->waiting, self->degree[i], i);
@@ -187,7 +189,7 @@ static int eliminate_all(search *self, int *place)
 {
     begin_search(self, place);
     for (int step = 0; step < self->pattern->count; step++) {
-        const int k = next_of(&self->waiting);
+        const int k = self->given ? self->given[step] : next_of(&self->waiting);
         self->degree[k] = -1;
         place[k] = step;
         if (!join_cliques(self, place, k, step)) return 0;
@@ -223,11 +225,11 @@ static int keep_columns(const search *self, zd_ordering *to)
     return next && to->row;
 }
 
-int zd_ordering_find(const zd_pattern *pattern, zd_ordering *ordering)
+int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *ordering)
 {
     const size_t count = (size_t)pattern->count;
     zd_arena counting = {NULL, 0};
-    lay_out(&counting, pattern);
+    lay_out(&counting, pattern, given);
     *ordering = (zd_ordering){
         .count = pattern->count,
         .place = zd_allocate(count * sizeof(int)),
@@ -237,7 +239,7 @@ int zd_ordering_find(const zd_pattern *pattern, zd_ordering *ordering)
     zd_arena arena = {zd_allocate(counting.used), 0};
     int found = arena.base && ordering->place && ordering->size && ordering->begin;
     if (found) {
-        search it = lay_out(&arena, pattern);
+        search it = lay_out(&arena, pattern, given);
         found = eliminate_all(&it, ordering->place) && keep_columns(&it, ordering);
         zd_release(it.members);
         for (size_t i = 0; i < count; i++) ordering->size[ordering->place[i]] = pattern->size[i];

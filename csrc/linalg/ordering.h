@@ -19,8 +19,9 @@ typedef struct zd_ordering {
     int *row;               /* (begin[count],) their places, increasing in each column */
 } zd_ordering;
 
-/* Takes memory of its own, which zd_ordering_free() releases. Returns 0 where there is none. */
-int zd_ordering_find(const zd_pattern *pattern, zd_ordering *ordering);
+/* Takes memory of its own, which zd_ordering_free() releases. Returns 0 where there is none. `given` (count,): the block rows in the order in
+ * which they are to be eliminated; NULL: in one of little fill. */
+int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *ordering);
 void zd_ordering_free(zd_ordering *ordering);
 
 #endif

@@ -44,11 +44,11 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout)
+zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout, const int *order)
 {
     plan it = {.layout = layout};
     it.pattern = (zd_pattern){layout->blocks, system->structure->velocities, layout->groups, layout->touched_at, layout->touched};
-    if (!zd_ordering_find(&it.pattern, &it.ordering)) return NULL;
+    if (!zd_ordering_find(&it.pattern, order, &it.ordering)) return NULL;
     zd_bodies *self = zd_store_take(store, take, &it);
     zd_ordering_free(&it.ordering);
     return self;

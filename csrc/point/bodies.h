@@ -12,8 +12,8 @@ typedef struct zd_bodies {
     int *pair;              /* for each group, its bodies and those of these before it or it itself: the block that takes their product */
 } zd_bodies;
 
-/* All that is symbolic, and memory for the factors; NULL where there is none. */
-zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout);
+/* All that is symbolic, and memory for the factors; NULL where there is none. `order`: see ordering.h. */
+zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout, const int *order);
 /* Adds blocks that are stored as M is. */
 void zd_bodies_add_mass(zd_bodies *self, const double *M);
 /* Adds C^T W C; W (m,) */

@@ -202,7 +202,7 @@ zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout)
     if (!arena.base) return NULL;
     it.pattern = lay_out_pattern(&arena, layout, &it.all);
     zd_weighted *self = NULL;
-    if (zd_ordering_find(&it.pattern, &it.ordering)) {
+    if (zd_ordering_find(&it.pattern, NULL, &it.ordering)) {
         self = zd_store_take(store, take, &it);
         zd_ordering_free(&it.ordering);
     }

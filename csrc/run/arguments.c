@@ -157,10 +157,11 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     int status = zd_check_system(system, message, size);
     if (!status) status = refuse(wrong_rows(settings), message, size);
     if (!status) status = check_given(system, settings, message, size);
-    if (!status && !zd_formulation_of(settings->formulation)->takes_many_rows && zd_is_too_large(system)) {
-        snprintf(message, (size_t)size, "'%s' has dense matrices: it takes systems that declare their structure up to %d velocities, and here there "
-                 "are %d; 'schur', 'augmented' and 'nullspace' take them at a cost that follows the bodies",
-                 zd_formulation_of(settings->formulation)->card.name, ZD_MOST_IMPLICIT, system->nv);
+    const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
+    if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {
+        snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: it takes such "
+                 "systems up to %d velocities, and here there are %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
+                 "follows the bodies", formulation->card.name, ZD_MOST_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
     return status ? status : refuse(wrong_events(settings->events), message, size);

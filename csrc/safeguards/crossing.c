@@ -33,7 +33,7 @@ static void *take_memory(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
     const zd_system *system = &motion->system;
-    const int has_turn = !motion->formulation->takes_many_rows || !zd_rank_is_of_many(system);
+    const int has_turn = !zd_takes_many_rows(motion->formulation, system);
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     zd_crossing_memory self = {
         .C = zd_take_doubles(arena, stored),

@@ -6,18 +6,22 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
-from random_networks import Network, check_acceleration
+from random_networks import Network, check_acceleration, check_motion
 from structured import Rods, chain, four_bars
 from support import assert_close, condition, numbers, solved
 
 SEEDS = (0, 7, 10, 14, 22)
-MANY = ("schur", "augmented", "nullspace")      # formulations that take structures of any size
 STEP = {"step": 2e-3}
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_networks_accelerate_as_by_dense_matrices(seed, formulation):
     assert check_acceleration(seed, formulation)
+
+
+@pytest.mark.parametrize("road", ["mixed", "independent"])
+def test_networks_move_as_by_dense_matrices(road):
+    assert check_motion(33, road)      # 42 rows, one of them nonholonomic
 
 
 def test_some_of_these_networks_are_of_many_rows_some_of_few_and_some_have_a_body_of_many_joints():
@@ -45,35 +49,32 @@ LARGE = {"chain": chain(40), "four-bars": four_bars(14), "fan": fan(60), "closed
 
 
 @needs_compiler
-@pytest.mark.parametrize("road", MANY)
 @pytest.mark.parametrize("rods", LARGE.values(), ids=LARGE)
-def test_accelerations_of_many_rows_are_those_of_dense_matrices(rods, road):
+def test_accelerations_of_many_rows_are_those_of_dense_matrices(rods, formulation):
     system, twin = rods.system(speed=0.3), rods.system(packed=False, speed=0.3)
     v = np.random.default_rng(3).normal(size=system.nv)
     e = numbers(twin, 0.0, rods.p0, v)
     vdot, multipliers = solved(e.M, e.C, e.force, e.xi)
     bound = 10 * tol.EPS * condition(e.M, e.C)
-    got, reactions = zd.acceleration(system, rods.p0, v, formulation=road)
+    got, reactions = zd.acceleration(system, rods.p0, v, formulation=formulation)
     assert_close(got, vdot, bound, what="vdot")
     assert_close(reactions, multipliers, bound, what="multipliers")
     assert_close(e.C @ got, e.xi, 64 * tol.EPS, scale=np.abs(e.C).max() * np.abs(vdot).max(), what="(6)")
 
 
 @needs_compiler
-@pytest.mark.parametrize("road", MANY)
 @pytest.mark.parametrize("options", [{}, {"stabilization": zd.Projection(metric="identity")}, {"energy": True}], ids=str)
-def test_motions_of_many_rows_are_those_of_dense_matrices(options, road):
-    one, other = (zd.simulate(four_bars(14).system(packed=packed), 0.05, formulation=road, **STEP, **options)
+def test_motions_of_many_rows_are_those_of_dense_matrices(options, formulation):
+    one, other = (zd.simulate(four_bars(14).system(packed=packed), 0.05, formulation=formulation, **STEP, **options)
                   for packed in (True, False))
     for name in ("p", "v", "multipliers"):
         assert_close(getattr(one, name), getattr(other, name), 1e-10, scale=1.0, what=name)
 
 
 @needs_compiler
-@pytest.mark.parametrize("road", MANY)
-def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(road):
+def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(formulation):
     rods = four_bars(14, doubled=True)
-    one, other = (zd.simulate(rods.system(packed=packed), 0.02, formulation=road, **STEP) for packed in (True, False))
+    one, other = (zd.simulate(rods.system(packed=packed), 0.02, formulation=formulation, **STEP) for packed in (True, False))
     assert len(one.stats["redundant"]) == len(other.stats["redundant"]) == 2
     assert set(one.stats["redundant"]) <= {0, 1, 2, 3}
     assert one.stats["rank"] == other.stats["rank"] == 2 * len(rods.pins) - 2
@@ -83,7 +84,7 @@ def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(road):
 
 
 @needs_compiler
-@pytest.mark.parametrize("road", ["augmented", "nullspace"])
+@pytest.mark.parametrize("road", ["augmented", "nullspace", "mixed", "independent"])
 def test_a_body_without_mass_among_many(road):
     rods = chain(25, closed=True, masses=[1.0] * 12 + [0.0] + [1.0] * 12)
     system, twin = rods.system(), rods.system(packed=False)
@@ -103,12 +104,22 @@ def test_nothing_that_has_no_mass_may_be_free():
         zd.simulate(system, 0.01, formulation="augmented", **STEP)
 
 
-@needs_compiler
-@pytest.mark.parametrize("road", ["mixed", "independent"])
-def test_formulations_with_dense_matrices_refuse_large_structures_and_name_what_takes_them(road):
-    system = chain(101).system()
-    with pytest.raises(zd.UnsuitedFormulation, match=f"'{road}' has dense matrices: .* up to 300 velocities, .* 303; 'schur'"):
-        zd.simulate(system, 0.01, formulation=road, **STEP)
+def test_independent_refuses_large_structures_with_a_kinematic_matrix_and_names_what_takes_them():
+    n = 303
+    system = zd.System(n, mass=lambda p: np.eye(n), kinematics=lambda p: np.eye(n), p0=np.zeros(n),
+                       structure=zd.Structure([3] * 101, [], ["constant diagonal"] * 101))
+    with pytest.raises(zd.UnsuitedFormulation, match="'independent' has dense matrices where a kinematic matrix .* up to 300 velocities, "
+                                                     ".* 303; 'schur', 'augmented', 'nullspace' and 'mixed' take them"):
+        zd.simulate(system, 0.01, formulation="independent", step=1e-2)
+
+
+def test_bodies_without_constraints_may_be_many(formulation):
+    """What may be large is told by velocities, too."""
+    stiffness = np.random.default_rng(1).uniform(1.0, 2.0, 303)
+    system = zd.System(303, mass=lambda p: np.eye(303), force=lambda p: -stiffness * p, p0=np.ones(303),
+                       structure=zd.Structure([3] * 101, [], ["constant diagonal"] * 101))
+    sol = zd.simulate(system, 0.01, formulation=formulation, step=1e-2, integrator="euler")
+    assert_close(sol.v[-1], -0.01 * stiffness, 4 * tol.EPS, scale=1.0, what="v")
 
 
 @needs_compiler

@@ -111,9 +111,9 @@ def simulate(
         within 1e-7 of its size of a bifurcation, or within 1e-4 where it moves nearly straight, is taken through it in the same
         way. Where no branch lies along the velocity, the formulations "mixed" and "independent" stop, and the others take the
         least acceleration. Constraints that are redundant in every position are no bifurcation, and need no choice. Among the
-        rows of a declared structure with more than 40 of them, bifurcations are not looked for by the formulations that take
-        such structures at linear cost, "schur", "augmented" and "nullspace": rows that are dependent at the start are taken to
-        be redundant, and where one is nearly so later, a warning says when and which.
+        rows of a declared structure with more than 40 of them, or more than 300 velocities, bifurcations are not looked for:
+        rows that are dependent at the start are taken to be redundant, and where one is nearly so later, a warning says when
+        and which.
     direct : None or False
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
         constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent

@@ -21,9 +21,9 @@ class Structure:
 
     Where it is declared, the core stores and multiplies nothing else of the kinematic matrix A, the mass matrix M and the
     constraint matrix C: A and M block after block, C group after group, each a small row-major matrix whose columns are the
-    velocities of the blocks that the group touches. From 41 rows on, the formulations "schur", "augmented" and "nullspace" make
-    no dense matrix at all: cost and memory follow the blocks. Then bifurcations are not looked for (`simulate`, `on_singular`).
-    "mixed" and "independent" and implicit integrators take structures up to 300 velocities.
+    velocities of the blocks that the group touches. From 41 rows or 301 velocities on, formulations make no dense matrix at all:
+    cost and memory follow the blocks. Then bifurcations are not looked for (`simulate`, `on_singular`). Up to 300 velocities
+    are taken by implicit integrators, and by "independent" where there is a kinematic matrix.
 
     Parameters
     ----------

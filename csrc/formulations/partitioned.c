@@ -1,0 +1,162 @@
+#include "partitioned.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/newton.h"
+#include "../linalg/norms.h"
+#include "../point/matrices.h"
+#include "../point/units.h"
+
+enum { MAX_ITERATIONS = 40 };
+static const double FARTHEST = 0.5;     /* in natural units: a longer prediction is not used as the first iterate */
+
+zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system)
+{
+    if (!zd_rank_is_of_many(system)) return NULL;
+    int rows = 0;
+    for (int g = 0; g < system->structure->groups; g++) rows += system->structure->rows[g];
+    zd_partitioned self = {
+        .structured = zd_structured_take(arena, system),
+        .size = system->nv - zd_constraints(system),
+        .k = system->nv - system->mh,
+        .u = zd_take_doubles(arena, (size_t)system->nv),
+        .rhs = zd_take_doubles(arena, (size_t)rows),
+        .x = zd_take_doubles(arena, (size_t)system->nv),
+        .p = zd_take_doubles(arena, (size_t)system->nq),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* ---- v = D u ---- */
+
+/* That of all rows, at the point. */
+static int need_speeds(zd_partitioned *self, zd_point *point)
+{
+    int status = zd_point_need(point, ZD_C | ZD_PHI_T);
+    if (!self->of_v) self->of_v = zd_partition_create(point->rank->store, point, zd_constraints(point->system), self->size);
+    return !self->of_v ? ZD_NO_MEMORY : status;
+}
+
+int zd_partitioned_settle(zd_partitioned *self, zd_point *point)
+{
+    int status = need_speeds(self, point);
+    if (!status && !(point->known & ZD_COMPLEMENTED)) status = zd_partition_factor(self->of_v, point);
+    if (status) return status;
+    point->known |= ZD_COMPLEMENTED;
+    const double *Phi_t = point->terms.Phi_t;
+    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    for (int j = 0; j < self->size; j++) self->x[self->of_v->index[j]] = self->u[j];
+    for (int k = 0; k < zd_constraints(point->system); k++) self->rhs[k] = Phi_t ? -Phi_t[k] : 0;
+    status = zd_partition_solve(self->of_v, self->rhs, self->x);        /* (14) */
+    if (!status) zd_point_move_velocity(point, self->x);
+    return status;
+}
+
+int zd_partitioned_speeds(zd_partitioned *self, zd_point *point, double *u)
+{
+    int status = need_speeds(self, point);
+    if (!status) status = zd_partition_review(self->of_v, point, point->known & ZD_COMPLEMENTED);
+    if (status) return status;
+    point->known |= ZD_COMPLEMENTED;
+    zd_partitioned_pick_speeds(self, point->v, self->u);
+    memcpy(u, self->u, (size_t)self->size * sizeof *u);
+    return ZD_DONE;
+}
+
+static void pick(const zd_partition *of, const double *x, double *to)
+{
+    for (int j = 0; j < of->independents; j++) to[j] = x[of->index[j]];
+}
+
+void zd_partitioned_pick_speeds(const zd_partitioned *self, const double *x, double *of_u) { pick(self->of_v, x, of_u); }
+void zd_partitioned_pick_coordinates(const zd_partitioned *self, const double *x, double *of_q) { pick(self->of_p, x, of_q); }
+
+/* ---- p = g(q) ---- */
+
+static int need_coordinates(zd_partitioned *self, zd_point *point)
+{
+    const zd_system *system = point->system;
+    int status = need_speeds(self, point);
+    if (!status && !self->of_p) self->of_p = system->mn ? zd_partition_create(point->rank->store, point, system->mh, self->k) : self->of_v;
+    return !status && !self->of_p ? ZD_NO_MEMORY : status;
+}
+
+int zd_partitioned_coordinates(zd_partitioned *self, zd_point *point, double *q)
+{
+    int status = need_coordinates(self, point);
+    const int is_same = self->of_p == self->of_v;
+    if (!status) status = zd_partition_review(self->of_p, point, is_same && (point->known & ZD_COMPLEMENTED));
+    if (status) return status;
+    if (is_same) point->known |= ZD_COMPLEMENTED;
+    zd_partitioned_pick_coordinates(self, point->p, q);
+    return ZD_DONE;
+}
+
+/* What rounding makes of Phi, in units of its size: a sum of terms that may be as large as one natural unit makes them. */
+static double rounding_of(const zd_point *point)
+{
+    double gradient = 0;
+    for (int k = 0; k < point->system->mh; k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        double sum = 0;
+        for (int j = 0; j < row.count; j++) sum += fabs(row.x[j]) * point->unit[row.column[j]];
+        gradient = fmax(gradient, sum * point->inverse_size[k]);
+    }
+    return 16 * 0x1p-52 * gradient * fmax(1, zd_max_scaled(point->system->nq, point->p, point->inverse_unit_p));
+}
+
+typedef struct problem {
+    zd_partitioned *self;
+    zd_point *point;
+} problem;
+
+static int residual(void *context, double *size)
+{
+    const problem *it = context;
+    int status = zd_point_need(it->point, ZD_PHI | ZD_C);       /* C for the next iterate, or else for (14) */
+    if (status) return status;
+    if (!(it->self->rounding > 0)) it->self->rounding = rounding_of(it->point);
+    *size = it->point->system->mh ? zd_point_violation(it->point) / it->self->rounding : 0;
+    return ZD_DONE;
+}
+
+static int improve(void *context)
+{
+    const problem *it = context;
+    zd_partitioned *self = it->self;
+    zd_point *point = it->point;
+    int status = zd_partition_factor(self->of_p, point);
+    if (status) return status;
+    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    for (int k = 0; k < point->system->mh; k++) self->rhs[k] = -point->terms.Phi[k];
+    status = zd_partition_solve(self->of_p, self->rhs, self->x);
+    for (int i = 0; i < point->system->nq; i++) self->p[i] = point->p[i] + self->x[i];
+    if (!status) zd_point_move(point, point->t, self->p, point->v);
+    return status;
+}
+
+/* self->p <- where the point's velocity leads, or where that is too far to be an estimate, where the point is; with q. */
+static void predict(zd_partitioned *self, const zd_point *point, double t, const double *q)
+{
+    const double h = t - point->t;
+    const int nq = point->system->nq, is_near = fabs(h) * zd_max_scaled(nq, point->v, point->inverse_unit_p) <= FARTHEST;
+    for (int i = 0; i < nq; i++) self->p[i] = is_near ? point->p[i] + h * point->v[i] : point->p[i];
+    for (int j = 0; j < self->k; j++) self->p[self->of_p->index[j]] = q[j];
+}
+
+int zd_partitioned_place(zd_partitioned *self, zd_point *point, double t, const double *q)
+{
+    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL};
+    problem it = {self, point};
+    int iterations, status = need_coordinates(self, point);
+    double left;
+    if (status) return status;
+    predict(self, point, t, q);
+    zd_point_move(point, t, self->p, point->v);
+    self->rounding = 0;
+    status = zd_newton_solve(&newton, &it, &iterations, &left);                           /* (18) */
+    point->statistics->embedding_iterations += iterations;
+    point->residual_left = left * self->rounding;
+    return status == ZD_NO_CONVERGENCE ? ZD_NO_EMBEDDING : status;
+}
