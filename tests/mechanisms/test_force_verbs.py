@@ -106,8 +106,8 @@ def test_its_numbers_can_be_changed():
 
 
 def test_what_is_drawn():
-    """A spring between its points, and of others where they are."""
-    for kind, drawn in (("spring", ["spring"]), ("bushing", ["bushing"]), ("force", [])):
+    """A spring between its points with a damper beside it, and of others where they are."""
+    for kind, drawn in (("spring", ["spring", "damper"]), ("bushing", ["bushing"]), ("force", ["load"]), ("torque", ["moment"])):
         m, P, Q = two_bodies()
         added(m, P, Q, kind)
         system = m.system()

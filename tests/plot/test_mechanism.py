@@ -1,13 +1,31 @@
-"""Pictures of mechanisms: every part is there, where the measures say that it is, in every frame."""
+"""Pictures of mechanisms: every part is there as its kind is drawn, where the measures say that it is, in every frame."""
+
+import sys
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
+from scipy.spatial import ConvexHull
 
 import zerodrift as zd
+from zerodrift.mechanisms.joints import JOINTS
+from zerodrift.mechanisms.made_forces import ELEMENTS
+from zerodrift.plot import marks
 from zerodrift.plot.glyphs import GLYPHS
 from zerodrift.plot.mechanism import Picture
 from zerodrift.systems.shapes import Shape
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "mechanisms"))
+import every_element
+import every_joint_by_row
+
+ON_MOVING_BODIES = {"slot": {"groove", "block"}, "prismatic": {"guide", "slider"}}
+LOOKS = {"revolute": {"pin"}, "weld": {"weld"}, "rod": {"rod"}, "rolling": {"road", "wheel"}, "knife_edge": {"blade"},
+         **{kind: looks | {"pin"} if kind == "slot" else looks for kind, looks in ON_MOVING_BODIES.items()},
+         "spring": {"spring", "damper"}, "bushing": {"bushing"}, "force": {"load"}, "torque": {"moment"},
+         "torsion_spring": {"bushing"}}     # that of a row is between two points, and of no joint
 
 
 def sorts():
@@ -17,24 +35,71 @@ def sorts():
     plate = m.body("plate", 1.0, 0.1, at=(3, 0))
     box, piston = m.body("box", 1.0, 0.1, at=(1.2, 0.4)), m.body("piston", 1.0, 0.1, at=(2, 1), angle=0.5)
     bob, bead = m.particle("bob", 1.0, at=(0.6, -0.6)), m.particle("bead", 0.1, at=(0.8, 0.24))
-    sleigh = m.body("sleigh", 1, 0.1, at=(-1, 1))
-    wheel = m.body("wheel", 1.0, 0.1, at=(-2, 0.5))
+    sleigh, fin = m.body("sleigh", 1, 0.1, at=(-1, 1)), m.body("fin", 0.2, 0.01, at=(3.3, 0.4))
+    wheel, ram = m.body("wheel", 1.0, 0.1, at=(-2, 0.5)), m.body("ram", 0.3, 0.01, at=(2.3, 1.3))
     rotors = [m.body(f"rotor{i}", 1.0, 0.1, at=(i, 2)) for i in range(2)]
+    arm.point((0.3, 0.1), name="tracer")
     hinge = m.revolute("hinge", m.ground, arm.start)
-    m.revolute("corner", m.ground, plate.point((0, 0)))
+    corner = m.revolute("corner", m.ground, plate.point((0, 0)))
+    m.weld("seam", plate, fin, at=(3.2, 0.3))
     m.bushing("mount", arm, box, at=(1, 0.3), stiffness=100, torsion=10)
     m.rod("rod", arm.point((0.5, 0)), bob)
     m.slot("groove", arm, bead, axis=(1, 0.3))
-    m.prismatic("rail", m.ground, piston, axis=(1, 1))
+    rail = m.prismatic("rail", m.ground, piston, axis=(1, 1))
+    m.prismatic("telescope", piston, ram, axis=(1, 1))
     m.knife_edge("blade", sleigh, along=(1, 1))
     m.rolling("road", m.ground, wheel, radius=0.5)
-    m.gear("mesh", *(m.revolute(f"pin{i}", m.ground, rotor.point((0, 0))) for i, rotor in enumerate(rotors)), ratio=-3.0)
+    pins = [m.revolute(f"pin{i}", m.ground, rotor.point((0, 0))) for i, rotor in enumerate(rotors)]
+    m.gear("mesh", *pins, ratio=-3.0)
     m.spring("coil", m.ground.point((2, -1)), plate.point((0.4, 0.2)), stiffness=20.0)
-    m.spring("band", piston.point((0, 0.1)), plate.point((0.4, -0.2)), stiffness=20.0)
+    m.spring("band", piston.point((0, 0.1)), plate.point((0.4, -0.2)), stiffness=20.0, damping=1.0)
     m.torsion_spring("clock", hinge, stiffness=1.0)
     m.actuator("jack", m.ground.point((2, 3)), piston.point((0, 0)), force=1.0)
+    m.motor("turn", corner, torque=-0.1)
+    m.motor("push", rail, force=1.0)
+    m.force("wind", sleigh, along=(0, 1), value=-1.0)
+    m.torque("twist", sleigh, value=1.0)
+    m.coupler("cage", {pins[0].angle: 1.0, pins[1].angle: 1.0, _third(m).angle: 1.0})
     m.particle("nut", 0.1, at=arm.end)
     m.start({"pin0.speed": 2.0, "wheel.angular_velocity": -1.0})
+    return m
+
+
+def _third(m):
+    return m.revolute("pin2", m.ground, m.body("rotor2", 1.0, 0.1, at=(4, 2)).point((0, 0)))
+
+
+def planetary():
+    """The ring is the ground, the sun turns against the carrier, as the planet does."""
+    m = zd.Mechanism("planetary")
+    carrier, sun, planet = m.body("carrier", 1.0, 0.1), m.body("sun", 1.0, 0.1), m.body("planet", 1.0, 0.1, at=(0.45, 0))
+    arm = m.revolute("arm", m.ground, carrier.point((0, 0)))
+    spin, roll = m.revolute("spin", carrier, sun.point((0, 0))), m.revolute("roll", carrier, planet.point((0, 0)))
+    m.gear("outer", arm, roll, ratio=-0.6 / 0.15)
+    m.gear("inner", spin, roll, ratio=-0.3 / 0.15)
+    m.start({"arm.speed": 1.0})
+    return m
+
+
+def steering():
+    m = zd.Mechanism("steering")
+    pinion = m.revolute("pinion", m.ground, m.body("wheel", 1.0, 0.1, at=(0, 0.06)).point((0, 0)))
+    rack = m.prismatic("rack", m.ground, m.body("bar", 1.0, 0.1), axis=(1, 0))
+    m.rack_pinion("teeth", pinion, rack, ratio=0.05)
+    m.start({"pinion.speed": 1.0})
+    return m
+
+
+def lift(a):
+    return 0.01 * (1 - np.cos(a)) + 0.003 * np.sin(2 * a)
+
+
+def valve():
+    m = zd.Mechanism("valve")
+    turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1, angle=0.3).point((0, 0)))
+    stem = m.body("stem", 0.1, 0.01, at=(0.01, 0.06))
+    m.cam("cam", turn, m.prismatic("guide", m.ground, stem, axis=(0, 1), at=(0.01, 0.09)), profile=lift)
+    m.motor("drive", turn, speed=5.0)
     return m
 
 
@@ -49,38 +114,122 @@ def closed():
     plt.close("all")
 
 
-def shapes(sol, row, kind, name=None):
-    return [shape for shape in sol.system._shapes(sol.p[row]) if shape.kind == kind and name in (None, shape.name)]
+def collection(ax, kind):
+    """What draws all parts of a kind."""
+    (found,) = [each for each in ax.collections if each.get_label() == f"_{kind}"]
+    return found
 
 
-def test_every_kind_of_shape_is_made_and_has_a_glyph(sol):
-    assert {shape.kind for shape in sol.system._shapes(sol.p[0])} | {"ground"} == set(GLYPHS)
+def outlines(ax, kind):
+    return [path.vertices for path in collection(ax, kind).get_paths()]
+
+
+def centres(ax, kind):
+    """The middles of what is drawn of a kind, (n, 2)."""
+    return np.array([(points.min(axis=0) + points.max(axis=0)) / 2 for points in outlines(ax, kind)])
+
+
+def is_among(place, places, within=1e-9):
+    return np.hypot(*(np.asarray(places) - place).T).min() < within
+
+
+def kinds(system, name):
+    return {shape.kind for shape in system._shapes(system.p0) if shape.name == name}
+
+
+# ---- what is drawn ----
+
+
+def test_every_glyph_is_drawn():
+    made = {shape.kind for m in (sorts(), planetary(), steering(), valve()) for shape in m.system()._shapes(m.system().p0)}
+    assert made == set(GLYPHS)
+
+
+@pytest.mark.parametrize("what", [every_element.machinery, every_element.hinged, every_element.vehicles,
+                                  every_joint_by_row.by_row])
+def test_all_joints_and_elements_are_drawn(what):
+    ax = zd.plot.mechanism(what())
+    ax.figure.canvas.draw()
+    assert sum(len(each.get_paths()) for each in ax.collections) > 15
+
+
+@pytest.mark.parametrize("kind", [*JOINTS, *ELEMENTS])
+def test_every_kind_of_the_tables_is_drawn_as_itself(kind):
+    """Of a kind that is new, something is drawn that bears its name."""
+    system, prefix = every_joint_by_row.by_row().system("absolute"), "J" if kind in JOINTS else "F"
+    drawn = kinds(system, f"{prefix} {kind}")
+    assert drawn == LOOKS[kind] if kind in LOOKS else drawn
+
+
+def test_slides_on_the_ground_have_rails():
+    m = sorts()
+    assert kinds(m.system(), "rail") == {"rail", "slider"}
+    assert kinds(m.system(), "push") == {"drive"}
+
+
+@pytest.mark.parametrize(("stiffness", "damping", "drawn"), [(1.0, 0.0, {"spring"}), (0.0, 1.0, {"damper"}),
+                                                             (1.0, 1.0, {"spring", "damper"})])
+def test_springs_and_dampers(stiffness, damping, drawn):
+    m = zd.Mechanism("m")
+    m.spring("S", m.ground.point((0, 0)), m.particle("bob", 1.0, at=(1, 0)), stiffness=stiffness, damping=damping)
+    assert kinds(m.system(), "S") == drawn
+
+
+# ---- where it is drawn ----
 
 
 @pytest.mark.parametrize("row", [0, 17])
-def test_shapes_are_where_the_measures_are(sol, row):
-    def at(kind, name):
-        (shape,) = shapes(sol, row, kind, name)
-        return shape.points
+def test_parts_are_where_the_measures_are(sol, row):
+    ax = zd.plot.mechanism(sol, sol.p[row])
+    names = ("bob", "bead", "piston", "wheel", "arm.end", "hinge", "tracer", "sleigh")
+    at = {name: sol[f"{name}.position"][row] for name in names}
+    for kind, name in (("particle", "bob"), ("particle", "arm.end"), ("wheel", "wheel"), ("pin", "hinge"), ("pin", "bead"),
+                       ("block", "bead"), ("slider", "piston"), ("mark", "tracer"), ("blade", "sleigh")):
+        assert is_among(at[name], centres(ax, kind)), (kind, name)
+    eyes = centres(ax, "spring")
+    assert is_among([2, -1], eyes)
+    assert np.abs(np.hypot(*(eyes - [2, -1]).T) - sol["coil.length"][row]).min() < 1e-9
+    (tail_to_tip,) = [points for points in outlines(ax, "load")]
+    assert tail_to_tip[:, 1].min() < at["sleigh"][1] - 1e-3     # of the wind, which blows down
+    assert is_among(at["sleigh"], [(tail_to_tip[0] + tail_to_tip[-2]) / 2])
 
-    for end in ("arm.start", "arm.end"):
-        assert np.hypot(*(at("link", "arm") - sol[f"{end}.position"][row]).T).min() < 1e-12
-    for kind, name, measure in (("particle", "bob", "bob.position"), ("particle", "nut", "arm.end.position"),
-                                ("wheel", "road", "wheel.position"), ("slider", "rail", "piston.position"),
-                                ("slider", "groove", "bead.position"), ("rail", "rail", None)):
-        place = at(kind, name)[1 if kind == "rail" else 0]
-        np.testing.assert_allclose(place, sol[measure or "piston.position"][row], atol=1e-9, err_msg=name)
-    ends = at("spring", "coil")
-    assert np.hypot(*(ends[1] - ends[0])) == pytest.approx(sol["coil.length"][row])
-    (wheel,) = shapes(sol, row, "wheel")
-    assert wheel.number == 0.5
-    np.testing.assert_allclose(np.arctan2(*wheel.points[1][::-1]), sol["wheel.angle"][row], atol=1e-9)
+
+@pytest.mark.parametrize("row", [0, 17])
+def test_a_bar_holds_its_ends_and_is_as_wide_everywhere(sol, row):
+    """The outline is as far from the line between the ends, wherever it is looked at."""
+    m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    link = m.link("link", (0, 0), (0.6, 0.2), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    swing = zd.simulate(m, 0.3, step=0.01)
+    (outline,) = outlines(zd.plot.mechanism(swing, swing.p[row]), "link")
+    start, end = (swing[f"link.{side}.position"][row] for side in ("start", "end"))
+    along = (end - start) / np.hypot(*(end - start))
+    feet = start + np.clip((outline - start) @ along, 0, np.hypot(*(end - start)))[:, None] * along
+    width = np.hypot(*(outline - feet).T)
+    assert np.ptp(width) < 1e-9
+    assert 0.005 < width[0] < 0.05
+
+
+def test_points_in_line_are_a_bar_and_others_a_plate():
+    for points, is_plate in (([(0, 0), (1, 1), (3, 3)], False), ([(0, 0), (1, 1), (3, 2)], True)):
+        (mark,) = GLYPHS["link"].draw(Shape("link", np.array(points, dtype=float)), 0.1)
+        assert (mark.face == marks.PLATE) is is_plate
+
+
+def test_a_hull_is_as_scipy_has_it():
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        points = rng.normal(size=(12, 2))
+        found, expected = marks.hull(points), points[ConvexHull(points).vertices]
+        assert {tuple(each) for each in found} == {tuple(each) for each in expected}
 
 
 def test_gears_touch_and_their_radii_are_as_their_ratio(sol):
-    first, second = shapes(sol, 0, "gear")
+    first, second = (shape for shape in sol.system._shapes(sol.p[0]) if shape.kind == "gear")
     assert first.number == pytest.approx(3 * second.number)
     assert first.number + second.number == pytest.approx(1.0)
+    widths = [np.ptp(points[:, 0]) for points in outlines(zd.plot.mechanism(sol), "gear")]
+    assert {round(max(widths), 6)} <= {round(2 * first.number, 6)}
 
 
 def test_inner_gears_touch_from_inside():
@@ -88,14 +237,87 @@ def test_inner_gears_touch_from_inside():
     pins = [m.revolute(f"pin{i}", m.ground, m.body(f"b{i}", 1.0, 0.1, at=(0.3 * i, 0)).point((0, 0))) for i in range(2)]
     m.gear("mesh", *pins, ratio=3.0)
     system = m.system()
-    first, second = (shape.number for shape in system._shapes(system.p0) if shape.kind == "gear")
-    assert first - second == pytest.approx(0.3)
-    assert first == pytest.approx(3 * second)
+    found = {shape.kind: shape.number for shape in system._shapes(system.p0) if shape.kind in ("gear", "ring")}
+    assert found["ring"] - found["gear"] == pytest.approx(0.3)
+    assert found["ring"] == pytest.approx(3 * found["gear"])
 
 
-def test_the_ground_holds_each_of_its_pins_once(sol):
-    places = [tuple(shape.points[0].round(9)) for shape in shapes(sol, 0, "ground")]
-    assert sorted(places) == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (2.0, -1.0), (2.0, 3.0), (3.0, 0.0)]
+def test_a_planetary_gear_has_its_radii_from_the_carriers_view():
+    system = planetary().system()
+    found = {(shape.kind, round(shape.number, 9)) for shape in system._shapes(system.p0) if shape.kind in ("gear", "ring")}
+    assert found == {("ring", 0.6), ("gear", 0.3), ("gear", 0.15)}
+
+
+@pytest.mark.parametrize("what", [planetary, sorts])
+def test_wheels_that_mesh_have_one_velocity_where_they_touch(what):
+    """Holes in the wheels move as the wheels do: without slip, arcs along both pitch circles are alike."""
+    sol = zd.simulate(what(), 0.1, step=0.01)
+    wheels = [[shape for shape in sol.system._shapes(p) if shape.kind in ("gear", "ring")] for p in sol.p[[0, -1]]]
+    turns = [np.angle(complex(*late.points[1]) / complex(*early.points[1])) for early, late in zip(*wheels, strict=True)]
+    carrier = sol["carrier.angle"][-1] - sol["carrier.angle"][0] if what is planetary else 0.0
+    if what is planetary:
+        (ring, planet, sun) = ((turn - carrier) * wheel.number for turn, wheel in zip(turns, wheels[0], strict=True))
+        assert ring == pytest.approx(planet, abs=1e-9)
+        assert sun == pytest.approx(-planet, abs=1e-9)
+    else:
+        assert turns[0] * wheels[0][0].number == pytest.approx(-turns[1] * wheels[0][1].number, abs=1e-9)
+
+
+def test_a_rack_moves_as_its_pinion_does_where_they_touch():
+    sol = zd.simulate(steering(), 0.1, step=0.01)
+    (early, late) = ({shape.kind: shape for shape in sol.system._shapes(p)} for p in sol.p[[0, -1]])
+    rack, wheel = early["rack"], early["gear"]
+    foot = wheel.points[0] - wheel.number * rack.points[2]
+    assert np.allclose(foot, (0, 0.01))
+    turn = sol["pinion.angle"][-1]
+    moved = (late["rack"].points[:2].mean(axis=0) - rack.points[:2].mean(axis=0))
+    velocity = turn * np.array([-(foot - wheel.points[0])[1], (foot - wheel.points[0])[0]])
+    np.testing.assert_allclose(moved, velocity, atol=1e-9)
+
+
+@pytest.mark.parametrize("row", [0, 33, 100])
+def test_a_cam_touches_its_roller_and_never_holds_it(row):
+    """The roller's centre is a roller's radius from the nearest place of the profile, at any angle of the cam."""
+    sol = zd.simulate(valve(), 1.2, step=0.01)
+    picture = Picture(plt.subplots()[1], sol.system._sketches([sol.p[row]]))
+    picture.show(0)
+    (profile,) = outlines(picture.ax, "cam")
+    roller = sol["stem.position"][row]
+    assert is_among(roller, centres(picture.ax, "roller"))
+    nearest = np.hypot(*(profile - roller).T).min()
+    assert nearest == pytest.approx(1.5 * picture.size, rel=0.02)       # of 180 places of the profile
+
+
+def test_a_cam_that_would_be_too_small_gets_a_stem():
+    m = zd.Mechanism("valve")
+    turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1).point((0, 0)))
+    guide = m.prismatic("guide", m.ground, m.body("stem", 0.1, 0.01, at=(0, 0)), axis=(0, 1))
+    m.cam("cam", turn, guide, profile=lambda a: 0.01 * (1 - np.cos(a)))
+    found = {shape.kind: shape for shape in m.system()._shapes(m.system().p0)}
+    assert np.hypot(*found["cam"].points.T).min() > 0.02
+    assert np.ptp(found["link"].points[:, 1]) > 0.02
+
+
+def test_the_ground_holds_each_of_its_pins_once_and_springs_by_walls(sol):
+    def places(kind):
+        return sorted(tuple(shape.points[0].round(9)) for shape in sol.system._shapes(sol.p[0]) if shape.kind == kind)
+
+    assert places("ground") == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (3.0, 0.0), (4.0, 2.0)]
+    assert places("wall") == [(2.0, -1.0), (2.0, 3.0)]
+
+
+def test_rails_are_as_long_as_the_motion_needs():
+    m = zd.Mechanism("shaker")
+    slide = m.prismatic("slide", m.ground, m.body("box", 1.0, 0.1), axis=(1, 0))
+    m.motor("drive", slide, displacement=lambda t: 0.3 * np.sin(t))
+    sol = zd.simulate(m, 6.3, step=0.01)
+    for p in sol.p[[0, 100, 300]]:
+        moments = sol.system._sketches([p, *sol.p[::10]])
+        (rail,) = (shape for shape in moments[0] if shape.kind == "rail")
+        assert np.sort(rail.points[:2, 0]) == pytest.approx([-0.3, 0.3], abs=0.01)
+
+
+# ---- pictures and films ----
 
 
 @pytest.mark.parametrize("what", ["mechanism", "system", "solution", "position"])
@@ -104,8 +326,18 @@ def test_pictures_are_drawn(sol, what):
     ax = zd.plot.mechanism(*given)
     ax.figure.canvas.draw()
     assert ax.get_aspect() == 1.0
-    assert len(ax.patches) > 15
     assert ax.get_xlabel() == "x [m]"
+    assert ("_ghosts" in [each.get_label() for each in ax.collections]) is (what == "solution")
+
+
+def test_given_axes_are_drawn_into(sol):
+    ax = plt.subplots()[1]
+    assert zd.plot.mechanism(sol, ax=ax) is ax
+    assert plt.get_fignums() == [ax.figure.number]
+    film_axes = plt.subplots()[1]
+    film = zd.plot.animate(sol, ax=film_axes, fps=4)
+    film.to_jshtml()
+    assert film._fig is film_axes.figure
 
 
 def test_a_picture_holds_all_its_moments(sol):
@@ -118,14 +350,20 @@ def test_a_picture_holds_all_its_moments(sol):
         assert ((places > [low, bottom]) & (places < [high, top])).all()
 
 
-def test_a_frame_takes_away_the_one_before(sol):
+def test_the_last_frame_is_as_a_fresh_picture_of_that_pose():
+    """And its artists are those of the first frame."""
+    sol = zd.simulate(planetary(), 0.5, step=0.01)
     ax = plt.subplots()[1]
-    picture = Picture(ax, [sol.system._shapes(p) for p in sol.p[::10]])
-    counts = []
-    for moment in range(3):
-        picture.show(moment)
-        counts.append((len(ax.lines), len(ax.patches)))
-    assert counts[0] == counts[1] == counts[2]
+    picture = Picture(ax, sol.system._sketches(sol.p[::10]))
+    artists = picture.show(0)
+    for moment in range(1, 6):
+        assert all(one is other for one, other in zip(artists, picture.show(moment), strict=True))
+    fresh = Picture(plt.subplots()[1], sol.system._sketches(sol.p[::10]))
+    fresh.show(5)
+    for kind in ("link", "gear", "pin", "ring"):
+        assert np.array_equal(np.vstack(outlines(ax, kind)), np.vstack(outlines(fresh.ax, kind)))
+        assert np.array_equal(collection(ax, kind).get_facecolor(), collection(fresh.ax, kind).get_facecolor())
+    assert is_among(sol["planet.position"][-1], centres(ax, "pin"))
 
 
 def test_pins_are_smaller_than_their_bars():
@@ -135,18 +373,40 @@ def test_pins_are_smaller_than_their_bars():
         link = m.link(f"link{i}", (0.1 * i, 0), (0.1 * i + 0.1, 0), mass=0.1)
         m.revolute(f"pin{i}", last, link.start)
         last = link.end
-    ax = zd.plot.mechanism(m)
-    radii = [patch.radius for patch in ax.patches if hasattr(patch, "radius")]
-    assert len(radii) >= 20
-    assert max(radii) < 0.025
+    pins = outlines(zd.plot.mechanism(m), "pin")
+    assert len(pins) == 20
+    assert max(np.ptp(points[:, 0]) for points in pins) < 0.05
 
 
-def test_points_in_line_are_a_bar_and_others_a_plate():
-    bar, plate = (Shape("link", np.array(points)) for points in ([(0, 0), (1, 1), (3, 3)], [(0, 0), (1, 1), (3, 2)]))
-    assert [len(GLYPHS["link"](plt.subplots()[1], shape, 0.1)) for shape in (bar, plate)] == [1, 2]
+def test_small_pictures_have_larger_pins_and_thinner_lines():
+    pictures = []
+    for inches in (1.5, 6.0):
+        ax = plt.figure(figsize=(inches, inches)).add_subplot()
+        m = valve()
+        pictures.append(Picture(ax, [m.system()._shapes(m.system().p0)]))
+    small, large = pictures
+    assert small.size > 1.2 * large.size
+    assert small.line < 0.7 * large.line
 
 
 def test_nothing_to_draw_is_drawn_too():
     assert Picture(plt.subplots()[1], [[]]).size > 0
-    (shape,) = [Shape("particle", np.zeros((1, 2)))]
-    assert Picture(plt.subplots()[1], [[shape]]).show(0)
+    assert Picture(plt.subplots()[1], [[Shape("particle", np.zeros((1, 2)))]]).show(0)
+
+
+# ---- without colour ----
+
+
+def luminance(colour):
+    """Relative luminance by WCAG 2.1, from 0 to 1."""
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(colour)]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+@pytest.mark.parametrize(("one", "other", "contrast"), [
+    (marks.EDGE, marks.BODY, 4.5), (marks.EDGE, marks.TINT, 4.5), (marks.DARK, marks.BODY, 4.5), (marks.BODY, marks.WHITE, 1.5),
+    (marks.LOAD, marks.WHITE, 4.5), (marks.LOAD, marks.BODY, 2.5), (marks.BODY, marks.TINT, 1.2), (marks.GREY, marks.WHITE, 3.0)])
+def test_what_touches_differs_in_luminance(one, other, contrast):
+    """By WCAG: 3 for graphics, 4.5 for what is thin; fills that have an outline between them need less."""
+    dark, light = sorted(luminance(each) for each in (one, other))
+    assert (light + 0.05) / (dark + 0.05) > contrast

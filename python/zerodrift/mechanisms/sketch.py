@@ -1,142 +1,146 @@
-"""What there is to draw of a mechanism in one pose, in m: shapes that `zerodrift.plot` has glyphs for."""
+"""What there is to draw of a mechanism in its poses, in m: shapes that `zerodrift.plot` has glyphs for.
+
+How a joint or a force element looks follows from its row in the core's table: from the gauges that it holds or acts along.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from ..systems.shapes import Shape
-from .bodies import Particle, Point
-from .drawing import Drawing, Inertias
-from .forces import Actuator, Bushing, Spring, TorsionSpring
-from .joints import Coupling, Joint, holds_angle, is_hinge
-from .made_forces import MadeForce
+from .bodies import Ground, Particle, Point
+from .drawing import Drawing
+from .joints import Joint, holds_angle
 from .numbers import Numbers
-from .outline import APART, around
-from .plane import Pose, turned
+from .outline import APART
+from .posed import Parts, Posed
+from .sketched_couplings import Couplings
+from .sketched_forces import forces, walls
+
+Ranges = dict[str, tuple[float, float]]
 
 
 class Sketch:
-    """The shapes of a mechanism whose mass centres are at poses (bodies, 3)."""
+    """What is drawn of a mechanism, whatever its pose."""
 
-    def __init__(self, drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> None:
-        self.drawing, self.numbers, self.inertias = drawing, numbers, Inertias(drawing, numbers)
-        self.pose = {"ground": Pose(np.zeros(2), 0.0)}
-        for body, (x, y, angle) in zip(drawing.parts(), poses, strict=True):
-            com = self.inertias.of[body.name][2]
-            self.pose[body.name] = Pose(np.array([x, y]) - turned(angle, com), angle)
-        self.gears = [coupling for coupling in drawing.of(Coupling) if coupling.kind == "gear"]
-        sliding = [joint for joint in drawing.of(Joint) if "across" in _gauges(joint)]
-        shown = [*sliding, *(joint for gear in self.gears for joint in self._geared(gear))]
-        self.has_shape = {joint.second.body.name for joint in shown}      # by what joins it
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.parts = Parts(drawing, numbers)
+        self.couplings = Couplings(self.parts)
+        self.sliding = [joint for joint in drawing.of(Joint) if slides(joint)]
+        self.slotted = {joint.bodies[0].name for joint in self.sliding if has_groove(joint)}
+        self.guided = [*self.sliding, *(joint for joint in drawing.of(Joint) if joint.row.at_contact)]
+        self.has_shape = {joint.bodies[1].name for joint in self.guided} | self.couplings.wheels
+        self.held = _held_by_ground(self.parts)
 
-    def shapes(self) -> list[Shape]:
-        """Everything, what is behind first."""
-        found = [*self._bodies(), *self._joints(), *self._forces(), *self._gears()]
-        return found + [Shape("ground", self._at(point)[None]) for point in self._held_by_ground()]
+    def ranges(self, moments: Iterable[Posed]) -> Ranges:
+        """How far each slider and each wheel gets in all moments, from where its joint is on its first body."""
+        found: Ranges = {}
+        for posed in moments:
+            for joint in self.guided:
+                s = posed.displacement(joint)
+                low, high = found.get(joint.name, (s, s))
+                found[joint.name] = min(low, s), max(high, s)
+        return found
 
-    def _at(self, point: Point) -> np.ndarray:
-        """Where a point is, (2,)."""
-        return self.pose[point.body.name].point(point.local_with(self.numbers))
+    def shapes(self, posed: Posed, ranges: Ranges) -> list[Shape]:
+        """Everything."""
+        found = [*self._bodies(posed, ranges), *self._joints(posed, ranges), *forces(posed), *self.couplings.shapes(posed)]
+        return [*found, *(Shape("ground", posed.at(point)[None]) for point in self.held), *walls(posed, self.held)]
 
-    def _bodies(self) -> Iterator[Shape]:
-        for body in self.drawing.parts():
+    def _bodies(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+        for body in self.parts.drawing.parts():
+            pose = posed.pose[body.name]
             if isinstance(body, Particle):
-                yield Shape("particle", self.pose[body.name].origin[None], body.name)
+                if body.name not in self.has_shape:
+                    yield Shape("particle", pose.origin[None], body.name)
                 continue
-            pose = self.pose[body.name]
-            places = [point.local_with(self.numbers) for point in around(body, self.drawing, self.numbers)]
-            com = self.inertias.of[body.name][2]
-            if len(places) == 1 and np.hypot(*(places[0] - com)) > APART:
-                places.append(com)      # the mass centre shows which way it hangs
+            places = [pose.point(place) for place in self.parts.outline[body.name]]
+            if body.name in self.slotted:
+                for joint in self.sliding:
+                    if joint.bodies[0] is body:
+                        places += [*posed.track(joint, ranges)]
             if len(places) > 1:
-                yield Shape("link", np.array([pose.point(place) for place in places]), body.name)
+                yield Shape("link", np.array(places), body.name, float(body.name in self.slotted))
             elif body.name not in self.has_shape:
-                place = places[0] if places else com
-                yield Shape("disc", np.array([pose.point(place), pose.direction(np.array([1.0, 0.0]))]), body.name)
-
-        for particle in self.drawing.of(Particle):
+                yield Shape("disc", np.array([places[0], pose.direction(np.array([1.0, 0.0]))]), body.name)
+        for particle in self.parts.drawing.of(Particle):
             if particle.carrier:
-                yield Shape("particle", self._at(particle.carrier)[None], particle.name)
+                yield Shape("particle", posed.at(particle.carrier)[None], particle.name)
+        for point in self.parts.free:
+            yield Shape("mark", posed.at(point)[None], point.name or "")
 
-    def _joints(self) -> Iterator[Shape]:
-        for joint in self.drawing.of(Joint):
-            first, second = self._at(joint.first), self._at(joint.second)
-            turned_with = self.pose[joint.bodies[0].name]
-            if "distance" in _gauges(joint):
+    def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+        for joint in self.parts.drawing.of(Joint):
+            first, second = posed.at(joint.first), posed.at(joint.second)
+            if "distance" in gauges(joint):
                 yield Shape("rod", np.array([first, second]), joint.name)
             elif joint.row.at_contact:
-                normal, spoke = turned_with.direction(np.array([-joint.axis[1], joint.axis[0]])), self._spoke(joint)
-                radius = joint.length_with(self.numbers)
-                yield Shape("rail", np.array([first, second - radius * normal, [normal[1], -normal[0]]]), joint.name)
-                yield Shape("wheel", np.array([second, spoke]), joint.name, radius)
-            elif "across" in _gauges(joint) and joint.axis is not None:
-                axis = turned_with.direction(joint.axis)
-                rail = "rail" if joint.bodies[0] is self.drawing.ground else "groove"
-                yield Shape(rail, np.array([first, first + axis * ((second - first) @ axis), axis]), joint.name)
-                yield Shape("slider", np.array([second, axis]), joint.name)
+                axis, radius = posed.direction(joint.bodies[0], joint.axis), joint.length_with(self.parts.numbers)
+                down = radius * np.array([axis[1], -axis[0]])
+                yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
+                yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
+            elif slides(joint):
+                yield from _slider(joint, posed, ranges)
             elif joint.is_of_one_body:
-                yield Shape("blade", np.array([second, self.pose[joint.bodies[1].name].direction(joint.axis)]), joint.name)
-            if _is_pinned(joint):
+                yield Shape("blade", np.array([second, posed.direction(joint.bodies[1], joint.axis)]), joint.name)
+            elif {"x", "y", "angle"} <= gauges(joint):
+                yield Shape("weld", np.array([second, posed.spoke(joint)]), joint.name)
+            elif not is_pinned(joint):
+                yield Shape("coupled", np.array([first, second]), joint.name)
+            if is_pinned(joint):
                 yield Shape("pin", second[None], joint.name)
 
-    def _forces(self) -> Iterator[Shape]:
-        for spring in self.drawing.of(Spring):
-            yield Shape("spring", np.array([self._at(spring.first), self._at(spring.second)]), spring.name)
-        for made in self.drawing.of(MadeForce):
-            if made.row.is_spring and made.has("distance"):
-                yield Shape("spring", np.array([self._at(made.first), self._at(made.second)]), made.name)
-            elif made.row.is_spring:
-                yield Shape("bushing", self._at(made.second)[None], made.name)
-        for actuator in self.drawing.of(Actuator):
-            yield Shape("cylinder", np.array([self._at(actuator.first), self._at(actuator.second)]), actuator.name)
-        for spring in self.drawing.of(TorsionSpring):
-            angle = self.pose[spring.joint.bodies[1].name].angle - self.pose[spring.joint.bodies[0].name].angle
-            yield Shape("spiral", self._at(spring.joint.second)[None], spring.name, angle)
-        for bushing in self.drawing.of(Bushing):
-            yield Shape("bushing", self._at(bushing.second)[None], bushing.name)
 
-    def _gears(self) -> Iterator[Shape]:
-        """Pitch circles of gears, whose sizes follow from the ratio and the distance of the centres."""
-        for gear in self.gears:
-            joints = self._geared(gear)
-            centres = [self._at(joint.second) for joint in joints]
-            ratio = self.numbers(gear, "ratio", gear.ratio)
-            apart = float(np.hypot(*(centres[1] - centres[0])))
-            radii = (apart * abs(ratio / (1 - ratio)), apart * abs(1 / (1 - ratio))) if ratio != 1 else (0.0, 0.0)
-            for joint, centre, radius in zip(joints, centres, radii, strict=True):
-                yield Shape("gear", np.array([centre, self._spoke(joint)]), gear.name, radius)
-
-    def _geared(self, gear: Coupling) -> list[Joint]:
-        return [self.drawing.elements[of.rpartition(".")[0]] for of in gear.of]
-
-    def _spoke(self, joint: Joint) -> np.ndarray:
-        """The x axis of a joint's second body."""
-        return self.pose[joint.bodies[1].name].direction(np.array([1.0, 0.0]))
-
-    def _held_by_ground(self) -> list[Point]:
-        """The points of the ground that a hinge, a rod or a spring holds on to, each place once."""
-        ground, places = self.drawing.ground, []
-        for element in self.drawing.of((Joint, Spring, Actuator)):
-            if isinstance(element, Joint) and not ("distance" in _gauges(element) or is_hinge(element.row)):
-                continue
-            for side in (element.first, element.second):
-                if side.body is ground and all(np.hypot(*(self._at(side) - self._at(other))) > APART for other in places):
-                    places.append(side)
-        return places
+def _slider(joint: Joint, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+    """A block on the ground, in a groove of a body where it turns, and around a rod of the body where it does not."""
+    second, axis, track = posed.at(joint.second), posed.direction(joint.bodies[0], joint.axis), posed.track(joint, ranges)
+    if joint.bodies[0] is posed.parts.drawing.ground:
+        yield Shape("rail", np.array([*track, posed.parts.side(joint)]), joint.name)
+        yield Shape("slider", np.array([second, axis]), joint.name)
+    elif has_groove(joint):
+        yield Shape("groove", np.array([*track, axis]), joint.name)
+        yield Shape("block", np.array([second, axis]), joint.name)
+    else:
+        yield Shape("guide", np.array([*track, axis]), joint.name)
+        yield Shape("slider", np.array([second, axis]), joint.name)
 
 
-def _gauges(joint: Joint) -> set[str]:
+def _held_by_ground(parts: Parts) -> list[Point]:
+    """The points of the ground about which a body or a rod turns, each place once."""
+    ground, held = parts.drawing.ground, {}
+    for joint in parts.drawing.of(Joint):
+        if "distance" in gauges(joint) or (is_pinned(joint) and joint.axis is None):
+            for side in (joint.first, joint.second):
+                if side.body is ground:
+                    held.setdefault(tuple(np.round(side.local_with(parts.numbers) / APART)), side)
+    return list(held.values())
+
+
+def gauges(joint: Joint) -> set[str]:
     """What the rows of a joint hold."""
     return {row.gauge for row in joint.row.rows}
 
 
-def _is_pinned(joint: Joint) -> bool:
+def slides(joint: Joint) -> bool:
+    """Whether a joint guides a point along a line of its first body."""
+    return "across" in gauges(joint) and joint.axis is not None and not joint.row.at_contact
+
+
+def has_groove(joint: Joint) -> bool:
+    """Whether that line is a groove of a body that moves, in which the point may turn."""
+    return not holds_angle(joint.row) and not isinstance(joint.bodies[0], Ground)
+
+
+def is_pinned(joint: Joint) -> bool:
     """Whether a joint holds a point about which the second body turns."""
-    return bool(_gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
+    return bool(gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
 
 
-def sketch(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> list[Shape]:
-    """The shapes of a mechanism, with the mass centres at poses (bodies, 3)."""
-    return Sketch(drawing, numbers, poses).shapes()
+def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray]) -> list[list[Shape]]:
+    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 3); rails are as long as all need."""
+    sketch = Sketch(drawing, numbers)
+    posed = [Posed(sketch.parts, poses) for poses in moments]
+    ranges = sketch.ranges(posed)
+    return [sketch.shapes(each, ranges) for each in posed]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from .drawing import Drawing
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
-from .sketch import sketch
+from .sketch import sketches
 from .start import targets
 from .starting import Starting
 from .tables import Tables
@@ -202,8 +203,9 @@ class MechanismSystem(BaseSystem):
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return outline(self._drawing, self._numbers, poses)
 
-    def _shapes(self, p: np.ndarray) -> list[Shape]:
-        return sketch(self._drawing, self._numbers, self._first_core.poses(np.ascontiguousarray(p))[0])
+    def _sketches(self, positions: Sequence[np.ndarray]) -> list[list[Shape]]:
+        poses = (self._first_core.poses(np.ascontiguousarray(p))[0] for p in positions)
+        return sketches(self._drawing, self._numbers, poses)
 
     def _advice(self, error: Exception) -> str | None:
         """What helps where the start is singular."""

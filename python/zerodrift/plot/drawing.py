@@ -147,8 +147,9 @@ def _film(picture: Picture, times: np.ndarray, fps: float) -> FuncAnimation:
 
 def _moments(system: BaseSystem, positions: Any) -> list[list[Shape]] | None:
     """The shapes of each position; None where there are none, but points and lines."""
-    shapes = [system._shapes(_check.vector("p", p, system.nq)) for p in positions] if isinstance(system, BaseSystem) else []
-    return shapes if shapes and shapes[0] is not None else None
+    if not isinstance(system, BaseSystem):
+        return None
+    return system._sketches([_check.vector("p", p, system.nq) for p in positions])
 
 
 def _drawings(system: BaseSystem, positions: Any) -> np.ndarray:

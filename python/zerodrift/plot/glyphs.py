@@ -1,172 +1,319 @@
-"""How the parts of mechanisms look: a function for each kind of shape, which draws one and returns what it drew.
+"""How the parts of mechanisms look: a function for each kind of shape, which says of what lines and areas one consists.
 
-`size` is the length of a pin's radius in m. Bodies are coloured, all else is black, white and grey.
+`size` is the length of a pin's radius in m. Bodies are light with a dark outline, the ground is hatched, pins are white, and all
+else is black, white and grey, so that nothing is told by its colour alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Circle, Polygon
 
 from ..systems.shapes import Shape
-from .style import COLOURS
+from .marks import (
+    BODY,
+    CHAIN,
+    DARK,
+    DASHED,
+    EDGE,
+    GREY,
+    LOAD,
+    PLATE,
+    SMOOTH,
+    TINT,
+    WHITE,
+    Mark,
+    across,
+    arc,
+    area,
+    arrow,
+    box,
+    circle,
+    hatched,
+    hull,
+    line,
+    rim,
+    rounded,
+    turning_arrow,
+    unit,
+)
 
-BODY = COLOURS[0]
-DARK, LIGHT = "black", "0.55"
-COILS = 7           # of a spring
-IN_LINE = 1e-3      # of a body: how far its points are from a line at most that is drawn as a bar
-STROKES = 5         # of the hatching under a support
-
-
-def _line(ax: Axes, points: Any, **style: Any) -> Any:
-    look = {"color": DARK, "linewidth": 1.2, "solid_capstyle": "round"} | style
-    (line,) = ax.plot(*np.asarray(points, dtype=float).T, **look)
-    return line
-
-
-def _patch(ax: Axes, patch: Any) -> Any:
-    return ax.add_patch(patch)
-
-
-def _across(axis: np.ndarray) -> np.ndarray:
-    return np.array([-axis[1], axis[0]])
-
-
-def _hatched(ax: Axes, start: np.ndarray, end: np.ndarray, size: float) -> list[Any]:
-    """A line with hatching to the right of its direction."""
-    along = (end - start) / max(np.hypot(*(end - start)), 1e-300)
-    down, length = -_across(along), np.hypot(*(end - start))
-    strokes = max(STROKES, int(length / (1.2 * size)))
-    feet = start + np.linspace(0, 1, strokes + 1)[1:, None] * (end - start)
-    points = [point for foot in feet for point in (foot, foot + size * (0.9 * down - 0.7 * along), (np.nan, np.nan))]
-    return [_line(ax, [start, end], zorder=1.5), _line(ax, points, linewidth=0.8, zorder=1.4)]
-
-
-def link(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """Points (n, 2) of a body: a bar where they are in line, else a plate."""
-    if np.linalg.matrix_rank(shape.points - shape.points[0], tol=IN_LINE * np.ptp(shape.points)) < 2:
-        return [_line(ax, shape.points, color=BODY, linewidth=3.5, zorder=2)]
-    style = {"closed": True, "facecolor": BODY, "edgecolor": "none", "alpha": 0.25, "zorder": 1.9}
-    edge = np.vstack([shape.points, shape.points[:1]])
-    return [_patch(ax, Polygon(shape.points, **style)), _line(ax, edge, color=BODY, linewidth=2.5, zorder=2)]
+COILS = 6           # of a spring
+BAR, SLOTTED = 1.5, 2.9     # half the width of a link, in sizes
+BLOCK = 2.8, 1.7    # half the length and half the width of a slider
+HALF_GROOVE = 1.6   # half the width of a groove
+BESIDE = 2.3        # how far a spring and a damper that belong together are from their middle
 
 
-def pin(ax: Axes, shape: Shape, size: float) -> list[Any]:
+# ---- bodies ----
+
+
+def link(shape: Shape, size: float) -> list[Mark]:
+    """Points (n, 2) of a body: a bar where they are in line, else a plate; wider where it has grooves, which is its number."""
+    outline = rounded(shape.points, (SLOTTED if shape.number else BAR) * size)
+    return [area(outline, face=BODY if len(hull(shape.points)) < 3 else PLATE, edge=EDGE, width=1.2)]
+
+
+def disc(shape: Shape, size: float) -> list[Mark]:
+    """A body of which one place is known, and a direction that turns with it."""
+    centre, spoke = shape.points
+    return [circle(centre, 4.0 * size, face=BODY, edge=EDGE),
+            line([centre, centre + 4.0 * size * spoke], edge=EDGE, width=1.0)]
+
+
+def particle(shape: Shape, size: float) -> list[Mark]:
+    """A mass in a place."""
+    return [circle(shape.points[0], 2.0 * size, face=EDGE, edge=DARK, width=0.8)]
+
+
+def mark(shape: Shape, size: float) -> list[Mark]:
+    """A named point of a body that nothing holds."""
+    return [circle(shape.points[0], 0.6 * size, face=DARK, edge=WHITE, width=0.5)]
+
+
+# ---- joints ----
+
+
+def pin(shape: Shape, size: float) -> list[Mark]:
     """The place (1, 2) of a hinge."""
-    return [_patch(ax, Circle(shape.points[0], size, facecolor="white", edgecolor=DARK, linewidth=1.2, zorder=4))]
+    return [circle(shape.points[0], size, width=1.2)]
 
 
-def ground(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A place (1, 2) of the ground that holds something: a hatched support."""
+def ground(shape: Shape, size: float) -> list[Mark]:
+    """A place (1, 2) of the ground about which something turns: a support on hatched ground."""
     tip = shape.points[0]
-    left, right = tip + size * np.array([[-1.8, -3.0], [1.8, -3.0]])
-    support = Polygon([tip, left, right], closed=True, facecolor="white", edgecolor=DARK, linewidth=1.2, zorder=1.6)
-    wider = 0.9 * size * np.array([1.0, 0.0])
-    return [_patch(ax, support), *_hatched(ax, left - wider, right + wider, size), *pin(ax, shape, 0.8 * size)]
+    left, right = tip + size * np.array([[-2.5, -4.4], [2.5, -4.4]])
+    wider = size * np.array([1.3, 0.0])
+    return [area(hull(np.vstack([arc(tip, 1.5 * size), left, right]))), *hatched(left - wider, right + wider, size)]
 
 
-def rail(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A line of the ground from one place past another along an axis: (place, place, axis)."""
+def wall(shape: Shape, size: float) -> list[Mark]:
+    """A place of the ground at which something is held that comes from a direction: (place, direction)."""
+    place, inward = shape.points
+    half = 3.4 * size * across(inward)
+    return hatched(place + half, place - half, size)
+
+
+def rail(shape: Shape, size: float) -> list[Mark]:
+    """A guide on the ground from one place to another: (place, place, direction away from the ground)."""
+    along, down = -across(shape.points[2]), BLOCK[1] * size * shape.points[2]
+    start, end = sorted(shape.points[:2] - down, key=lambda place: float(place @ along))
+    longer = 1.5 * BLOCK[0] * size * along
+    return hatched(start - longer, end + longer, size, aligned=True)
+
+
+def road(shape: Shape, size: float) -> list[Mark]:
+    """A line on which a wheel rolls, from one place to another along it: (place, place, axis)."""
     start, end, axis = shape.points
-    low, high = sorted((0.0, float((end - start) @ axis)))
-    return _hatched(ax, start + (low - 5 * size) * axis, start + (high + 5 * size) * axis, size)
+    return hatched(start - 6 * size * axis, end + 6 * size * axis, size, aligned=True)
 
 
-def groove(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """The same of a moving body."""
+def groove(shape: Shape, size: float) -> list[Mark]:
+    """A slot in a moving body from one place to another: (place, place, axis)."""
     start, end, axis = shape.points
-    low, high = sorted((0.0, float((end - start) @ axis)))
-    return [_line(ax, [start + (low - 5 * size) * axis, start + (high + 5 * size) * axis], color=LIGHT, linewidth=5, zorder=1.5)]
+    longer = 3.2 * size * axis
+    return [area(rounded(np.array([start - longer, end + longer]), HALF_GROOVE * size), edge=EDGE, width=1.0)]
 
 
-def slider(ax: Axes, shape: Shape, size: float) -> list[Any]:
+def guide(shape: Shape, size: float) -> list[Mark]:
+    """A rod of a moving body on which another one slides, from one place to another: (place, place, axis)."""
+    start, end, axis = shape.points
+    longer = 1.6 * BLOCK[0] * size * axis
+    return [area(rounded(np.array([start - longer, end + longer]), 0.75 * size), face=BODY, edge=EDGE, width=1.0)]
+
+
+def slider(shape: Shape, size: float) -> list[Mark]:
     """A block (place, axis)."""
     place, axis = shape.points
-    along, across = 2.6 * size * axis, 1.6 * size * _across(axis)
-    corners = [place + along + across, place - along + across, place - along - across, place + along - across]
-    return [_patch(ax, Polygon(corners, closed=True, facecolor="0.85", edgecolor=DARK, linewidth=1.2, zorder=3))]
+    return [box(place, axis, BLOCK[0] * size, BLOCK[1] * size, face=BODY, edge=EDGE, width=1.2)]
 
 
-def rod(ax: Axes, shape: Shape, size: float) -> list[Any]:
+def block(shape: Shape, size: float) -> list[Mark]:
+    """A block (place, axis) in a groove."""
+    place, axis = shape.points
+    return [box(place, axis, 2.1 * size, HALF_GROOVE * size, face="#D9D9D9", edge=DARK, width=1.0)]
+
+
+def weld(shape: Shape, size: float) -> list[Mark]:
+    """A place at which bodies are one, and a direction of them."""
+    place, axis = shape.points
+    return [box(place, axis, 1.05 * size, 1.05 * size, face=DARK, width=0.6)]
+
+
+def rod(shape: Shape, size: float) -> list[Mark]:
     """A massless rod between two places."""
-    ends = [each for place in shape.points for each in pin(ax, shape._replace(points=place[None]), 0.7 * size)]
-    return [_line(ax, shape.points, linewidth=1.8, zorder=2), *ends]
+    return [area(rounded(shape.points, 0.5 * size), face=WHITE, width=1.0),
+            *(circle(place, 0.75 * size, width=1.2) for place in shape.points)]
 
 
-def spring(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A zigzag between two places."""
+def blade(shape: Shape, size: float) -> list[Mark]:
+    """A blade, or a wheel from above, at a place along a direction."""
+    place, axis = shape.points
+    return [area(rounded(np.array([place - 3.2 * size * axis, place + 3.2 * size * axis]), 0.7 * size), face=DARK, width=0.6)]
+
+
+def wheel(shape: Shape, size: float) -> list[Mark]:
+    """A wheel: its centre, a direction that turns with it; its radius."""
+    centre, spoke = shape.points
+    inner = 0.92 * shape.number
+    spokes = [line([centre - inner * each, centre + inner * each], edge=EDGE, width=0.8) for each in (spoke, across(spoke))]
+    return [circle(centre, inner, SMOOTH, face=TINT, edge="none"), *spokes,
+            line([centre, centre + inner * spoke], edge=EDGE, width=2.0),
+            rim(centre, inner, shape.number, face=EDGE, edge=EDGE, width=0.6), circle(centre, 1.7 * size, face=BODY, edge=EDGE)]
+
+
+# ---- gears and cams ----
+
+
+def gear(shape: Shape, size: float) -> list[Mark]:
+    """The pitch circle of a gear, as of a wheel; a hole shows how it turns."""
+    centre, spoke = shape.points
+    radius = shape.number
+    return [circle(centre, radius, SMOOTH, face=TINT, edge="none"),
+            line(arc(centre, radius, corners=SMOOTH), edge=EDGE, width=1.2, dashes=CHAIN),
+            line([centre, centre + radius * spoke], edge=EDGE, width=1.0),
+            circle(centre, min(2.2 * size, 0.5 * radius), face=BODY, edge=EDGE),
+            circle(centre + 0.62 * radius * spoke, min(0.14 * radius, 1.4 * size), edge=EDGE, width=0.9)]
+
+
+def ring(shape: Shape, size: float) -> list[Mark]:
+    """A gear whose teeth are inside, as of a gear."""
+    centre, spoke = shape.points
+    radius, outer = shape.number, shape.number + 2.6 * size
+    return [rim(centre, radius, outer, face=TINT, edge="none"), line(arc(centre, outer, corners=SMOOTH), edge=EDGE, width=1.2),
+            line(arc(centre, radius, corners=SMOOTH), edge=EDGE, width=1.2, dashes=CHAIN),
+            line([centre + radius * spoke, centre + outer * spoke], edge=EDGE, width=2.0)]
+
+
+def rack(shape: Shape, size: float) -> list[Mark]:
+    """A rack along its pitch line from one place to another: (place, place, direction towards its pinion)."""
+    start, end, towards = shape.points
+    count = max(2, int(np.hypot(*(end - start)) / (2.2 * size)))
+    at = (np.arange(4 * count) + 0.5) / (4 * count)
+    heights = np.tile([-0.6, 0.6, 0.6, -0.6], count) * size
+    teeth = start + at[:, None] * (end - start) + heights[:, None] * towards
+    back = -BLOCK[1] * size * towards
+    return [area([start + back, *teeth, end + back], face=BODY, edge=EDGE, width=1.0),
+            line([start, end], edge=EDGE, width=0.8, dashes=CHAIN)]
+
+
+def cam(shape: Shape, size: float) -> list[Mark]:
+    """A cam by the path (n, 2) of its roller's centre around it: the profile is that path, less the roller."""
+    path = shape.points
+    along = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0)
+    following = np.roll(path, -1, axis=0)
+    turn = np.sign(np.sum(path[:, 0] * following[:, 1] - path[:, 1] * following[:, 0]))
+    inward = turn * np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-300)[:, None]
+    return [area(path + ROLLER * size * inward, face=TINT, edge=EDGE, width=1.6)]
+
+
+ROLLER = 1.5        # the radius of a cam's roller
+
+
+def roller(shape: Shape, size: float) -> list[Mark]:
+    """The roller of a follower, by its centre."""
+    return [circle(shape.points[0], ROLLER * size, width=1.2), circle(shape.points[0], 0.4 * size, face=DARK, width=0.5)]
+
+
+def coupled(shape: Shape, size: float) -> list[Mark]:
+    """A line through places (n, 2) of which one follows from the others."""
+    return [line(shape.points, edge=GREY, width=1.0, dashes=DASHED)]
+
+
+# ---- springs, dampers, drives ----
+
+
+def _frame(shape: Shape, size: float, low: float, high: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[Mark]]:
+    """Of what is between two places, by itself or beside their line by its number: where its middle part begins and ends,
+    the direction across, and what leads there.
+    """
     start, end = shape.points
-    along = end - start
-    across = 1.5 * size * _across(along / max(np.hypot(*along), 1e-300))
-    steps = np.linspace(0.15, 0.85, 2 * COILS + 1)
-    swings = np.array([0.0, *[(-1.0) ** i for i in range(2 * COILS - 1)], 0.0])
-    points = [start, *(start + step * along + swing * across for step, swing in zip(steps, swings, strict=True)), end]
-    return [_line(ax, points, zorder=2.5, solid_joinstyle="round")]
+    side = across(unit(end - start))
+    ends = [start + part * (end - start) for part in (low, high)]
+    moved = [place + BESIDE * size * shape.number * side for place in ends]
+    leads = [line(points, width=1.2) for points in ([start, ends[0], moved[0]], [moved[1], ends[1], end])]
+    eyes = [circle(place, 0.5 * size, face=DARK, width=0.5) for place in (start, end)]
+    return moved[0], moved[1], side, [*leads, *eyes]
 
 
-def cylinder(ax: Axes, shape: Shape, size: float) -> list[Any]:
+def spring(shape: Shape, size: float) -> list[Mark]:
+    """A zigzag between two places; beside their line by its number."""
+    start, end, side, leads = _frame(shape, size, 0.17, 0.83)
+    steps = np.concatenate([[0.0], (np.arange(2 * COILS) + 0.5) / (2 * COILS), [1.0]])
+    swings = np.array([0.0, *((-1.0) ** i for i in range(2 * COILS)), 0.0]) * (1.3 if shape.number else 1.9) * size
+    return [line(start + steps[:, None] * (end - start) + swings[:, None] * side, width=1.3), *leads]
+
+
+def damper(shape: Shape, size: float) -> list[Mark]:
+    """A dashpot between two places; beside their line by its number."""
+    start, end, side, leads = _frame(shape, size, 0.17, 0.83)
+    half, (bottom, piston, rim) = 1.35 * size * side, (start + part * (end - start) for part in (0.22, 0.55, 0.75))
+    return [line([rim + half, bottom + half, bottom - half, rim - half], width=1.2), line([start, bottom], width=1.2),
+            line([piston + 0.75 * half, piston - 0.75 * half], width=2.6), line([piston, end], width=1.2), *leads]
+
+
+def cylinder(shape: Shape, size: float) -> list[Mark]:
     """A cylinder between two places: its barrel from the first, its piston rod from the second."""
     start, end = shape.points
-    along, middle = end - start, start + 0.55 * (end - start)
-    across = 1.2 * size * _across(along / max(np.hypot(*along), 1e-300))
-    corners = [start + across, middle + across, middle - across, start - across]
-    barrel = Polygon(corners, closed=True, facecolor="0.85", edgecolor=DARK, linewidth=1.2, zorder=2.6)
-    ends = [each for place in shape.points for each in pin(ax, shape._replace(points=place[None]), 0.7 * size)]
-    return [_patch(ax, barrel), _line(ax, [middle, end], linewidth=2.5, zorder=2.5), *ends]
+    barrel, half = start + 0.58 * (end - start), 1.4 * size * across(unit(end - start))
+    return [area(rounded(np.array([barrel, end]), 0.45 * size), face=WHITE, width=1.0),
+            area([start + half, barrel + half, barrel - half, start - half], face="#D9D9D9", width=1.2),
+            *(circle(place, 0.75 * size, width=1.2) for place in shape.points)]
 
 
-def spiral(ax: Axes, shape: Shape, size: float) -> list[Any]:
+def spiral(shape: Shape, size: float) -> list[Mark]:
     """A spring about a place, wound by an angle."""
     turns = np.linspace(0, 4.5 * np.pi, 120)
-    radius = size * (1.2 + 2.2 * turns / turns[-1])
+    radius = size * (1.5 + 2.3 * turns / turns[-1])
     angles = turns + shape.number * (1 - turns / turns[-1])
-    return [_line(ax, shape.points[0] + np.column_stack([radius * np.cos(angles), radius * np.sin(angles)]), zorder=2.5)]
+    return [line(shape.points[0] + np.column_stack([radius * np.cos(angles), radius * np.sin(angles)]), width=1.1)]
 
 
-def bushing(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A soft joint at a place: rings."""
-    return [_patch(ax, Circle(shape.points[0], radius * size, facecolor=colour, edgecolor=DARK, linewidth=1.0, zorder=3.5))
-            for radius, colour in ((1.9, "0.75"), (1.0, "white"))]
+def bushing(shape: Shape, size: float) -> list[Mark]:
+    """A soft joint at a place: a ring of rubber in a sleeve."""
+    place = shape.points[0]
+    return [circle(place, 2.2 * size, face="#707070"), circle(place, 1.1 * size, width=1.0)]
 
 
-def particle(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A mass in a place."""
-    return [_patch(ax, Circle(shape.points[0], 1.5 * size, facecolor=BODY, edgecolor=DARK, linewidth=1.0, zorder=3.8))]
+def motor(shape: Shape, size: float) -> list[Mark]:
+    """A drive about a place; clockwise where its number is negative."""
+    start, angle = (-0.2 * np.pi, 1.4 * np.pi) if shape.number >= 0 else (1.2 * np.pi, -1.4 * np.pi)
+    return turning_arrow(shape.points[0], 3.3 * size, start, angle, size, DARK)
 
 
-def _turning(ax: Axes, shape: Shape, radius: float, **style: Any) -> list[Any]:
-    """A circle about a place, with a spoke in a direction."""
-    centre, spoke = shape.points
-    look = {"facecolor": "none", "edgecolor": BODY, "linewidth": 2.0, "zorder": 1.8} | style
-    return [_patch(ax, Circle(centre, radius, **look)),
-            _line(ax, [centre, centre + radius * spoke], color=BODY, linewidth=1.5, zorder=1.9)]
+def drive(shape: Shape, size: float) -> list[Mark]:
+    """A drive at a place along an axis: (place, axis, the side on which there is room)."""
+    place, axis, normal = shape.points
+    middle = place + (BLOCK[1] + 1.6) * size * normal
+    forward = 1.0 if shape.number >= 0 else -1.0
+    return [arrow(middle - 3.2 * forward * size * axis, middle + 3.2 * forward * size * axis, size, face=DARK, width=0.5)]
 
 
-def disc(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A body of which one place is known, and a direction that turns with it."""
-    return _turning(ax, shape, 3.0 * size, facecolor="white")
+def load(shape: Shape, size: float) -> list[Mark]:
+    """A force at a place in a direction."""
+    place, direction = shape.points
+    return [arrow(place, place + 9 * size * direction, size, face=LOAD, edge=WHITE, width=0.6)]
 
 
-def wheel(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A wheel: its centre, a direction that turns with it; its radius."""
-    dot = Circle(shape.points[0], 0.6 * size, facecolor=DARK, edgecolor="none", zorder=4)
-    return [*_turning(ax, shape, shape.number), _patch(ax, dot)]
+def moment(shape: Shape, size: float) -> list[Mark]:
+    """A moment about a place; clockwise where its number is negative."""
+    start, angle = (-0.75 * np.pi, 1.5 * np.pi) if shape.number >= 0 else (-0.25 * np.pi, -1.5 * np.pi)
+    return turning_arrow(shape.points[0], 4.2 * size, start, angle, size, LOAD)
 
 
-def gear(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """The pitch circle of a gear, as of a wheel."""
-    return _turning(ax, shape, shape.number, linestyle=(0, (8, 3, 2, 3)), linewidth=1.2)
+class Glyph(NamedTuple):
+    """How a kind of shape is drawn, in front of what, and how many of its last points are directions."""
+
+    draw: Callable[[Shape, float], list[Mark]]
+    zorder: float
+    directions: int
 
 
-def blade(ax: Axes, shape: Shape, size: float) -> list[Any]:
-    """A blade at a place along a direction."""
-    place, axis = shape.points
-    return [_line(ax, [place - 3 * size * axis, place + 3 * size * axis], linewidth=3, zorder=3)]
-
-
-GLYPHS: dict[str, Callable[[Axes, Shape, float], list[Any]]] = {glyph.__name__: glyph for glyph in (
-    link, pin, ground, rail, groove, slider, rod, spring, cylinder, spiral, bushing, particle, disc, wheel, gear, blade)}
+BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, link, groove, rod, cylinder, damper,
+                 spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive, load,
+                 moment)
+DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "wall", "groove", "guide", "slider", "block", "disc", "wheel", "gear",
+                                         "ring", "rack", "blade", "weld", "load"), 1)}
+GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

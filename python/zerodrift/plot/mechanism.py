@@ -1,4 +1,8 @@
-"""Pictures of mechanisms of the plane from the shapes of their parts; `drawing` asks for them."""
+"""Pictures of mechanisms of the plane from the shapes of their parts; `drawing` asks for them.
+
+All shapes of a kind are one collection of matplotlib, whose label is the kind, so that pictures of a thousand links are quick,
+and films move what there is instead of drawing anew.
+"""
 
 from __future__ import annotations
 
@@ -7,52 +11,93 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PathCollection
 
 from ..systems.shapes import Shape
-from .glyphs import GLYPHS, LIGHT
+from .glyphs import GLYPHS
+from .marks import SMOOTH, Mark, arc, hull
 
-SMALL = 0.016       # of the drawing: the radius of a pin
-SLENDER = 0.2       # of the shortest bar: no pin is larger
-MARGIN = 0.12       # of the drawing, around it
-NARROW = 0.4        # of the drawing's longer side: no picture is narrower
-DIRECTED = ("rail", "groove", "slider", "disc", "wheel", "gear", "blade")       # whose last point is a direction
-FAINT = ("link", "rod")     # what other positions show
+SMALL = 0.017       # of the picture: the radius of a pin
+LEAST = 1.7         # points: no pin is smaller, however small the picture
+SLENDER = 0.2       # of the short bars, the quarter of all: no pin is larger
+MARGIN = 3.0        # sizes, around all that is drawn
+NARROW = 0.4        # of the picture's longer side: no picture is narrower
+LINE = 0.22         # points in a picture's line for each point in a pin's radius
+THIN, THICK = 0.3, 1.0      # of lines, in points
+FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "wheel": "#C8C8C8"}       # what other positions show
 
 
 class Picture:
     """Shapes in axes, all to the scale that holds every one of them; `show` draws those of one moment instead of those before."""
 
     def __init__(self, ax: Axes, moments: Sequence[list[Shape]]) -> None:
-        self.ax, self._moments, self._drawn = ax, moments, []
+        self.ax, self._moments = ax, moments
+        self._drawn: dict[str, PathCollection] = {}
         places = np.vstack([_extent(shape) for shapes in moments for shape in shapes] or [np.zeros((1, 2))])
         low, high = places.min(axis=0), places.max(axis=0)
         extent = float((high - low).max()) or 1.0
-        bars = [np.hypot(*np.ptp(shape.points, axis=0)) for shape in moments[0] if shape.kind == "link"]
-        self.size = min([SMALL * extent, *(SLENDER * float(bar) for bar in bars)])
-        middle, half = (low + high) / 2, np.maximum((high - low) / 2, NARROW / 2 * extent) + MARGIN * extent
-        ax.set_xlim(middle[0] - half[0], middle[0] + half[0])
-        ax.set_ylim(middle[1] - half[1], middle[1] + half[1])
-        ax.set_aspect("equal", adjustable="box")
+        per_point = 1.3 * float(((high - low) / np.maximum(_points(ax), 1.0)).max()) or extent / 300
+        bars = [float(np.hypot(*np.ptp(shape.points, axis=0))) for shape in moments[0] if shape.kind == "link"]
+        wished = max(SMALL * extent, LEAST * per_point)
+        self.size = min(wished, SLENDER * float(np.quantile(bars, 0.25))) if bars else wished
+        self.line = float(np.clip(LINE * self.size / per_point, THIN, THICK))
+        self._limit(places, extent)
+
+    def _limit(self, places: np.ndarray, extent: float) -> None:
+        """Axes around all places, and around the marks of the first moment."""
+        ends = [places, *(each.path.vertices for shape in self._moments[0] for each in GLYPHS[shape.kind].draw(shape, self.size))]
+        low, high = np.min([each.min(axis=0) for each in ends], axis=0), np.max([each.max(axis=0) for each in ends], axis=0)
+        middle, half = (low + high) / 2, np.maximum((high - low) / 2, NARROW / 2 * extent) + MARGIN * self.size
+        self.ax.set_xlim(middle[0] - half[0], middle[0] + half[0])
+        self.ax.set_ylim(middle[1] - half[1], middle[1] + half[1])
+        self.ax.set_aspect("equal", adjustable="box")
 
     def faintly(self, moments: Sequence[int]) -> None:
-        """Other moments, faintly and for good."""
-        for moment in moments:
-            for shape in self._moments[moment]:
-                if shape.kind in FAINT:
-                    points = np.vstack([shape.points, shape.points[:1]]) if len(shape.points) > 2 else shape.points
-                    self.ax.plot(*points.T, color=LIGHT, alpha=0.35, linewidth=1.0, zorder=1)
+        """Other moments, as thin lines and for good."""
+        drawn = [(FAINT[shape.kind], _skeleton(shape)) for i in moments for shape in self._moments[i] if shape.kind in FAINT]
+        if drawn:
+            colours, segments = zip(*drawn, strict=True)
+            self.ax.add_collection(LineCollection(segments, colors=colours, linewidths=self.line, zorder=1.2, label="_ghosts",
+                                                  capstyle="round"), autolim=False)
 
     def show(self, moment: int) -> list[Any]:
         """Draws one moment."""
-        for artist in self._drawn:
-            artist.remove()
-        self._drawn = [artist for shape in self._moments[moment]
-                       for artist in GLYPHS[shape.kind](self.ax, shape, self.size)]
-        return self._drawn
+        marks: dict[str, list[Mark]] = {kind: [] for kind in self._drawn}
+        for shape in self._moments[moment]:
+            marks.setdefault(shape.kind, []).extend(GLYPHS[shape.kind].draw(shape, self.size))
+        for kind, those in marks.items():
+            self._collection(kind).set(**self._look(those))
+        return list(self._drawn.values())
+
+    def _collection(self, kind: str) -> PathCollection:
+        """What shows all shapes of a kind."""
+        if kind not in self._drawn:
+            collection = PathCollection([], zorder=GLYPHS[kind].zorder, label=f"_{kind}", capstyle="round", joinstyle="round")
+            self._drawn[kind] = self.ax.add_collection(collection, autolim=False)
+        return self._drawn[kind]
+
+    def _look(self, marks: list[Mark]) -> dict[str, Any]:
+        return {"paths": [each.path for each in marks], "facecolor": [each.face for each in marks],
+                "edgecolor": [each.edge for each in marks], "linewidth": [self.line * each.width for each in marks],
+                "linestyle": [each.dashes for each in marks]}
+
+
+def _points(ax: Axes) -> np.ndarray:
+    """Width and height of axes, (2,) in points."""
+    box = ax.get_window_extent()
+    return 72 / ax.figure.dpi * np.array([box.width, box.height])
 
 
 def _extent(shape: Shape) -> np.ndarray:
     """The places that a shape takes, (n, 2)."""
-    places = shape.points[:-1] if shape.kind in DIRECTED else shape.points
-    reach = shape.number if shape.kind in ("wheel", "gear") else 0.0
-    return np.vstack([places - reach, places + reach])
+    places = shape.points[:len(shape.points) - GLYPHS[shape.kind].directions]
+    reach = shape.number if shape.kind in ("wheel", "gear", "ring") else 0.0
+    return np.vstack([places - reach, places + reach]) if reach else places
+
+
+def _skeleton(shape: Shape) -> np.ndarray:
+    """A bar's middle line, a plate's edge, a wheel's rim: points (n, 2)."""
+    if shape.kind == "wheel":
+        return arc(shape.points[0], shape.number, corners=SMOOTH)
+    corners = hull(shape.points)
+    return np.vstack([corners, corners[:1]]) if len(corners) > 2 else corners

@@ -219,9 +219,14 @@ class BaseSystem:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return None
 
-    def _shapes(self, p: np.ndarray) -> list[Shape] | None:
-        """What there is to draw at p where more is known than points and lines; None: that is all."""
+    def _sketches(self, positions: Sequence[np.ndarray]) -> list[list[Shape]] | None:
+        """What there is to draw at each of some positions where more is known than points and lines; None: that is all."""
         return None
+
+    def _shapes(self, p: np.ndarray) -> list[Shape] | None:
+        """The same at one position."""
+        found = self._sketches([p])
+        return None if found is None else found[0]
 
     @property
     def _measuring(self) -> _gateway.CoreSystem | None:
