@@ -12,6 +12,7 @@ from .. import _check
 from ..systems import jets
 from ..systems.callables import arguments
 from .measures import name_of
+from .scalars import function_of
 
 
 class Law:
@@ -59,10 +60,8 @@ class Law:
         """The function of its names, in their order."""
         if self.expression is None:
             return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
-        import sympy as sp
-
         by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
-        return sp.lambdify([by_name[name] for name in self._names], self.expression, "numpy")
+        return function_of([by_name[name] for name in self._names], self.expression)
 
     def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
         """Its value at a time and values of its measures; where these are jets, a jet."""

@@ -13,6 +13,7 @@ True
 from ..symbolics import define  # noqa: F401  (where SymPy is missing, it says what to install)
 from .andrews import andrews
 from .bicycle import bicycle
+from .cam_follower import cam_follower
 from .chebyshev_lambda import chebyshev_lambda
 from .closed_pendulum import closed_pendulum
 from .four_bar import four_bar
@@ -22,16 +23,19 @@ from .jansen import jansen
 from .klann import klann
 from .pantograph import pantograph
 from .peaucellier import peaucellier
+from .planetary_gear import planetary_gear
+from .quarter_car import quarter_car
 from .quick_return import quick_return
 from .scissor_lift import scissor_lift
 from .slider_crank import slider_crank
+from .snakeboard import snakeboard
 from .stephenson import stephenson
 from .toggle_press import toggle_press
 from .watt import watt
 
-__all__ = ["andrews", "bicycle", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars", "hoecken",
-           "jansen", "klann", "pantograph", "peaucellier", "quick_return", "scissor_lift", "slider_crank",
-           "stephenson", "toggle_press", "watt"]
+__all__ = ["andrews", "bicycle", "cam_follower", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars",
+           "hoecken", "jansen", "klann", "pantograph", "peaucellier", "planetary_gear", "quarter_car",
+           "quick_return", "scissor_lift", "slider_crank", "snakeboard", "stephenson", "toggle_press", "watt"]
 
 
 def __dir__() -> list[str]:

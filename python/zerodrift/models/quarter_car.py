@@ -1,0 +1,61 @@
+"""A quarter of a car on a shaker: its body on a suspension, and the wheel on its tyre."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .. import _check
+from ..mechanisms.mechanism import Mechanism
+from ._swing import swing
+
+
+def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffness: float = 80e3, damping: float = 350.0,
+                tyre_stiffness: float = 500e3, tyre_damping: float = 15020.0, amplitude: float = 0.05, rate: float = 2 * np.pi,
+                gravity: float = 9.81) -> Mechanism:
+    """Two masses above each other, on springs and dampers, over a road that moves up and down by amplitude sin(rate t).
+
+    It starts at rest under its weight, which the springs carry as drawn; displacements are from there. The bodies are ``road``,
+    ``wheel`` and ``body``, each on a guide of its own, ``road guide``, ..., the springs ``tyre`` and ``suspension``, and the
+    motor ``drive``. The tyre does not lift off.
+
+    Parameters
+    ----------
+    body_mass, wheel_mass : float
+        In kg.
+    stiffness, damping : float
+        Of the suspension, in N/m and N s/m.
+    tyre_stiffness, tyre_damping : float
+        In N/m and N s/m.
+    amplitude, rate : float
+        Of the road, in m and rad/s.
+    gravity : float
+        Downwards, in m/s^2.
+
+    Returns
+    -------
+    Mechanism
+
+    References
+    ----------
+    W. C. Messner, D. M. Tilbury, Control Tutorials for MATLAB and Simulink, Suspension: a quarter of a bus, with these numbers.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.quarter_car(), 3.0, step=0.002)
+    >>> bool(abs(sol["body guide.displacement"]).max() > 0.05)      # the road's swing is near a resonance
+    True
+    """
+    masses = [_check.number(name, value, above=0) for name, value in (("body_mass", body_mass), ("wheel_mass", wheel_mass))]
+    k, k_tyre = _check.number("stiffness", stiffness, above=0), _check.number("tyre_stiffness", tyre_stiffness, above=0)
+    g = _check.number("gravity", gravity)
+    m = Mechanism("quarter_car", gravity=(0.0, -g))
+    road = m.body("road", 1.0, at=(0, 0))
+    wheel, body = m.body("wheel", masses[1], at=(0, 0.5)), m.body("body", masses[0], at=(0, 1.2))
+    for each in (road, wheel, body):
+        m.prismatic(f"{each.name} guide", m.ground, each, axis=(0, 1))
+    m.spring("tyre", road.point((0, 0)), wheel.point((0, 0)), stiffness=k_tyre, length=0.5 + sum(masses) * g / k_tyre,
+             damping=tyre_damping)
+    m.spring("suspension", wheel.point((0, 0)), body.point((0, 0)), stiffness=k, length=0.7 + masses[0] * g / k, damping=damping)
+    m.motor("drive", "road guide", displacement=swing(amplitude, rate))
+    return m
