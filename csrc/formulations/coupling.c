@@ -119,17 +119,30 @@ static void times_W(const zd_coupling *self, const double *y, double *x)
     if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
 }
 
-/* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */
-static void exchange(zd_coupling *self, const double *force, const double *rhs, double *x)
+/* S lambda = C W force - rhs, in the order of S; x <- W force */
+static void find_multipliers(zd_coupling *self, const double *force, const double *rhs, double *x)
 {
     double *y = self->weighted->blocks->x;
     if (force) times_W(self, force, x);
     zd_weighted_times(self->weighted, self->C, force ? x : NULL, rhs, y);
     zd_weighted_solve(self->weighted, y);
-    if (force) memcpy(self->force, force, (size_t)self->n * sizeof *force);
-    else memset(self->force, 0, (size_t)self->n * sizeof *force);
+}
+
+/* x <- W (force - C^T lambda) */
+static void exchange(zd_coupling *self, const double *force, const double *rhs, double *x)
+{
+    const double *y = self->weighted->blocks->x;
+    const size_t bytes = (size_t)self->n * sizeof *x;
+    find_multipliers(self, force, rhs, x);
+    if (self->is_diagonal) {
+        if (!force) memset(x, 0, bytes);
+        zd_strips_subtract_weighted(&self->weighted->strips, self->C, self->W, y, x);       /* (13), (27) */
+        return;
+    }
+    if (force) memcpy(self->force, force, bytes);
+    else memset(self->force, 0, bytes);
     zd_weighted_subtract_transposed(self->weighted, self->C, y, self->force);
-    times_W(self, self->force, x);                                      /* (13), (27) */
+    times_W(self, self->force, x);                                                          /* (13), (27) */
 }
 
 /* rest <- rhs - C x; returns how much that is of its terms, where it is more than the rounding of x makes it; else 0. */

@@ -15,6 +15,7 @@ typedef struct zd_blocks {
     int *target_begin;      /* (count + 1,) */
     int *target;            /* for each pair of them, the block in S that takes their product */
     int *kernel;            /* (count,) the size of all blocks of a column that has one for which there is a kernel; else 0 */
+    int uniform;            /* the same of all columns; 0: they differ */
     int size;               /* of S */
     double *S;              /* diagonal blocks, then those below it, column after column; once factored, D^-1 and L */
     double *diagonal;       /* (rows,): of S before that */

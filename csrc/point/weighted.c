@@ -98,8 +98,6 @@ static zd_piece piece_of(const zd_weighted *self, int b, int toucher)
         .rows = layout->row_at[g + 1] - layout->row_at[g],
         .n = velocities_of(layout, b),
         .row = layout->row_at[g],
-        .x = layout->velocity_at[b],
-        .y = self->row[g],
         .W = layout->M_at[b],
         .is_diagonal = layout->is_diagonal[b],
         .copies = copies_of(layout, b),
@@ -130,7 +128,7 @@ static zd_pair pair_of(const zd_weighted *self, int a, int b, int to)
 }
 
 /* The pairs of the pieces from `first` on, of the block rows that `member` has. */
-static void add_pairs(zd_weighted *self, const int *piece, const int *member, int members)
+static void list_pairs(zd_weighted *self, const int *piece, const int *member, int members)
 {
     const int *place = self->blocks->place;
     for (int i = 0; i < members; i++)
@@ -156,7 +154,7 @@ static void fill(zd_weighted *self, const zd_pattern *pattern)
             }
             if (it.has_weld_before) self->piece[weld] = weld_of(self, b, 0), piece[members++] = weld++;
             if (it.has_weld_behind) self->piece[weld] = weld_of(self, b, 1), piece[members++] = weld++;
-            add_pairs(self, piece, pattern->member + pattern->begin[clique], members);
+            list_pairs(self, piece, pattern->member + pattern->begin[clique], members);
         }
     for (int i = 0; i < self->largest; i++) {
         self->weld[i * (self->largest + 1)] = 1;
@@ -190,6 +188,7 @@ static void *take(zd_arena *arena, const void *of)
         for (int g = 0; g < it->layout->groups; g++) self.row[g] = self.blocks->at[self.blocks->place[g]];
         fill(&self, &it->pattern);
     }
+    self.strips = zd_strips_take(arena, it->layout, self.row);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -255,28 +254,33 @@ static void add_any(zd_weighted *self, const zd_piece *a, const zd_piece *b, con
     add_product(a->rows, b->rows, a->n, self->product, entries(self, b, C), b->stride, to);
 }
 
-static void add_pair(zd_weighted *self, const zd_pair *pair, const double *C, const double *W)
+/* Pairs of one kernel, mostly many in succession; returns the first of another. */
+ZD_INLINE const zd_pair *add_pairs(const int n, const int rows, const zd_weighted *self, const zd_pair *pair, const double *C, const double *W)
 {
-    const double *A = C + pair->a, *B = C + pair->b;
-    double *to = self->blocks->S + pair->to;
-#define KERNEL(n, rows) case 10 * n + rows: add_weighted(rows, n, A, pair->stride_of_a, W + pair->W, B, pair->stride_of_b, to); return;
-    switch (pair->kernel) {
-        KERNEL(3, 2)
-        KERNEL(3, 1)
-        KERNEL(3, 3)
-        KERNEL(6, 3)
-        KERNEL(6, 5)
-        KERNEL(6, 6)
-        KERNEL(6, 1)
-    default: add_any(self, self->piece + pair->a, self->piece + pair->b, C, W, to);
-    }
-#undef KERNEL
+    const zd_pair *end = self->pair + self->pairs;
+    double *S = self->blocks->S;
+    do add_weighted(rows, n, C + pair->a, pair->stride_of_a, W + pair->W, C + pair->b, pair->stride_of_b, S + pair->to);
+    while (++pair < end && pair->kernel == 10 * n + rows);
+    return pair;
 }
 
 static void fill_S(zd_weighted *self, const double *C, const double *W)
 {
     zd_blocks_clear(self->blocks);
-    for (int i = 0; i < self->pairs; i++) add_pair(self, self->pair + i, C, W);
+#define KERNEL(n, rows) case 10 * n + rows: pair = add_pairs(n, rows, self, pair, C, W); break;
+    for (const zd_pair *pair = self->pair; pair < self->pair + self->pairs;) switch (pair->kernel) {
+        KERNEL(3, 1)
+        KERNEL(3, 2)
+        KERNEL(3, 3)
+        KERNEL(6, 1)
+        KERNEL(6, 3)
+        KERNEL(6, 5)
+        KERNEL(6, 6)
+        default:
+            add_any(self, self->piece + pair->a, self->piece + pair->b, C, W, self->blocks->S + pair->to);
+            pair++;
+        }
+#undef KERNEL
 }
 
 zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W)
@@ -298,54 +302,10 @@ zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double
     return pivots;
 }
 
-/* ---- products ---- */
-
-#define FOR_SIZES(kernel, piece, ...)                                                          \
-    switch ((piece)->n == 3 ? (piece)->rows : (piece)->n == 6 ? 10 + (piece)->rows : 0) {      \
-    case 2: kernel(2, 3, __VA_ARGS__); break;                                                  \
-    case 1: kernel(1, 3, __VA_ARGS__); break;                                                  \
-    case 3: kernel(3, 3, __VA_ARGS__); break;                                                  \
-    case 13: kernel(3, 6, __VA_ARGS__); break;                                                 \
-    case 15: kernel(5, 6, __VA_ARGS__); break;                                                 \
-    case 16: kernel(6, 6, __VA_ARGS__); break;                                                 \
-    default: kernel((piece)->rows, (piece)->n, __VA_ARGS__);                                   \
-    }
-
-ZD_INLINE void add_times(const int rows, const int n, const double *C, int stride, const double *x, double *y)
-{
-    for (int i = 0; i < rows; i++) y[i] += zd_dot(n, C + i * stride, x);
-}
-
-ZD_INLINE void subtract_transposed(const int rows, const int n, const double *C, int stride, const double *y, double *x)
-{
-    for (int j = 0; j < n; j++) {
-        double sum = x[j];
-        for (int i = 0; i < rows; i++) sum -= C[i * stride + j] * y[i];
-        x[j] = sum;
-    }
-}
-
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y)
 {
-    memset(y, 0, (size_t)self->blocks->rows * sizeof *y);
-    const zd_layout *layout = self->layout;
-    for (int g = 0; rhs && g < layout->groups; g++)
-        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) y[i] = -rhs[k];
-    for (const zd_piece *piece = self->piece; x && piece < self->piece + self->pieces; piece++)
-        FOR_SIZES(add_times, piece, C + piece->C, piece->stride, x + piece->x, y + piece->y)
-}
-
-void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x)
-{
-    for (const zd_piece *piece = self->piece; piece < self->piece + self->pieces; piece++)
-        FOR_SIZES(subtract_transposed, piece, C + piece->C, piece->stride, y + piece->y, x + piece->x)
-}
-
-void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows)
-{
-    const zd_layout *layout = self->layout;
-    for (int g = 0; g < layout->groups; g++)
-        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) rows[k] = y[i];
+    if (zd_weighted_has_welds(self)) memset(y, 0, (size_t)self->blocks->rows * sizeof *y);
+    zd_strips_times(&self->strips, C, x, rhs, y);
 }
 
 int zd_weighted_row(const zd_weighted *self, int place)

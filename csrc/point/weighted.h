@@ -4,14 +4,13 @@
 #define ZD_WEIGHTED_H
 
 #include "../linalg/blocks.h"
-#include "layout.h"
+#include "strips.h"
 
 /* The block of C of a group and a body that it touches; or of a weld, see weighted.c. */
 typedef struct zd_piece {
     int C, stride;          /* where it begins in C, and how long the rows there are; of a weld, in its own blocks */
     int rows, n;            /* its size */
     int row;                /* the first, of C */
-    int x, y;               /* where the body's velocities begin, and the group's rows in a right side of S */
     int W, is_diagonal;     /* the body's part of W */
     int copies;             /* of the body */
     int is_weld;
@@ -33,6 +32,7 @@ typedef struct zd_weighted {
     double *weld;           /* an identity and its opposite, as large as the largest body */
     int largest;            /* velocities of that; 0 where there are no welds */
     int *row;               /* (groups,) where the rows of each stand in a right side of S */
+    zd_strips strips;       /* the same rows, for products */
     double *product;        /* room for A W */
 } zd_weighted;
 
@@ -44,12 +44,15 @@ zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W
 /* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
  * once those eliminated before are taken out. */
 zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
-/* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, rhs (m,) NULL: zero. */
+/* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, where welds have no right side; rhs (m,) NULL: zero. */
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y);
 static inline void zd_weighted_solve(const zd_weighted *self, double *y) { zd_blocks_solve(self->blocks, y); }
-void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x);
+static inline void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x)
+{
+    zd_strips_subtract_transposed(&self->strips, C, y, x);
+}
 /* rows (m,) <- y, in the order of C. */
-void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows);
+static inline void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows) { zd_strips_scatter(&self->strips, y, rows); }
 /* Which row of C has this place in the order of S; of a weld, the first. */
 int zd_weighted_row(const zd_weighted *self, int place);
 

@@ -1,0 +1,229 @@
+/* Block L D L^T, right-looking: once the block row k is eliminated, with P = D_k^-1 and B_i the blocks below it,
+ *
+ *     L_i = B_i P,        S_ij <- S_ij - B_i L_j^T,        S_ii <- S_ii - L_i B_i^T
+ *
+ * where each S_ij stands was found beforehand, see blocks.c. Diagonal blocks are inverted by scalar pivots: a row that is left out has none.
+ * Solutions take two products with each block.
+ *
+ * Kernels are told what the compiler is to know. `n` is the size of the pivot's block; `is_same`: of all blocks of its column, too; `is_whole`:
+ * of all blocks of the matrix, so that where they stand follows from their numbers.
+ */
+#include <math.h>
+
+#include "blocks.h"
+#include "small.h"
+
+/* kernel(n, is_same, is_whole, ...), with sizes known to the compiler for which that is worth it */
+#define FOR_SIZE(kernel, size, is_whole, ...)             \
+    switch (size) {                                       \
+    case 1: kernel(1, 1, is_whole, __VA_ARGS__); break;   \
+    case 2: kernel(2, 1, is_whole, __VA_ARGS__); break;   \
+    case 3: kernel(3, 1, is_whole, __VA_ARGS__); break;   \
+    case 5: kernel(5, 1, is_whole, __VA_ARGS__); break;   \
+    case 6: kernel(6, 1, is_whole, __VA_ARGS__); break;   \
+    default: break;                                       \
+    }
+
+static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
+
+ZD_INLINE int at_of(const int n, const int is_whole, const zd_blocks *self, int k) { return is_whole ? n * k : self->at[k]; }
+
+ZD_INLINE double *pivot_of(const int n, const int is_whole, const zd_blocks *self, int k)
+{
+    return self->S + (is_whole ? n * n * k : self->pivot_at[k]);
+}
+
+ZD_INLINE double *entry_of(const int n, const int is_whole, const zd_blocks *self, int e)
+{
+    return self->S + (is_whole ? n * n * (self->count + e) : self->entry_at[e]);
+}
+
+/* ---- factors ---- */
+
+/* Whether this pivot is positive; keeps the smallest share. Compared by products, as divisions would be waited for. */
+ZD_INLINE int judge(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)
+{
+    if (!(pivot > rounding * diagonal) || !(pivot < INFINITY)) {
+        if (pivots->failed < 0) pivots->failed = row;
+        return 0;
+    }
+    if (pivot * pivots->diagonal < pivots->pivot * diagonal) pivots->smallest = row, pivots->pivot = pivot, pivots->diagonal = diagonal;
+    return 1;
+}
+
+/* P (n, n) <- L^-T D^-1 L^-1, where its lower triangle is L D L^T; what is left out has no part in it. `row` is that of its first one. */
+ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, unsigned char *left_out, double least, zd_pivots *pivots)
+{
+    const double rounding = n * 0x1p-52;
+    for (int i = 0; i < n; i++) {           /* D in reciprocals on the diagonal, L below it */
+        double pivot = P[i * n + i];
+        for (int j = 0; j < i; j++) {
+            const double scaled = P[i * n + j];
+            P[i * n + j] *= P[j * n + j];
+            pivot -= P[i * n + j] * scaled;
+        }
+        if (left_out && least >= 0) left_out[row + i] = !(pivot > least * self->diagonal[row + i]);
+        const int is_pivot = !(left_out && left_out[row + i]) && judge(pivots, row + i, pivot, self->diagonal[row + i], rounding);
+        P[i * n + i] = is_pivot ? 1 / pivot : 0;
+        for (int k = i + 1; k < n; k++) {
+            double sum = P[k * n + i];
+            for (int j = 0; j < i; j++) sum -= P[k * n + j] * P[i * n + j];
+            P[k * n + i] = is_pivot ? sum : 0;      /* of L D, for now */
+        }
+    }
+    zd_invert(n, P);
+}
+
+/* The same of two rows, by one division: both pivots would take one each, and the second would wait for the first. What both are of their
+ * diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are judged. */
+ZD_INLINE void invert_two(const zd_blocks *self, int row, double *P, zd_pivots *pivots)
+{
+    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, *diagonal = self->diagonal + row;
+    const double rounding = 2 * 0x1p-52;
+    int are_pivots = 1;
+    if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
+        are_pivots = judge(pivots, row, a, diagonal[0], rounding) & judge(pivots, row + 1, determinant, a * diagonal[1], rounding);
+    const double scale = are_pivots ? 1 / determinant : 0;
+    P[0] = c * scale;
+    P[1] = P[2] = -b * scale;
+    P[3] = a * scale;
+}
+
+/* to (a, b) <- to - A B^T, A (a, n), B (b, n) */
+ZD_INLINE void subtract_product(const int a, const int b, const int n, const double *A, const double *B, double *to)
+{
+    for (int i = 0; i < a; i++)
+        for (int j = 0; j < b; j++) {
+            double sum = to[i * b + j];
+            for (int k = 0; k < n; k++) sum -= A[i * n + k] * B[j * n + k];
+            to[i * b + j] = sum;
+        }
+}
+
+/* to (a, n) <- B P, P (n, n) symmetric */
+ZD_INLINE void multiply(const int a, const int n, const double *B, const double *P, double *to)
+{
+    for (int i = 0; i < a; i++)
+        for (int j = 0; j < n; j++) {
+            double sum = B[i * n] * P[j * n];
+            for (int k = 1; k < n; k++) sum += B[i * n + k] * P[j * n + k];
+            to[i * n + j] = sum;
+        }
+}
+
+ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out, double least,
+                         zd_pivots *pivots)
+{
+    double *P = pivot_of(n, is_whole, self, k), here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;
+    const int *target = self->target + self->target_begin[k], first = self->begin[k];
+    if (is_same && n == 2) invert_two(self, at_of(n, is_whole, self, k), P, pivots);
+    else invert(n, self, at_of(n, is_whole, self, k), P, left_out, least, pivots);
+    for (int e = first; e < self->begin[k + 1]; e++) {
+        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        double *B = entry_of(n, is_whole, self, e);
+        for (int f = first; f < e; f++) {
+            const int b = is_same ? n : size_at(self, self->row[f]);
+            subtract_product(a, b, n, B, entry_of(n, is_whole, self, f), self->S + *target++);
+        }
+        multiply(a, n, B, P, product);
+        subtract_product(a, a, n, product, B, pivot_of(n, is_whole, self, row));
+        memcpy(B, product, (size_t)(a * n) * sizeof *B);
+    }
+}
+
+ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, zd_pivots *pivots)
+{
+    zd_pivots found = *pivots;              /* in registers */
+    for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_whole, self, k, NULL, 0, &found);
+    *pivots = found;
+}
+
+ZD_INLINE void keep_diagonals(const int n, const int is_same, const int is_whole, const zd_blocks *self)
+{
+    (void)is_same;
+    for (int k = 0; k < self->count; k++)
+        for (int i = 0; i < n; i++) self->diagonal[n * k + i] = pivot_of(n, is_whole, self, k)[i * (n + 1)];
+}
+
+static void keep_diagonals_of_any(const zd_blocks *self)
+{
+    for (int k = 0; k < self->count; k++) {
+        const int n = size_at(self, k);
+        const double *P = self->S + self->pivot_at[k];
+        for (int i = 0; i < n; i++) self->diagonal[self->at[k] + i] = P[i * (n + 1)];
+    }
+}
+
+zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least)
+{
+    zd_pivots pivots = {-1, 0, 1, 1};
+    if (self->uniform && !left_out) {
+        FOR_SIZE(keep_diagonals, self->uniform, 1, self)
+        FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
+        return pivots;
+    }
+    keep_diagonals_of_any(self);
+    for (int k = 0; k < self->count; k++) {
+        const int kernel = left_out ? 0 : self->kernel[k];
+        if (!kernel) eliminate(size_at(self, k), 0, 0, self, k, left_out, least, &pivots);
+        FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, &pivots)
+    }
+    return pivots;
+}
+
+/* ---- solution ---- */
+
+/* y (a,) <- y - L x, L (a, n) */
+ZD_INLINE void subtract_times(const int a, const int n, const double *L, const double *x, double *y)
+{
+    for (int i = 0; i < a; i++) {
+        double sum = y[i];
+        for (int k = 0; k < n; k++) sum -= L[i * n + k] * x[k];
+        y[i] = sum;
+    }
+}
+
+ZD_INLINE void forward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
+{
+    double *own = x + at_of(n, is_whole, self, k), here[ZD_UNROLLED], *scaled = is_same ? here : self->product;
+    for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
+        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        subtract_times(a, n, entry_of(n, is_whole, self, e), own, x + at_of(n, is_whole, self, row));
+    }
+    multiply(1, n, own, pivot_of(n, is_whole, self, k), scaled);
+    memcpy(own, scaled, (size_t)n * sizeof *own);
+}
+
+/* x_k <- x_k - sum L_i^T x_i */
+ZD_INLINE void backward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
+{
+    double *own = x + at_of(n, is_whole, self, k);
+    for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
+        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        const double *L = entry_of(n, is_whole, self, e), *other = x + at_of(n, is_whole, self, row);
+        for (int i = 0; i < a; i++)
+            for (int j = 0; j < n; j++) own[j] -= L[i * n + j] * other[i];
+    }
+}
+
+ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
+{
+    for (int k = 0; k < self->count; k++) forward(n, is_same, is_whole, self, k, x);
+    for (int k = self->count - 1; k >= 0; k--) backward(n, is_same, is_whole, self, k, x);
+}
+
+void zd_blocks_solve(const zd_blocks *self, double *x)
+{
+    if (self->uniform) {
+        FOR_SIZE(solve_all, self->uniform, 1, self, x)
+        return;
+    }
+    for (int k = 0; k < self->count; k++) {
+        if (!self->kernel[k]) forward(size_at(self, k), 0, 0, self, k, x);
+        FOR_SIZE(forward, self->kernel[k], 0, self, k, x)
+    }
+    for (int k = self->count - 1; k >= 0; k--) {
+        if (!self->kernel[k]) backward(size_at(self, k), 0, 0, self, k, x);
+        FOR_SIZE(backward, self->kernel[k], 0, self, k, x)
+    }
+}

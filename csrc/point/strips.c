@@ -1,0 +1,140 @@
+/* Kernels are for bodies of the plane and of space, one or two of them, and groups of as many rows as common joints have. */
+#include "strips.h"
+
+#include "../linalg/small.h"
+
+static int is_known(int n, int rows)
+{
+    return n == 3 ? rows <= 3 : n == 6 && (rows == 1 || rows == 3 || rows == 5 || rows == 6);
+}
+
+static int kernel_of(const zd_layout *layout, int g)
+{
+    const int first = layout->touched_at[g], bodies = layout->touched_at[g + 1] - first, rows = layout->row_at[g + 1] - layout->row_at[g];
+    const int n = layout->width[g] / bodies;
+    if (bodies > 2 || !is_known(n, rows)) return 0;
+    for (int i = first; i < first + bodies; i++) {
+        const int b = layout->touched[i];
+        if (layout->velocity_at[b + 1] - layout->velocity_at[b] != n) return 0;
+    }
+    return 100 * bodies + 10 * n + rows;
+}
+
+static zd_strip strip_of(const zd_layout *layout, int g, int y)
+{
+    zd_strip strip = {
+        .kernel = kernel_of(layout, g),
+        .C = layout->C_at[g],
+        .rows = layout->row_at[g + 1] - layout->row_at[g],
+        .width = layout->width[g],
+        .row = layout->row_at[g],
+        .y = y,
+        .column = layout->column_at[g],
+    };
+    for (int i = 0; strip.kernel && i < layout->touched_at[g + 1] - layout->touched_at[g]; i++) {
+        const int b = layout->touched[layout->touched_at[g] + i];
+        strip.x[i] = layout->velocity_at[b];
+        strip.W[i] = layout->M_at[b];
+    }
+    return strip;
+}
+
+zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
+{
+    zd_strips self = {layout->groups, zd_take(arena, (size_t)layout->groups * sizeof(zd_strip)), layout->column};
+    for (int g = 0; arena->base && g < layout->groups; g++) self.strip[g] = strip_of(layout, g, y[g]);
+    return self;
+}
+
+#define CASE(step, bodies, n, rows, ...) \
+    case 100 * bodies + 10 * n + rows: step(bodies, n, rows, __VA_ARGS__); break;
+#define CASES(step, bodies, ...)          \
+    CASE(step, bodies, 3, 1, __VA_ARGS__) \
+    CASE(step, bodies, 3, 2, __VA_ARGS__) \
+    CASE(step, bodies, 3, 3, __VA_ARGS__) \
+    CASE(step, bodies, 6, 1, __VA_ARGS__) \
+    CASE(step, bodies, 6, 3, __VA_ARGS__) \
+    CASE(step, bodies, 6, 5, __VA_ARGS__) \
+    CASE(step, bodies, 6, 6, __VA_ARGS__)
+#define FOR_SIZES(step, any, ...)         \
+    switch (strip->kernel) {              \
+        CASES(step, 1, __VA_ARGS__)      \
+        CASES(step, 2, __VA_ARGS__)      \
+    default: any;                         \
+    }
+
+/* ---- y <- C x - rhs ---- */
+
+ZD_INLINE void times(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *x, double *y)
+{
+    const double *x1 = x + strip->x[0], *x2 = x + strip->x[1];
+    C += strip->C;
+    y += strip->y;
+    for (int i = 0; i < rows; i++) {
+        const double *row = C + i * bodies * n;
+        double sum = y[i] + zd_dot(n, row, x1);
+        if (bodies == 2) sum += zd_dot(n, row + n, x2);
+        y[i] = sum;
+    }
+}
+
+static void times_any(const zd_strip *strip, const int *column, const double *C, const double *x, double *y)
+{
+    column += strip->column;
+    for (int i = 0; i < strip->rows; i++)
+        for (int j = 0; j < strip->width; j++) y[strip->y + i] += C[strip->C + i * strip->width + j] * x[column[j]];
+}
+
+void zd_strips_times(const zd_strips *self, const double *C, const double *x, const double *rhs, double *y)
+{
+    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++) {
+        for (int i = 0; i < strip->rows; i++) y[strip->y + i] = rhs ? -rhs[strip->row + i] : 0;
+        if (x) FOR_SIZES(times, times_any(strip, self->column, C, x, y), strip, C, x, y)
+    }
+}
+
+/* ---- x <- x - C^T y ---- */
+
+ZD_INLINE void subtract_from(const int n, const int rows, const double *C, int width, const double *W, const double *y, double *x)
+{
+    for (int j = 0; j < n; j++) {
+        double sum = C[j] * y[0];
+        for (int i = 1; i < rows; i++) sum += C[i * width + j] * y[i];
+        x[j] -= W ? W[j] * sum : sum;
+    }
+}
+
+ZD_INLINE void subtract(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *W, const double *y,
+                        double *x)
+{
+    C += strip->C;
+    y += strip->y;
+    subtract_from(n, rows, C, bodies * n, W ? W + strip->W[0] : NULL, y, x + strip->x[0]);
+    if (bodies == 2) subtract_from(n, rows, C + n, bodies * n, W ? W + strip->W[1] : NULL, y, x + strip->x[1]);
+}
+
+/* W has an entry for each velocity, where it is all in its diagonal. */
+static void subtract_any(const zd_strip *strip, const int *column, const double *C, const double *W, const double *y, double *x)
+{
+    column += strip->column;
+    for (int i = 0; i < strip->rows; i++)
+        for (int j = 0; j < strip->width; j++) x[column[j]] -= C[strip->C + i * strip->width + j] * y[strip->y + i] * (W ? W[column[j]] : 1);
+}
+
+void zd_strips_subtract_transposed(const zd_strips *self, const double *C, const double *y, double *x)
+{
+    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
+        FOR_SIZES(subtract, subtract_any(strip, self->column, C, NULL, y, x), strip, C, NULL, y, x)
+}
+
+void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const double *W, const double *y, double *x)
+{
+    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
+        FOR_SIZES(subtract, subtract_any(strip, self->column, C, W, y, x), strip, C, W, y, x)
+}
+
+void zd_strips_scatter(const zd_strips *self, const double *y, double *rows)
+{
+    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
+        for (int i = 0; i < strip->rows; i++) rows[strip->row + i] = y[strip->y + i];
+}
