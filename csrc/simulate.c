@@ -14,11 +14,18 @@ static int take_step(zd_run *run)
     return zd_watch_after(&run->watch, zd_course_is_corrected(&run->course), &run->course.end);
 }
 
-static int save(zd_run *run, zd_record *record)
+static int save_what_is_due(zd_run *run, zd_record *record)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval) return zd_output_after(&run->output, record, run->watch.ended);
     return zd_course_is_due(&run->course, settings->save_every) ? zd_recorder_add(&run->recorder, record) : ZD_DONE;
+}
+
+static int save(zd_run *run, zd_record *record)
+{
+    int status = save_what_is_due(run, record);
+    run->output.is_waiting = status == ZD_FULL;
+    return status;
 }
 
 static int is_over(const zd_run *run)
@@ -27,20 +34,10 @@ static int is_over(const zd_run *run)
     return run->stepper.t == run->course.end || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
 }
 
-/* A step may bring all the times that are left of t_eval, and the end by an event. */
-static int has_room(const zd_run *run, const zd_record *record)
-{
-    const zd_settings *settings = &run->settings;
-    int64_t left = record->capacity - record->rows;
-    if (!settings->t_eval) return left > 0;
-    return left >= settings->t_evals - run->output.next + (settings->events != NULL);
-}
-
-/* Saves the start, if it is wanted and has not been saved yet. */
+/* Saves the start, or what the record before had no room for. */
 static int begin(zd_run *run, zd_record *record)
 {
-    if (run->tally.start_saved) return ZD_DONE;
-    if (!has_room(run, record)) return ZD_FULL;
+    if (run->tally.start_saved && !run->output.is_waiting) return ZD_DONE;
     run->tally.start_saved = 1;
     return save(run, record);
 }
@@ -53,7 +50,6 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
     if (!status) status = begin(run, record);
     while (!status && !is_over(run)) {
         const int64_t step = run->course.step;
-        if (!has_room(run, record)) return ZD_FULL;
         if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() > deadline) return ZD_PAUSED;
         status = take_step(run);
         if (!status) status = save(run, record);

@@ -161,7 +161,7 @@ typedef struct zd_statistics {
 } zd_statistics;
 
 typedef struct zd_record {      /* one row per saved instant; memory belongs to the caller */
-    int64_t capacity, rows;        /* with t_eval: room for all the times that are left, and one more where there are events */
+    int64_t capacity, rows;        /* of any size: where it is full, the run goes on with another, or with the same emptied */
     double *t;                  /* (capacity,) */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */

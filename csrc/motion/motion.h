@@ -51,7 +51,7 @@ static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *
 typedef struct zd_tally {
     int iterations;         /* most position iterations of a step */
     int energy_skipped;     /* energy corrections left out */
-    int start_saved;        /* whether the row of the start has been saved, if it is wanted */
+    int start_saved;        /* whether the row of the start has been saved, if it is wanted, or waits for room */
     double energy_error;    /* J: the largest |Psi_E| of the saved rows; not a number if one of them is not */
 } zd_tally;
 

@@ -46,33 +46,49 @@ static int is_wanted(const zd_output *self, double until)
     return !zd_output_is_complete(self) && self->t_eval[self->next] <= until;
 }
 
-/* Saves those times that lie within the step, by the method's polynomial or by shorter steps; returns whether there were any. */
-static int save_within(zd_output *self, zd_record *record, double t1, int *away)
+/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step. */
+static int move_to_next(zd_output *self)
 {
-    int status = ZD_DONE, is_spread = 0;
-    while (!status && is_wanted(self, nextafter(t1, -INFINITY))) {
-        const double t = self->t_eval[self->next++];
-        if (!*away) is_spread = self->has_polynomial && zd_stepper_spread(self->stepper, self->before.t);
-        *away = 1;
-        is_spread = is_spread && !zd_stepper_land_between(self->stepper, t);
-        if (!is_spread) status = zd_output_move(self, t);
+    const double t = self->t_eval[self->next++];
+    if (!self->is_away) self->is_spread = self->has_polynomial && zd_stepper_spread(self->stepper, self->before.t);
+    self->is_away = 1;
+    self->is_spread = self->is_spread && !zd_stepper_land_between(self->stepper, t);
+    return self->is_spread ? ZD_DONE : zd_output_move(self, t);
+}
+
+/* Saves those times that lie within the step. */
+static int save_within(zd_output *self, zd_record *record)
+{
+    int status = ZD_DONE;
+    while (!status && is_wanted(self, nextafter(self->after.t, -INFINITY))) {
+        if (!zd_record_has_room(record)) return ZD_FULL;
+        status = move_to_next(self);
         if (!status) status = zd_recorder_add(self->recorder, record);
     }
     return status;
 }
 
-int zd_output_after(zd_output *self, zd_record *record, int is_end)
+/* The end of the step, to which the motion returns. */
+static int save_end(zd_output *self, zd_record *record, int is_end)
 {
-    double t1 = self->stepper->t;
-    int away = 0;
-    if (!is_wanted(self, t1)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
-    zd_output_keep_end(self);
-    int status = save_within(self, record, t1, &away);
-    if (!status && away) status = zd_output_move(self, t1);
-    int here = is_wanted(self, t1);
+    const double t1 = self->after.t;
+    int status = self->is_away ? zd_output_move(self, t1) : ZD_DONE;
+    self->is_away = 0;
+    const int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
+    if (!zd_record_has_room(record)) return ZD_FULL;
     self->next += here;
     return zd_recorder_add(self->recorder, record);
+}
+
+int zd_output_after(zd_output *self, zd_record *record, int is_end)
+{
+    if (!self->is_open && !is_wanted(self, self->stepper->t)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
+    if (!self->is_open) zd_output_keep_end(self);
+    int status = save_within(self, record);
+    if (!status) status = save_end(self, record, is_end);
+    self->is_open = status == ZD_FULL;
+    return status;
 }
 
 int zd_output_is_complete(const zd_output *self)

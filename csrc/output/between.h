@@ -13,13 +13,18 @@ typedef struct zd_output {
     int64_t next;              /* of them */
     int has_polynomial;     /* whether that of the method is taken */
     zd_place before, after; /* the step: where it began and where it has ended */
+    int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
+    int is_open;            /* whether its end is kept, */
+    int is_away;            /* the motion is elsewhere, */
+    int is_spread;          /* and the polynomial is made */
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
 void zd_output_keep_beginning(zd_output *self);
 void zd_output_keep_end(zd_output *self);
 int zd_output_move(zd_output *self, double t);      /* to any time of the step, once its end is kept */
-/* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. */
+/* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. ZD_FULL: it goes on where it was
+ * when it is called again, with room. */
 int zd_output_after(zd_output *self, zd_record *record, int is_end);
 int zd_output_is_complete(const zd_output *self);
 

@@ -75,6 +75,7 @@ static int record_outputs(const zd_recorder *self, zd_record *record, int64_t ro
 
 int zd_recorder_add(zd_recorder *self, zd_record *record)
 {
+    if (!zd_record_has_room(record)) return ZD_FULL;
     zd_motion *motion = self->motion;
     int64_t row = record->rows;
     zd_point *point = motion->point;

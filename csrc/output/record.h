@@ -13,7 +13,8 @@ typedef struct zd_recorder {
 } zd_recorder;
 
 zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_motion *motion);
-/* Adds where the motion is. */
+static inline int zd_record_has_room(const zd_record *record) { return record->rows < record->capacity; }
+/* Adds where the motion is; ZD_FULL where there is no room, and nothing has happened. */
 int zd_recorder_add(zd_recorder *self, zd_record *record);
 
 #endif

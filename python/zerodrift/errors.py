@@ -81,6 +81,10 @@ class StabilityWarning(UserWarning):
     """Steps were longer than the integrator is stable for, or stability rather than accuracy held them down."""
 
 
+class CostWarning(UserWarning):
+    """A run takes much time or memory, and it could take less: said before it starts."""
+
+
 class Interrupted(KeyboardInterrupt):
     """A run was interrupted from the keyboard; `solution` has what was computed before: a Solution, or a WorkPrecision."""
 

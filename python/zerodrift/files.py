@@ -6,12 +6,16 @@ import importlib
 from pathlib import Path
 from typing import Any
 
+from .runs import row_file
 from .runs.saving import read
 from .runs.solution import Solution
 
 
 def load(path: str | Path) -> Any:
     """Read what was saved: a solution, `Solution.save`, or a mechanism, `Mechanism.save`, told apart by what is in the file.
+
+    The rows that a run wrote to a file, ``simulate(..., save_to=...)``, stay there: of its arrays, that part is read which is
+    looked at, so that they may be larger than memory. A run that goes on yet, or that was killed, has the rows that came.
 
     Parameters
     ----------
@@ -36,7 +40,8 @@ def load(path: str | Path) -> Any:
     >>> bool((again.p == sol.p).all())
     True
     """
-    values = read(path, lambda description: _system(description, str(path)))
+    read_from = row_file.read if row_file.is_one(path) else read
+    values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
         return Solution(**values)
     content = Path(path).read_bytes()

@@ -9,11 +9,10 @@ from zerodrift import _gateway
 
 @pytest.mark.parametrize("times", [None, np.array([0.05, 0.07, 0.5, 1.0])], ids=["steps", "times"])
 def test_records_of_any_size_hold_the_same_rows(bar, times):
-    """One row at a time, and none: the start is saved once."""
+    """One row at a time, also of several within a step, and none: the start is saved once."""
     options = handed() if times is None else handed(t_eval=times)
-    least = 1 if times is None else len(times)
     rows = []
-    for capacity in (least, 50):
+    for capacity in (1, 2, 50):
         run, collected = _gateway.Run(bar._core, options, bar.p0, bar.v0), []
         assert run.advance(_gateway.Record(bar._core, 0), 1.0) == _gateway.FULL
         status = _gateway.FULL
@@ -26,7 +25,7 @@ def test_records_of_any_size_hold_the_same_rows(bar, times):
     assert len(rows[0]["t"]) == (11 if times is None else 4)
     assert run.results().energy_error == np.abs(rows[1]["energy_violation"]).max() > 0
     for name in rows[0]:
-        assert rows[0][name].tobytes() == rows[1][name].tobytes()
+        assert rows[0][name].tobytes() == rows[1][name].tobytes() == rows[2][name].tobytes()
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")

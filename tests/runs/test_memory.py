@@ -117,7 +117,7 @@ def test_nothing_leaks(what):
 
 
 def test_records_beyond_memory(bar):
-    with pytest.raises(MemoryError, match=r"^\d+ saved rows need [\d.e+]+ GiB; save fewer with save_every$"):
+    with pytest.raises(MemoryError, match=r"^\d+ saved rows take [\d.e+]+ TB, and [\d.]+ [GM]B of memory are free: save fewer"):
         zd.simulate(bar, 1e4, step=1e-10)
 
 

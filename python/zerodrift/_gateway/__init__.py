@@ -34,6 +34,7 @@ from .measures import Outputs
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
 from .runs import (
+    COUNTS,
     Record,
     Results,
     Run,
@@ -42,6 +43,7 @@ from .runs import (
     count_steps,
     direct_unit,
     project,
+    row_bytes,
     settings,
     step,
     takes_direct,
@@ -49,12 +51,12 @@ from .runs import (
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED", "PAUSED",
-    "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind", "NativeCore",
-    "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher", "acceleration",
-    "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "doubles", "error_of", "find",
-    "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project",
-    "required", "settings", "step", "takes_direct", "terms_of",
+    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
+    "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
+    "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
+    "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "doubles",
+    "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe",
+    "project", "required", "row_bytes", "settings", "step", "takes_direct", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

@@ -101,7 +101,8 @@ class Outputs:
     def split(self, rows: np.ndarray) -> list[np.ndarray]:
         """Each measure's own array (k, size) of the recorded rows (k, width)."""
         ends = np.cumsum(self.sizes)[:-1]
-        return [np.ascontiguousarray(part) for part in np.split(rows, ends, axis=1)]
+        parts = np.split(rows, ends, axis=1)
+        return [np.ascontiguousarray(part) for part in parts] if rows.flags.c_contiguous else parts     # else they are in a file
 
 
 def given(array: np.ndarray | None, size: int) -> Any:

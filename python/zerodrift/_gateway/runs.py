@@ -81,6 +81,15 @@ def _layout(nq: int, nv: int, mh: int, m: int, has_energy: bool, outputs: int | 
     return _Layout(shapes, dict(zip(shapes, ends, strict=False)), ends[-1] + 1)
 
 
+def row_bytes(core: CoreSystem, outputs: Outputs | None = None) -> int:
+    """Bytes of a row of the record."""
+    return 8 * _layout_of(core, outputs).width
+
+
+def _layout_of(core: CoreSystem, outputs: Outputs | None) -> _Layout:
+    return _layout(core.nq, core.nv, core.mh, core.m, core.has_energy, outputs.width if outputs else None)
+
+
 class Record:
     """The arrays a run writes into, one row per saved instant: a block of them, and further ones as long as they are needed.
 
@@ -89,7 +98,7 @@ class Record:
     """
 
     def __init__(self, core: CoreSystem, capacity: int, outputs: Outputs | None = None) -> None:
-        self._layout = _layout(core.nq, core.nv, core.mh, core.m, core.has_energy, outputs.width if outputs else None)
+        self._layout = _layout_of(core, outputs)
         self._memory = self._taken(capacity, np.empty, self._layout.width * capacity)
         c = self.c = self._first = ffi.new(RECORD)
         self._further: list[tuple[Any, dict[str, np.ndarray]]] = []
@@ -106,11 +115,15 @@ class Record:
             return take(*given)
         except (MemoryError, ValueError):
             size = capacity * (self._layout.width - 0.5) * 8 / 2**30
-            raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every") from None
+            raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every, or write them to a file "
+                              "with save_to") from None
+
+    def keep(self) -> None:
+        """What has come is in memory already."""
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
-        capacity = self._first.capacity + sum(c.capacity for c, _ in self._further)
+        capacity = self.next_rows
         columns = self._taken(capacity, self._columns, capacity)
         c = self.c = ffi.new(RECORD, {"capacity": capacity})
         for name, array in columns.items():
@@ -126,6 +139,32 @@ class Record:
     def take(self) -> dict[str, np.ndarray]:
         """The rows written so far."""
         return self._joined or self._of_first()
+
+    @property
+    def row_bytes(self) -> int:
+        """Of one row."""
+        return 8 * self._layout.width
+
+    @property
+    def next_rows(self) -> int:
+        """For so many more `grow` takes memory."""
+        return self._first.capacity + sum(c.capacity for c, _ in self._further)
+
+    @property
+    def columns(self) -> dict[str, tuple[int, tuple[int, ...]]]:
+        """Where the numbers of each column but the counts begin in a row that is written as one, and their shape."""
+        return {name: (self._layout.starts[name], shape) for name, shape in self._layout.shapes.items()}
+
+    def pack(self) -> np.ndarray:
+        """The rows of the first block (rows, width), the counts as two integers in the last place; and empties it."""
+        columns = self._of_first()
+        packed = np.empty((self._first.rows, self._layout.width))
+        for name, (start, shape) in self.columns.items():
+            width = math.prod(shape)
+            packed[:, start:start + width] = columns[name].reshape(len(packed), width)
+        packed.view(np.intc)[:, -2:] = np.column_stack([columns[name] for name in COUNTS])
+        self._first.rows = 0
+        return packed
 
     def _of_first(self) -> dict[str, np.ndarray]:
         """The columns of the first block."""

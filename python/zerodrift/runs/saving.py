@@ -21,18 +21,28 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
+    np.savez_compressed(path, **packed(values))
+
+
+def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The fields of a solution as arrays: those that are none are in a text."""
     import json
 
     arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
-    description = {name: value for name, value in values.items() if name not in arrays}
     for name in EVENTS:
         arrays |= {f"{name}.{i}": array for i, array in enumerate(values[name] or ())}
-        description[name] = None if values[name] is None else len(values[name])
     arrays |= {f"outputs.{i}": array for i, array in enumerate(values["outputs"].values())}
+    return {"zerodrift": np.array(json.dumps(described(values))), **arrays}
+
+
+def described(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a solution that are no arrays, as JSON."""
+    description = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
+    description |= {name: None if values[name] is None else len(values[name]) for name in EVENTS}
     description["outputs"] = list(values["outputs"])
     description["system"] = values["system"]._described()
     description["settings"] = {name: _to_json(value) for name, value in values["settings"].items()}
-    np.savez_compressed(path, zerodrift=np.array(json.dumps(description)), **arrays)
+    return description
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any] | None:
@@ -42,12 +52,18 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
         return None
     import json
 
-    description = json.loads(str(arrays.pop("zerodrift")))
+    return unpacked(json.loads(str(arrays.pop("zerodrift"))), arrays, rebuilt)
+
+
+def unpacked(description: dict[str, Any], arrays: dict[str, np.ndarray],
+             rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any]:
+    """The fields of a solution from its description and its arrays."""
     description["t_span"] = tuple(description["t_span"])
     for name in EVENTS:
         if (count := description.get(name)) is not None:
             description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
-    description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))}
+    description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))
+                              if f"outputs.{i}" in arrays}
     description["system"] = _restored_system(description["system"], rebuilt)
     description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
     return arrays | description

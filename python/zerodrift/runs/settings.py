@@ -143,9 +143,9 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
     chosen, course = found.chosen.copy(), {"t0": span[0], "t1": span[1]}
     _check_resolved(chosen, span)
     if t_eval is None:
-        rows = _saved_rows(span, chosen)
+        rows = saved_rows(span, chosen)
     else:
-        course["t_eval"] = chosen["t_eval"] = times = _times(t_eval, chosen["save_every"], span)
+        course["t_eval"] = chosen["t_eval"] = times = times_to_save(t_eval, chosen["save_every"], span)
         rows = len(times) + 1       # an event may end the run between two of them
     return Plan(chosen, _gateway.settings(course, found.options), rows)
 
@@ -181,7 +181,7 @@ def vector_unit(given: str | None) -> str:
     return said
 
 
-def _times(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
+def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
     if save_every != 1:
         raise ValueError("save_every counts steps, and t_eval names times: give one of them")
     times = _check.increasing("t_eval", t_eval, *span)
@@ -252,7 +252,7 @@ def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) 
                 raise ValueError(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
 
 
-def _saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
+def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
     """The number of rows that a run saves, its start included; None where it is not known, as steps are chosen."""
     if chosen["step"] is None:
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import importlib
 import itertools
 import time
 from collections.abc import Callable
@@ -24,6 +25,7 @@ from .solution import Solution
 
 SLICE = 0.03        # seconds that the core runs before Python looks at the keyboard and shows the progress again
 FIRST_BLOCK = 1024  # rows of the record to begin with, where the number of steps is not known beforehand
+SMALL = 2**26       # bytes of a record, for which nobody looks whether they are there: to look takes as long as a short run
 
 
 def simulate(
@@ -48,6 +50,7 @@ def simulate(
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,
     outputs: Any = None,
+    save_to: Any = None,
     on_singular: str = "stop",
     direct: bool | None = None,
     vector: str | None = None,
@@ -103,6 +106,10 @@ def simulate(
         Measures that are recorded in every saved row, such as ``["C.force", crank.angle]``, with the accelerations and
         multipliers of the run itself; ``sol[name]`` then reads the record, and `Solution.save` keeps it. Left out: ``sol[name]``
         evaluates measures when it is asked, and nothing is recorded or paid for.
+    save_to : str or Path, optional
+        A file that rows are written to as they come, instead of into memory, which may then be smaller than the record. The
+        arrays of the solution, and of what `load` makes of the file, are in it: what is looked at is read. The suffix ``.zd`` is
+        added where it is missing. A run that is killed leaves the rows that it had; an older file of the same name is replaced.
     on_singular : {"stop", "continue"}
         What to do when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a
@@ -143,8 +150,15 @@ def simulate(
     ValueError, TypeError
         For a wrong argument.
 
+    MemoryError
+        If the record takes more than the memory that is free; how much, and what takes less, is in its message.
+    OSError
+        If rows cannot be written to the file.
+
     Warns
     -----
+    CostWarning
+        Before anything runs, where the record takes more than half of the memory that is free.
     AccuracyWarning
         Where the energy balance is off by more than 0.5 % of the largest kinetic energy, or was before a single correction by
         more than 2 %: what was computed satisfies the constraints, but is not the motion. It takes a system with a potential.
@@ -193,15 +207,57 @@ def simulate(
         plan.chosen["outputs"] = _outputs.names(outputs, system)
         recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
+    path = None if save_to is None else _file_of_rows().checked(save_to)
     watcher = _gateway.Watcher(core, watched) if watched is not None else None
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
         more = recorded.core if recorded else None
         run = _created(system, core, plan.options, p0, v0, watcher, more)
-        record = _gateway.Record(core, plan.rows or FIRST_BLOCK, more)
+        record = _record(core, more, plan.rows, path)
+        if path:
+            _begin_file(record, run, system, span, plan.chosen, recorded)
         outcome = _drive(run, record, progress, keyboard)
         results = run.results()
         solution = _solution(system, span, plan.chosen, run, record, results, watcher, outcome, recorded)
+        if path:
+            _finish_file(record, solution, outcome)
     return _finished(solution, run, results, outcome, on_failure, keyboard)
+
+
+def _record(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None, path: Any) -> Any:
+    """What the core writes rows into, in memory or in a file."""
+    if path:
+        return _file_of_rows().RowFile(path, core, outputs, rows)
+    _check_memory(rows or 0, _gateway.row_bytes(core, outputs), stacklevel=3)
+    return _gateway.Record(core, rows or FIRST_BLOCK, outputs)
+
+
+def _check_memory(rows: int, row: int, stacklevel: int) -> None:
+    """Whether memory has room for so many rows of so many bytes."""
+    if rows * row > SMALL:
+        from . import room  # slow to import
+
+        room.check_memory(rows, row, stacklevel + 1)
+
+
+def _file_of_rows() -> Any:
+    """The module of files that rows are written to; slow to import."""
+    return importlib.import_module(".row_file", __package__)
+
+
+def _begin_file(record: Any, run: _gateway.Run, system: BaseSystem, span: tuple[float, float],
+                chosen: dict[str, Any], recorded: _outputs.Recorded | None) -> None:
+    """What the file says of the run before it has ended."""
+    sizes = dict(zip(recorded.names, recorded.core.sizes, strict=True)) if recorded and recorded.core else {}
+    record.begin({"settings": chosen, "system": system, "t_span": span}, run.results().sizes, sizes)
+
+
+def _finish_file(record: Any, solution: Solution, outcome: _Outcome) -> None:
+    """What it says of the run once that has ended, if there is room for it."""
+    try:
+        record.finish(solution)
+    except OSError as error:
+        if outcome.error is None:
+            raise _with_solution(error, solution) from None
 
 
 class _Outcome(NamedTuple):
@@ -221,8 +277,10 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
             if keyboard.pressed:
                 raise KeyboardInterrupt
             if status == _gateway.FULL:
+                _check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
             status = run.advance(record, SLICE)
+            record.keep()
             _show(show, run.progress)
     except BaseException as caught:
         status, error = _gateway.INTERRUPTED, caught

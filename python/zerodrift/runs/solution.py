@@ -18,6 +18,7 @@ from .settings import core_settings, corrections_of
 if TYPE_CHECKING:
     from pathlib import Path
 
+PART = 2**26        # bytes of a column that are looked at together
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 
 
@@ -63,7 +64,7 @@ class Solution:
         declared structure has more than 40 rows, `smallest_pivot` is the least that was left of a row, in squares of the mass
         metric, once others were eliminated, `smallest_pivot_time`, in s, when, and `smallest_pivot_row` of which row: near a
         bifurcation it is small, and accelerations lose digits. `general_road` says why no step was made by direct functions,
-        where the system could have some.
+        where the system could have some. Of a run that was killed there are none.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -146,15 +147,17 @@ class Solution:
 
     def __repr__(self) -> str:
         s, stats = self.settings, self.stats
-        steps = max(1, stats["steps"])
+        steps = max(1, stats.get("steps", 1))
         lines = [
             f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._last_time:g} s, "
             f"{self.message}",
             f"  how        {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
             + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
-            f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
-            f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each",
         ]
+        if stats:       # which a run that was killed did not leave
+            lines.append(
+                f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
+                f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
         if stats.get("direct_steps"):
             left = stats["steps"] - stats["direct_steps"]
             lines.append("  road       direct functions" + (f", which {left} steps left" if left else ""))
@@ -334,7 +337,7 @@ class Solution:
         return float(self.t[-1]) if len(self.t) else self.t_span[0]
 
     def save(self, path: str | Path) -> Path:
-        """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it.
+        """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.
 
         What the run recorded is kept, and a mechanism with it unless it has callables; so measures are read from it as from this.
 
@@ -373,4 +376,7 @@ def _step_sizes(settings: dict[str, Any]) -> str:
 
 
 def _largest(violation: np.ndarray) -> str:
-    return f"{np.abs(violation).max(initial=0.0):.2g}"
+    """Of a column that may be larger than memory."""
+    size = violation.itemsize * max(1, violation[:1].size)
+    parts = (violation[i:i + max(1, PART // size)] for i in range(0, len(violation), max(1, PART // size)))
+    return f"{max((np.abs(part).max(initial=0.0) for part in parts), default=0.0):.2g}"

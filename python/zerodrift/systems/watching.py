@@ -12,6 +12,7 @@ from .._gateway import CoreSystem
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
+PART = 2**28            # bytes of positions that a measure is evaluated at together
 DEPENDENT = 1e-9        # of the largest singular value: rows that follow from others
 
 
@@ -59,17 +60,20 @@ class Watching:
         return found.pick(self._evaluate(found.number, solution, solution.multipliers))
 
     def _evaluate(self, number: int, solution: Any, multipliers: np.ndarray) -> np.ndarray:
-        core, (t, p, v) = self.core, _states(solution)
+        core, parts = self.core, _parts(solution)
         if core.measure_depends(number) != "accelerations":
-            return core.measure(number, t, p, v)
-        return core.measure(number, t, p, v, self._accelerate(solution), np.ascontiguousarray(multipliers))
+            return _joined([core.measure(number, *_states(solution, part)) for part in parts])
+        return _joined([core.measure(number, *_states(solution, part), self._accelerate(solution, part, len(parts) == 1),
+                                     np.ascontiguousarray(multipliers[part])) for part in parts])
 
-    def _accelerate(self, solution: Any) -> np.ndarray:
-        """The accelerations (k, nv) at all rows."""
+    def _accelerate(self, solution: Any, part: slice, are_all: bool) -> np.ndarray:
+        """The accelerations (k, nv) at some rows, which are kept if these are all of them."""
         known = self._accelerations.get(solution)
         if known is None:
-            known = _gateway.accelerations(self.core, _formulation(solution.settings["formulation"]), 1, *_states(solution))
-            self._accelerations[solution] = known
+            formulation = _formulation(solution.settings["formulation"])
+            known = _gateway.accelerations(self.core, formulation, 1, *_states(solution, part))
+            if are_all:
+                self._accelerations[solution] = known
         return known
 
     def unique(self, name: str, solution: Any) -> Any:
@@ -99,9 +103,19 @@ def _formulation(given: Any) -> int:
     return [card.name for card in _gateway.cards("formulations")].index(name)
 
 
-def _states(solution: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """T (k,), p (k, nq), v (k, nv) of all rows, as the core takes them."""
-    return tuple(np.ascontiguousarray(array) for array in (solution.t, solution.p, solution.v))
+def _parts(solution: Any) -> list[slice]:
+    """All rows in parts, as rows that are in a file may be more than memory takes."""
+    rows = max(1, PART // (solution.p.itemsize * max(1, solution.p.shape[1])))
+    return [slice(first, first + rows) for first in range(0, max(1, len(solution.t)), rows)]
+
+
+def _joined(parts: list[np.ndarray]) -> np.ndarray:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+def _states(solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """T (k,), p (k, nq), v (k, nv) of some rows, as the core takes them."""
+    return tuple(np.ascontiguousarray(array[part]) for array in (solution.t, solution.p, solution.v))
 
 
 def _shifts(core: CoreSystem, solution: Any) -> list[np.ndarray]:

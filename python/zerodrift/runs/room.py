@@ -1,0 +1,77 @@
+"""Whether there is room for the record of a run, in memory or on a disk: told before anything runs."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import warnings
+from pathlib import Path
+
+from ..errors import CostWarning
+
+CONTROL = Path("/sys/fs/cgroup")        # where Linux limits the memory of containers
+
+
+def check_memory(rows: int, row: int, stacklevel: int) -> None:
+    """Refuses a record of so many rows of so many bytes that memory has no room for; warns of one that takes more than half."""
+    if (free := free_memory()) is None:
+        return
+    sentence = (f"{rows} saved rows take {in_words(rows * row)}, and {in_words(free)} of memory are free: save fewer with "
+                "save_every or t_eval, or write them to a file with save_to")
+    if rows * row > free:
+        raise MemoryError(sentence)
+    if rows * row > free / 2:
+        warnings.warn(sentence, CostWarning, stacklevel=stacklevel + 1)
+
+
+def check_disk(rows: int | None, row: int, folder: Path) -> None:
+    """Refuses a file of so many rows that a disk has no room for; None: it is not known how many they are."""
+    free = shutil.disk_usage(folder).free
+    if rows is not None and rows * row > free:
+        raise OSError(f"{rows} saved rows take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
+                      "with save_every or t_eval")
+
+
+def free_memory() -> int | None:
+    """Bytes that this process may take yet without making others go; None: nobody knows."""
+    known = [size for size in (_available(), _left_to_process(), _left_to_container()) if size is not None]
+    return min(known, default=None)
+
+
+def _available() -> int | None:
+    """What the machine has."""
+    with contextlib.suppress(OSError, ValueError, IndexError):
+        for line in Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                return 1024 * int(line.split()[1])
+    return None
+
+
+def _left_to_process() -> int | None:
+    """What a limit of the process leaves."""
+    with contextlib.suppress(ImportError, OSError, ValueError):
+        import resource  # not on Windows
+
+        pages = Path("/proc/self/statm").read_text().split()
+        limits = {pages[0]: resource.RLIMIT_AS, pages[5]: resource.RLIMIT_DATA}
+        left = [resource.getrlimit(limit)[0] - int(taken) * os.sysconf("SC_PAGE_SIZE") for taken, limit in limits.items()
+                if resource.getrlimit(limit)[0] != resource.RLIM_INFINITY]
+        return max(0, min(left)) if left else None
+    return None
+
+
+def _left_to_container() -> int | None:
+    """What a limit of the container leaves; "max" is none."""
+    with contextlib.suppress(OSError, ValueError):
+        limit, taken = ((CONTROL / name).read_text() for name in ("memory.max", "memory.current"))
+        return max(0, int(limit) - int(taken))
+    return None
+
+
+def in_words(size: int) -> str:
+    """Bytes, as people read them."""
+    for unit, least in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if size >= least:
+            return f"{size / least:.3g} {unit}"
+    return f"{size} bytes"

@@ -1,0 +1,275 @@
+"""Rows that a run writes to a file: the same bits as in memory, bounded memory, and a file that is readable whatever happens."""
+
+import errno
+import os
+import re
+import subprocess
+import sys
+import textwrap
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from support import assert_same_bits
+from watched import At, throw
+from zerodrift.runs import room, row_file
+
+linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and kills as Linux does")
+WAYS = {
+    "steps": {"step": 0.01}, "fewer": {"step": 0.01, "save_every": 7, "energy": True},
+    "times": {"step": 0.01, "t_eval": np.linspace(0, 2, 777)},
+    "chosen steps": {"rtol": 1e-8, "integrator": "dop853"},
+    "times in chosen steps": {"rtol": 1e-8, "integrator": "dop853", "t_eval": np.linspace(0, 2, 777)},
+    "events": {"rtol": 1e-8, "integrator": "dormand_prince", "t_eval": np.linspace(0, 2, 77),
+               "events": lambda t, p, v: np.sin(p[0])},
+}
+
+
+def is_in_file(array):
+    """Whether it is a view of mapped memory."""
+    return isinstance(array, np.memmap) or (array.base is not None and is_in_file(array.base))
+
+
+def assert_alike(one, other):
+    """All fields, to the bit."""
+    for name in (field.name for field in fields(zd.Solution)):
+        a, b = getattr(one, name), getattr(other, name)
+        if isinstance(a, np.ndarray):
+            assert a.dtype == b.dtype
+            assert a.shape == b.shape
+            assert a.tobytes() == b.tobytes(), name
+            assert not b.flags.writeable
+    for name in ("status", "success", "message", "t_span"):
+        assert getattr(one, name) == getattr(other, name)
+    assert {**one.stats, "seconds": 0} == {**other.stats, "seconds": 0}
+
+
+@pytest.mark.parametrize("block", [1, row_file.BLOCK])
+@pytest.mark.parametrize("way", WAYS)
+def test_bits_are_those_of_a_run_in_memory(bar, tmp_path, monkeypatch, way, block):
+    monkeypatch.setattr(row_file, "BLOCK", block)
+    here, there = (zd.simulate(bar, 2.0, save_to=to, **WAYS[way]) for to in (None, tmp_path / "run"))
+    again = zd.load(tmp_path / "run.zd")
+    for sol in (there, again):
+        assert_alike(here, sol)
+        assert is_in_file(sol.p)
+    for ours, theirs in zip(here.t_events or (), again.t_events or (), strict=True):
+        assert ours.tobytes() == theirs.tobytes()
+    assert repr(again).splitlines()[3:] == repr(here).splitlines()[3:]
+
+
+def test_measures_are_recorded_and_read_from_it(tmp_path, monkeypatch):
+    m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    pin = m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
+    options = {"step": 0.01, "outputs": [pin.force, pin.angle, "link.angle"]}
+    here, there = (zd.simulate(m, 1.0, save_to=to, **options) for to in (None, str(tmp_path / "run.zd")))
+    monkeypatch.setattr("zerodrift.systems.watching.PART", 80)      # bytes: measures are evaluated at ten rows together
+    again = zd.load(tmp_path / "run.zd")
+    for name in ("pin.force", "pin.force.y", "pin.angle", "link.angle", "link.end.velocity"):
+        assert here[name].tobytes() == there[name].tobytes() == again[name].tobytes()
+    again.outputs.clear()
+    np.testing.assert_allclose(again["pin.force"], here["pin.force"], rtol=1e-12, atol=1e-12)     # evaluated anew
+
+
+def ran(code, *given, expect=0):
+    """What a process prints."""
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code), *map(str, given)], capture_output=True, text=True,
+                          check=False, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+    assert done.returncode == expect, done.stderr
+    return done.stdout.splitlines()
+
+
+@linux
+def test_a_record_that_memory_has_no_room_for(tmp_path):
+    """Of 72 MB, where 48 may be taken."""
+    lines = ran("""
+    import resource, sys, numpy as np, zerodrift as zd
+    bar, options = zd.systems.four_bar(), {"step": 1e-6, "direct": None}
+    zd.simulate(bar, 1e-3, save_to=sys.argv[1], **options)
+    taken = int(open("/proc/self/statm").read().split()[5]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_DATA, (taken + 48 * 2**20,) * 2)
+    try:
+        zd.simulate(bar, 0.5, **options)
+    except MemoryError as error:
+        print(error)
+    sol = zd.simulate(bar, 0.5, save_to=sys.argv[1], **options)
+    print(sol.message, len(sol.t), sol.p.shape, zd.load(sys.argv[1] + ".zd").t[-1], len(str(sol)) > 100)
+    """, tmp_path / "run")
+    assert re.fullmatch(r"500001 saved rows take 72 MB, and (4\d|50)(\.\d)? MB of memory are free: save fewer with save_every or "
+                        "t_eval, or write them to a file with save_to", lines[0])
+    assert lines[1] == "done 500001 (500001, 3) 0.5 True"
+
+
+@linux
+def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
+    ran("""
+    import os, signal, sys, zerodrift as zd
+    def look(part):
+        if part > 0.01:
+            os.kill(os.getpid(), signal.SIGKILL)
+    zd.simulate(zd.systems.four_bar(), 1000.0, step=1e-3, save_to=sys.argv[1], progress=look)
+    """, tmp_path / "run.zd", expect=-9)
+    sol = zd.load(tmp_path / "run.zd")
+    rows = len(sol.t)
+    assert 1e3 < rows < 1e6
+    assert_same_bits(zd.simulate(bar, sol.t[-1] + 0.01, step=1e-3), sol, slice(rows))
+    assert not sol.success
+    assert sol.message == f"stopped from outside, or has not ended yet: there are {rows} rows, the last at t = {sol.t[-1]:.6g}"
+    assert sol.stats == {}
+    assert f"{rows} rows" in repr(sol)
+    with (tmp_path / "run.zd").open("r+b") as file:
+        file.truncate((tmp_path / "run.zd").stat().st_size - 5)
+    assert len(zd.load(tmp_path / "run.zd").t) == rows - 1
+
+
+def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
+    zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
+    path = tmp_path / "run.zd"
+    content = path.read_bytes()
+    _, _, length = row_file.HEADER.unpack(content[:row_file.HEADER.size])
+    path.write_bytes(row_file.HEADER.pack(row_file.MAGIC, row_file.UNKNOWN, length) + content[row_file.HEADER.size:][:length])
+    sol = zd.load(path)
+    assert len(sol.t) == 0
+    assert sol.p.shape == (0, 3)
+    assert "no rows" in sol.message
+
+
+def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
+    whole = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    path = tmp_path / "run.zd"
+    path.write_bytes(path.read_bytes()[:-100])
+    sol = zd.load(path)
+    assert_same_bits(whole, sol)
+    assert not sol.success
+
+
+def test_ctrl_c_keeps_what_was_written(bar, tmp_path):
+    with pytest.raises(zd.Interrupted) as caught:
+        zd.simulate(bar, 100.0, step=1e-3, save_to=tmp_path / "run", progress=At(3, throw(KeyboardInterrupt())))
+    sol = caught.value.solution
+    assert 1 < len(sol.t) < 1e5
+    assert_alike(sol, zd.load(tmp_path / "run.zd"))
+    assert sol.message == "interrupted from the keyboard"
+
+
+def test_runs_that_fail_say_so_in_the_file(bar, tmp_path):
+    with pytest.raises(zd.ZerodriftError) as caught:
+        zd.simulate(bar, 8.0, step=0.5, stabilization=None, save_to=tmp_path / "run")
+    assert_alike(caught.value.solution, zd.load(tmp_path / "run.zd"))
+    with pytest.raises(zd.InconsistentStart):
+        zd.simulate(bar, 8.0, [1, 1, 1], step=0.1, save_to=tmp_path / "never")
+    assert not (tmp_path / "never.zd").exists()
+
+
+@pytest.mark.parametrize("after", [3, 10**9], ids=["in a run", "at its end"])
+def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, monkeypatch, after):
+    monkeypatch.setattr(row_file, "BLOCK", 1000)
+    puts, put = [], row_file.RowFile._put
+
+    def full(self, content):
+        puts.append(content)
+        if len(puts) > after or bytes(content)[:2] == b"PK":        # of what follows the rows
+            self._file.write(bytes(content)[:7])
+            raise OSError(errno.ENOSPC, "No space left on device")
+        put(self, content)
+
+    monkeypatch.setattr(row_file.RowFile, "_put", full)
+    with pytest.raises(OSError, match="No space left") as caught:
+        zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    sol = caught.value.solution
+    assert len(sol.t) == (12 if after == 3 else 101)
+    again = zd.load(tmp_path / "run.zd")
+    assert_same_bits(sol, again)
+
+
+def test_an_older_run_keeps_its_rows_where_its_file_is_replaced(bar, tmp_path):
+    first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    kept = first.p.copy()
+    second = zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
+    assert first.p.tobytes() == kept.tobytes()
+    assert len(zd.load(tmp_path / "run.zd").t) == len(second.t) == 11
+
+
+def test_what_is_refused_names_the_argument(bar, tmp_path):
+    (tmp_path / "mine.zd").write_text("notes")
+    (tmp_path / "folder.zd").mkdir()
+    for to, error, message in ((3, TypeError, "save_to must be the path of a file, or None, not 3"),
+                               (tmp_path / "a.npz", ValueError, "save_to must not end in .npz, which is what Solution.save"),
+                               (tmp_path / "no" / "a", FileNotFoundError, "save_to must be in a folder that is there"),
+                               (tmp_path / "mine", FileExistsError, "save_to must be a new file, or one that a run has"),
+                               (tmp_path / "folder", FileExistsError, "save_to must be a new file")):
+        with pytest.raises(error, match=message):
+            zd.simulate(bar, 1.0, step=0.1, save_to=to)
+    with pytest.raises(ValueError, match="save_every counts steps, and t_eval names times"):
+        zd.simulate(bar, 1.0, step=0.1, save_to=tmp_path / "a", save_every=2, t_eval=[0.5])
+    assert (tmp_path / "mine.zd").read_text() == "notes"
+
+
+def test_another_byte_order_is_refused(bar, tmp_path, monkeypatch):
+    zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
+    monkeypatch.setattr(row_file.sys, "byteorder", "middle")
+    with pytest.raises(ValueError, match=r"run\.zd was written by a machine of another byte order"):
+        zd.load(tmp_path / "run.zd")
+
+
+# ---- the size, before anything runs ----
+
+
+def test_size_is_that_of_the_arrays(bar):
+    for options in ({"step": 0.01}, {"step": 0.01, "save_every": 9}, {"step": 0.01, "t_eval": [0.1, 0.5]}):
+        sol, size = zd.simulate(bar, 1.0, **options), zd.record_size(bar, 1.0, **options)
+        arrays = [sol.t, sol.p, sol.v, sol.multipliers, sol.position_violation, sol.velocity_violation, sol.kinetic_energy,
+                  sol.potential_energy, sol.energy_input, sol.energy_violation, sol.iterations, sol.energy_skipped]
+        assert size.rows == len(sol.t)
+        assert size.total == sum(array.nbytes for array in arrays) == size.rows * size.row
+    assert zd.record_size(bar, 1.0) == (None, size.row, None)
+    assert str(zd.record_size(bar, 1.0)) == "rows of 144 bytes"
+    m = zd.Mechanism("pendulum")
+    m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
+    assert zd.record_size(m, 1.0, outputs=["pin.force"]).row == zd.record_size(m, 1.0).row + 16
+
+
+@pytest.mark.parametrize(("size", "words"), [(999, "999 bytes"), (1000, "1 kB"), (2.5e6, "2.5 MB"), (72e9, "72 GB")])
+def test_sizes_in_words(size, words):
+    assert room.in_words(size) == words
+
+
+def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch):
+    monkeypatch.setattr("zerodrift.runs.simulate.SMALL", 1000)
+    monkeypatch.setattr(room, "free_memory", lambda: 20000)
+    with pytest.warns(zd.CostWarning, match=r"101 saved rows take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
+        zd.simulate(bar, 1.0, step=0.01)
+    assert told[0].filename == __file__
+    steps = At(1, throw(AssertionError("it runs")))
+    with pytest.raises(MemoryError, match=r"201 saved rows take 28\.9 kB"):
+        zd.simulate(bar, 2.0, step=0.01, progress=steps)
+    monkeypatch.setattr(room, "free_memory", lambda: None)
+    assert len(zd.simulate(bar, 2.0, step=0.01).t) == 201
+
+
+def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
+    monkeypatch.setattr("zerodrift.runs.simulate.SMALL", 1000)
+    monkeypatch.setattr("zerodrift.runs.simulate.FIRST_BLOCK", 16)
+    monkeypatch.setattr(room, "free_memory", lambda: 20000)
+    with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 saved rows take") as caught:
+        zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")
+    assert len(caught.value.solution.t) == 256
+
+
+def test_a_disk_without_room_is_refused_before_anything_runs(bar, tmp_path, monkeypatch):
+    monkeypatch.setattr(room.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": 10**4}))
+    with pytest.raises(OSError, match=r"101 saved rows take 14\.5 kB, and 10 kB are free in "):
+        zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    assert not list(tmp_path.iterdir())
+
+
+def test_limits_of_containers_count(tmp_path, monkeypatch):
+    monkeypatch.setattr(room, "CONTROL", tmp_path)
+    (tmp_path / "memory.current").write_text("400\n")
+    (tmp_path / "memory.max").write_text("max\n")
+    plain = room.free_memory()
+    (tmp_path / "memory.max").write_text("1000\n")
+    assert room.free_memory() == 600
+    assert plain is None or plain > 600
