@@ -48,7 +48,8 @@ __all__ = [
     "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator",
     "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include",
     "inertia", "integrators", "linkage", "load", "models", "native", "numba_signature", "plot", "project", "reach",
-    "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "trace", "tune", "work_precision",
+    "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune",
+    "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
@@ -56,7 +57,8 @@ _LATER = {      # imported, or made, at first use
     "get_include": "systems.native", "linkage": "mechanisms.linkage", "load": "files", "native": "systems.native",
     "numba_signature": "systems.native", "reach": "kinematics.trace", "record_size": "runs.record_size",
     "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "trace": "kinematics.trace", "tune": "studies.tune", "work_precision": "studies.work_precision",
+    "trace": "kinematics.trace", "transmission_angle": "kinematics.transmission", "tune": "studies.tune",
+    "work_precision": "studies.work_precision",
 }
 
 

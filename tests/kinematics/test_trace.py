@@ -285,6 +285,8 @@ def test_what_has_no_end():
     m = zd.Mechanism("rail")
     m.prismatic("slide", m.ground, m.body("cart", 1.0), axis=(1, 0), at=(0, 0))
     assert zd.trace(m, "slide.displacement", [0.0, 7.0])["cart.position.x"] == pytest.approx([0.0, 7.0], abs=1e-14)
+    with pytest.raises(ValueError, match=r"values go too far from 0, where 'slide.displacement' starts, to be followed: to 1"):
+        zd.trace(m, "slide.displacement", [1e4])
     with pytest.raises(ValueError, match="has no end that was found"):
         zd.reach(m, "slide.displacement")
     with pytest.raises(ValueError, match="the branch does not"):

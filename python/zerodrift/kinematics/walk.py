@@ -11,7 +11,8 @@ import numpy as np
 from .curve import Curve, Knot, Segment, touches
 from .motion import Motion
 
-MOST = 20_000           # pieces: a curve that has neither turned nor closed by then has no end
+MOST = 1_000            # pieces: a curve that has neither turned nor closed by then, a hundred turns, has no end
+FARTHEST = 5_000        # pieces: no value is farther from the start
 
 
 class Met(NamedTuple):
@@ -45,12 +46,15 @@ def check_start(motion: Motion) -> None:
 def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> list[Segment]:
     """The pieces from a knot to a value, at least one of them; a dead point before that is an error."""
     pieces: list[Segment] = []
-    for segment in itertools.islice(motion.curve.segments(knot), MOST):
+    for segment in itertools.islice(motion.curve.segments(knot), FARTHEST):
         if pieces and segment.sense != pieces[0].sense:
             break
         pieces.append(segment)
         if (segment.last.value - last) * segment.sense >= 0:
             return pieces
+    else:
+        raise ValueError(f"values go too far from {_shown(knot.value)}, where {motion.measure!r} starts, to be followed: to "
+                         f"{_shown(last)} {motion.unit}")
     dead = pieces[-1].last.value
     if touches(dead, last):
         return pieces

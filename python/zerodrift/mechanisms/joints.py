@@ -45,7 +45,8 @@ class Joint:
         cls.coordinate = cls.row.coordinate
         cls.is_of_one_body = all(each.gauge in ("glide", "skid") for each in cls.row.rows)
         said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
-                **({name: vector(name, doc) for name, doc in PLACE.items()} if is_hinge(cls.row) else {})}
+                **({name: vector(name, doc) for name, doc in PLACE.items()} if is_hinge(cls.row) else {}),
+                **({"transmission_angle": scalar("transmission_angle", TRANSMISSION)} if is_hinge(cls.row) else {})}
         for name, value in said.items():
             if name not in vars(cls):
                 setattr(cls, name, value)
@@ -128,6 +129,7 @@ def _measures(row: JointKind) -> dict[str, str]:
 
 PLACE = {"position": "Where the joint is, by the second's point, in the drawing's axes, in m.",
          "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
+TRANSMISSION = "The angle between the lines of its two links, in rad, where there is one: `zerodrift.transmission_angle`."
 
 
 def is_hinge(row: JointKind) -> bool:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import transmission
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
 from .joints import Joint, is_hinge
@@ -32,6 +33,8 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return None
     quantity, *component = rest
     base = element.coordinate if quantity == "speed" and isinstance(element, Joint | Actuator) else RATES.get(quantity, quantity)
+    if name == f"{owner}.transmission_angle" and transmission.has_one(element, transmission.joints_by_body(elements)):
+        return Reading((name,), False)
     if base not in quantities(element):
         return None
     if base == "position":

@@ -10,7 +10,7 @@ import numpy as np
 
 from .._gateway import mechanisms as rows
 from .._gateway.mechanisms import Gauge, MechanismCore, Observed
-from . import law_rows
+from . import law_rows, transmission
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
@@ -123,6 +123,8 @@ class Tables:
             return self.place_gauges(of)["xy".index(quantity)]
         of = self.drawing.elements[owner]
         if isinstance(of, Joint):
+            if quantity == "transmission_angle":
+                return self.transmission_gauge(of)
             return self.coordinate_gauge(self.joint_number[owner])
         return self.length_gauge(of) if isinstance(of, Spring | Actuator) else self.angle_gauge(of)
 
@@ -142,6 +144,10 @@ class Tables:
         kind, row = self.joints[joint].row, self.joint_rows[joint]
         zero = getattr(row, kind.zero) if kind.zero else 0.0
         return Gauge(kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero)
+
+    def transmission_gauge(self, joint: Joint) -> Gauge:
+        """What reads the transmission angle at a hinge."""
+        return transmission.gauge(joint, self.drawing.elements, self.numbers, self.number)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:
         """What reads the length of a spring or an actuator."""

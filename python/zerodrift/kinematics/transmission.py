@@ -1,0 +1,55 @@
+"""`transmission_angle`: how well a link pushes the next one."""
+
+from __future__ import annotations
+
+from .. import _check
+from ..mechanisms import transmission
+from ..mechanisms.joints import Joint
+from ..mechanisms.measures import Measure
+from ..mechanisms.mechanism import Mechanism
+
+
+def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
+    """The measure of the transmission angle at a hinge of two moving links: in a four-bar, between coupler and rocker.
+
+    It is the angle between two lines through the hinge. The line of a link goes to its other joint; where it has several, to that
+    on the ground. If a link ends in a slider there, its line is the normal of the slide. At pi / 2 the push of one link
+    turns the other best; at 0 and at pi it does not at all, and designers stay between some 40 and 140 degrees.
+
+    Parameters
+    ----------
+    m : Mechanism
+    joint : joint or str
+
+    Returns
+    -------
+    Measure
+        ``"C.transmission_angle"``, in rad: for `trace`, as an output of `simulate`, for events and laws. In the drawing it is
+        between 0 and pi; from there on it is smooth, and what it does beyond 0 and pi are positions in which the links have gone
+        through one line. The acute angle of some textbooks is ``np.arcsin(abs(np.sin(angle)))``.
+
+    Raises
+    ------
+    ValueError
+        If the joint is no hinge of two moving links, or a link has several other joints and it is not clear which is meant.
+
+    References
+    ----------
+    R. L. Norton, Design of Machinery, McGraw-Hill, section 3.3; J. J. Uicker, G. R. Pennock, J. E. Shigley, Theory of Machines
+    and Mechanisms, Oxford University Press, section 1.10.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> m = zd.models.chebyshev_lambda()
+    >>> mu = zd.trace(m, "crank.angle")[zd.transmission_angle(m, "C")]
+    >>> np.degrees([mu.min(), mu.max()]).round(2)
+    array([23.07, 73.74])
+    """
+    _check.instance("m", m, Mechanism, "a Mechanism")
+    joint = m[joint] if isinstance(joint, str) else joint
+    if not isinstance(joint, Joint) or m._elements.get(joint.name) is not joint:
+        raise TypeError(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(joint)}")
+    transmission.lines(joint, transmission.joints_by_body(m._elements))
+    return joint.transmission_angle
