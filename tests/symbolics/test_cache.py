@@ -12,7 +12,7 @@ import sympy as sp
 import zerodrift as zd
 from caching import GIVEN, A, Q, elsewhere, made, said
 from zerodrift.symbolics import cache as kept
-from zerodrift.symbolics import compiling, define
+from zerodrift.symbolics import compiling, define, direct, direct_emission
 
 # ---- what is kept ----
 
@@ -155,3 +155,18 @@ def test_where_the_cache_is(monkeypatch):
     assert kept._chosen() == Path.home() / ".cache" / "zerodrift"
     monkeypatch.setenv("XDG_CACHE_HOME", "relative")    # which the XDG Base Directory Specification says to ignore
     assert kept._chosen() == Path.home() / ".cache" / "zerodrift"
+
+
+def test_direct_functions_are_written_once(cache_folder, monkeypatch):
+    """Their text is found by what it depends on: the operations, numbers at which orders were chosen, and the limits."""
+    system = made()
+    source = system._direct.source
+    assert source
+    monkeypatch.setattr(direct, "write", lambda *given, **options: pytest.fail("written again"))
+    assert made()._direct.source == source
+    assert made().with_parameters(a=3.0)._direct.constants == system._direct.constants
+    monkeypatch.setattr(direct, "write", lambda *given, **options: ("another", 0))
+    other = zd.symbolic([Q], **(GIVEN | {"potential": A * sp.sin(Q)}))
+    assert other._direct.source == "another"
+    monkeypatch.setattr(direct_emission, "MOST_STATEMENTS", 900)
+    assert made()._direct.source == "another"

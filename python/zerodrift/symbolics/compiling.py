@@ -26,7 +26,8 @@ from ..errors import CompilationFailed
 from ..systems.native import get_include
 from . import cache
 
-FLAGS = ("-O3", "-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
+OPTIMIZED = ("-O3",)
+FLAGS = ("-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
 CANDIDATES = ("cc", "gcc", "clang")
 SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
@@ -72,10 +73,11 @@ def looked_for() -> str:
 
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None,
-            symbols: Sequence[str] = SYMBOLS, defined: Sequence[str] = ()) -> ctypes.CDLL | None:
+            symbols: Sequence[str] = SYMBOLS, defined: Sequence[str] = (),
+            optimized: Sequence[str] = OPTIMIZED) -> ctypes.CDLL | None:
     """The library of a C source with these symbols, compiled where the cache does not have it; None: there is no compiler.
 
-    `defined` are macros, as compilers take them: ``["NAME=value"]``.
+    `defined` are macros, as compilers take them: ``["NAME=value"]``; `optimized` are flags that change no bits.
 
     Raises
     ------
@@ -85,7 +87,7 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     command = compiler()
     if command is None:
         return None
-    flags = (*FLAGS, *(f"-D{each}" for each in defined))
+    flags = (*optimized, *FLAGS, *(f"-D{each}" for each in defined))
     note = _note(source, command, flags)
     found = _kept(note)
     if found is None:

@@ -150,7 +150,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
     for names in OPTIONAL:
         names = [name for name in names if program.outputs.get(name)]
         if names:
-            more = _statements(writer, [number for number in program.needed(names) if number not in set(done)])
+            more = _statements(writer, _without(program.needed(names), done))
             entries = [line if len(names) == 1 else f"if ({name}) {line}"
                        for name in names for line in writer._entries(name, program.outputs[name])]
             body += [f"if ({' || '.join(names)}) {{", *indented([*more, *entries]), "}"]
@@ -177,7 +177,7 @@ def _landing(program: _Program, head: list[str], offset: int, data: str) -> list
 
 def _further(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
     """Statements of what these outputs need besides what is done, which it then is, too."""
-    more = [number for number in program.needed(names) if number not in set(done)]
+    more = _without(program.needed(names), done)
     done += more
     return _statements(writer, more)
 
@@ -189,6 +189,11 @@ def _apart(program: _Program, writer: LaneWriter, done: list[int], names: list[s
     entries = [line for name in names for line in writer._entries(name, program.outputs[name])]
     writer.names, writer.turned = known, turned
     return lines + entries
+
+
+def _without(numbers: list[int], done: list[int]) -> list[int]:
+    known = set(done)
+    return [number for number in numbers if number not in known]
 
 
 def _statements(writer: LaneWriter, numbers: list[int]) -> list[str]:

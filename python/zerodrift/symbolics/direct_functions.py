@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import ctypes
+from functools import cache
+from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from . import cache as kept
 from . import compiling
+from .plain import NAMED
 
+# Functions for one trajectory are one expression after the other, of which a compiler that looks for loops and vectors makes the
+# same in a third more time. Behind functions of vector units, one of GCC's expensive optimizations clears the upper halves of
+# registers; else all that follows them is several times as slow.
+QUICKLY = ("-O1", "-fexpensive-optimizations", "-fschedule-insns2")
 DIRECT = "zd_symbolic_direct"       # what they are called in their library
 NO_COMPILER = "there is no C compiler"      # why a system has none
 
@@ -33,14 +42,34 @@ class DirectFunctions:
     def _write(self) -> tuple[str, int] | None:
         """The C source and how many constants it has; None: there is none."""
         if not self._is_written:
-            from . import direct
-            from .elimination import Unwritten
-            try:
-                self._written = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
-            except Unwritten as reason:
-                self.why_none = str(reason)
+            key = self._key()
+            found = kept.read(key, dict)
+            if found is None:
+                found = self._written_anew()
+                kept.write(key, found)
+            self._written = (found["source"], found["constants"]) if found["source"] else None
+            self.why_none = found["why"]
             self._is_written = True
         return self._written
+
+    def _key(self) -> str:
+        """What is written is kept under: all that it depends on."""
+        from . import direct_emission
+
+        program, sizes, values, p0, is_length = self._definition
+        calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
+        limits = direct_emission.MOST_OPERATIONS, direct_emission.MOST_STATEMENTS
+        return kept.digest_of("direct functions", _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
+                              None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data)
+
+    def _written_anew(self) -> dict[str, Any]:
+        from . import direct
+        from .elimination import Unwritten
+        try:
+            source, constants = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
+        except Unwritten as reason:
+            return {"source": "", "constants": 0, "why": str(reason)}
+        return {"source": source, "constants": constants, "why": ""}
 
     @property
     def in_words(self) -> str:
@@ -61,15 +90,23 @@ class DirectFunctions:
 
     def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
         """The library of those for one trajectory and a vector unit; None: there are none."""
-        return self.library_of(f"ZD_SET_{vector.upper()}_1")
+        return self.library_of(f"ZD_SET_{vector.upper()}_1", QUICKLY)
 
-    def library_of(self, sets: str) -> ctypes.CDLL | None:
+    def library_of(self, sets: str, optimized: tuple[str, ...] = compiling.OPTIMIZED) -> ctypes.CDLL | None:
         """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""
         if sets not in self._libraries and self.source:
             symbols = DIRECT, f"{DIRECT}_constants"
-            self._libraries[sets] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"])
+            self._libraries[sets] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"],
+                                                          optimized=optimized)
         return self._libraries.get(sets)
 
     def __getstate__(self) -> dict[str, Any]:
         self._write()
         return vars(self) | {"_libraries": {}}
+
+
+@cache
+def _writing_code(is_plain: bool) -> str:
+    """The fingerprint of the code that writes: of SymPy's version, too, whose printer writes what is no sine or cosine."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return kept.digest_of("" if is_plain else metadata.version("sympy"), [file.read_text(encoding="utf-8") for file in files])
