@@ -22,7 +22,8 @@ def measured(links, formulation, integrator):
     """Rows, with the order of the energy error from one step to the next."""
     before = None
     for step in STEPS:
-        sol = zd.simulate(zd.models.closed_pendulum(links), SPAN, step=step, formulation=formulation, integrator=integrator)
+        sol = zd.simulate(zd.models.symbolic.closed_pendulum(links), SPAN, step=step, formulation=formulation,
+                          integrator=integrator)
         error = np.abs(sol.energy_violation).max()
         order = "" if before is None else f"{np.log2(before / error):.2f}"
         before = error

@@ -20,10 +20,9 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "programs.csv"
 SYSTEMS = {
-    "four-bar": "four_bar()", "closed chain of 4 links": "zd.models.closed_pendulum(4)",
-    "closed chain of 6 links": "zd.models.closed_pendulum(6)", "closed chain of 20 links": "zd.models.closed_pendulum(20)",
-    "closed chain of 80 links": "zd.models.closed_pendulum(80)", "Andrews": "zd.models.andrews()",
-    "bicycle": "zd.models.bicycle()"}
+    "four-bar": "four_bar()",
+    **{f"closed chain of {links} links": f"zd.models.symbolic.closed_pendulum({links})" for links in (4, 6, 20, 80)},
+    "Andrews": "zd.models.symbolic.andrews()", "bicycle": "zd.models.symbolic.bicycle()"}
 STAGES = ("energies in SymPy", "deriving", "eliminating common subexpressions", "writing C", "compiling", "start",
           "direct functions")
 COLUMNS = ["what", "version", *(f"{stage} [s]" for stage in STAGES), "terms together [s]", "terms by the clock [s]"]

@@ -1,4 +1,4 @@
-"""Andrews' mechanism against the reference of the test set for initial value problems."""
+"""Andrews' mechanism, from bodies and joints and from its energies, against the reference of the test set for initial values."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ def andrews_end(prefix, t="03"):
 
 
 def test_andrews_starts_as_the_reference_does():
-    given, system = definition("A03_andrews"), zd.models.andrews()
+    given, system = definition("A03_andrews"), zd.models.symbolic.andrews()
     assert_close(system.p0, number(given["initial_q"]), 1e-15)
     for name, value in given["parameters"].items():
         assert system.parameters.get(name, system.parameters.get(name.upper())) == float(value), name
@@ -24,14 +24,14 @@ def test_andrews_starts_as_the_reference_does():
 
 def test_andrews_against_the_reference(formulation):
     steps = (1e-4, 5e-5, 2.5e-5, 5e-6)
-    runs = [end(zd.models.andrews(), 0.03, step, formulation=formulation) for step in steps]
+    runs = [end(zd.models.symbolic.andrews(), 0.03, step, formulation=formulation) for step in steps]
     falls_at_order_four(steps, [np.abs(run.p[-1] - andrews_end("q")).max() for run in runs])
     for run in runs:
         assert np.abs(run.position_violation).max() <= 1e-12
 
 
 def test_andrews_to_the_last_digits(formulation):
-    sol = zd.simulate(zd.models.andrews(), 0.03, step=1e-5, integrator="dop853", formulation=formulation)
+    sol = zd.simulate(zd.models.symbolic.andrews(), 0.03, step=1e-5, integrator="dop853", formulation=formulation)
     assert np.abs(sol.p[-1] - andrews_end("q")).max() < 1e-10      # the condition set; 1e-12 is reached
     assert_close(sol.v[-1], andrews_end("v"), 1e-11)
     assert_close(sol.multipliers[-1], andrews_end("lam"), 1e-10)
@@ -43,14 +43,15 @@ def test_andrews_to_the_last_digits(formulation):
 
 def test_andrews_along_the_way():
     reference = table("A03_andrews")
-    sol = zd.simulate(zd.models.andrews(), reference["t"][-1], rtol=1e-12, atol=1e-12, integrator="dop853", t_eval=reference["t"])
+    sol = zd.simulate(zd.models.symbolic.andrews(), reference["t"][-1], rtol=1e-12, atol=1e-12, integrator="dop853",
+                      t_eval=reference["t"])
     names = ("beta", "theta", "gamma", "phi", "delta", "omega", "eps")
     assert np.abs(sol.p - np.stack([reference[name] for name in names], axis=1)).max() < 1e-9
     assert_close(sol.v, np.stack([reference[f"{name}_d"] for name in names], axis=1), 1e-9)
 
 
 def test_links_of_andrews_keep_their_lengths():
-    system = zd.models.andrews()
+    system = zd.models.symbolic.andrews()
     sol = zd.simulate(system, 0.03, step=1e-4)
     q = system.parameters
     lengths = [q["rr"], q["d"], q["e"], q["zt"], q["u"], q["zf"], q["ss"]]
@@ -58,7 +59,28 @@ def test_links_of_andrews_keep_their_lengths():
         assert_close(np.linalg.norm(np.diff(system.points(p)[:8], axis=0), axis=1), np.array(lengths), 1e-10)
 
 
-def test_parameters_of_andrews():
-    assert zd.models.andrews(mom=0.05).parameters["mom"] == 0.05
+def test_bodies_and_joints_along_the_way():
+    """Their angles are sums of the literature's; the force that the spring pulls with is that of its length."""
+    reference = table("A03_andrews")
+    sol = zd.simulate(zd.models.andrews(), reference["t"][-1], rtol=1e-12, atol=1e-12, integrator="dop853", t_eval=reference["t"])
+    K = [sol[f"K{i}.angle"] for i in range(1, 8)]
+    told = [K[0], K[1] - K[0], K[2], K[3] - K[4], K[4], K[5] - K[6], K[6]]
+    for angle, name in zip(told, ("beta", "theta", "gamma", "phi", "delta", "omega", "eps"), strict=True):
+        assert np.abs(angle - reference[name]).max() < 1e-9, name
+    assert_close(sol["K1.angular_velocity"], reference["beta_d"], 1e-9)
+    assert np.abs(sol.energy_violation).max() <= 1e-11 * sol.energy_input[-1]
+
+
+def test_parameters_of_bodies_and_joints():
+    system = zd.models.andrews(mom=0.05, m3=0.03).system()
+    assert system.parameters["K3.mass"] == 0.03
     with pytest.raises(ValueError, match=r"parameter must be one of 'm1', .*, not 'moment'"):
         zd.models.andrews(moment=1.0)
+    with pytest.raises(TypeError, match="parameter 'mom' must be a real number, not 'much'"):
+        zd.models.andrews(mom="much")
+
+
+def test_parameters_of_andrews():
+    assert zd.models.symbolic.andrews(mom=0.05).parameters["mom"] == 0.05
+    with pytest.raises(ValueError, match=r"parameter must be one of 'm1', .*, not 'moment'"):
+        zd.models.symbolic.andrews(moment=1.0)

@@ -138,7 +138,7 @@ def test_nor_are_models(name):
 
 def test_chaos_that_is_resolved_is_not_warned_of():
     """A closed chain that loses a digit every second: two runs part, and nothing is wrong with the steps of either."""
-    chain = zd.models.closed_pendulum(5)
+    chain = zd.models.symbolic.closed_pendulum(5)
     one, two = (listened(chain, 5.0, step=h, integrator="dop853") for h in (2e-3, 2.5e-3))
     assert not one[1]
     assert not two[1]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..systems.base import Makes
+from ..systems.base import Makes, Terms
 from .describing import described, text
 from .drawing import Drawing
 from .making_bodies import BodyVerbs
@@ -45,6 +45,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         What does not move; its frame is the drawing's.
     bodies, joints, motors : tuple
         In the order in which they were added; ``m["name"]`` is any element.
+    p0, v0 : ndarray (nq,), (nv,)
+        Where its `system` starts, in the coordinates that this takes.
 
     Raises
     ------
@@ -143,6 +145,37 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         2.0
         """
         return self.system().with_parameters(changes, **changed)
+
+    @property
+    def p0(self) -> np.ndarray:
+        return self.system().p0
+
+    @property
+    def v0(self) -> np.ndarray:
+        return self.system().v0
+
+    def points(self, p: Any) -> np.ndarray | None:
+        """The drawing at p, as of its `system`: points (n, 2) in m, joined by lines where not NaN.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> bar = zd.models.four_bar()
+        >>> bar.points(bar.p0).shape[1]
+        2
+        """
+        return self.system().points(p)
+
+    def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
+        """The terms of the equations of motion of its `system` at (t, p, v); left out: where it starts.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> zd.models.four_bar().evaluate().C.shape
+        (2, 3)
+        """
+        return self.system().evaluate(p, v, t)
 
     def save(self, path: str | Path) -> Path:
         """Write the mechanism to a JSON file, which `zerodrift.load` reads; to the last bit the same, and no pickle.

@@ -1,16 +1,17 @@
 """Worked models, each one short file whose function takes the parameters as keywords.
 
-From their energies, as examples of `zerodrift.symbolic`: `andrews`, `bicycle`, `closed_pendulum`, `slider_crank`. All others are
-mechanisms, from bodies and joints or, linkages, from a sketch. They need SymPy, the extra `symbolic`.
+All are mechanisms, from bodies and joints or, linkages, from a sketch; `zerodrift.models.symbolic` has four of them from their
+energies. Those whose drives swing, or follow a cam, need SymPy, the extra `symbolic`.
 
 >>> import zerodrift as zd
->>> chain = zd.models.closed_pendulum(links=5)
->>> sol = zd.simulate(chain, 1.0, step=0.01)
+>>> sol = zd.simulate(zd.models.closed_pendulum(links=5), 1.0, step=0.01)
 >>> bool(abs(sol.position_violation).max() < 1e-12)
 True
 """
 
-from ..symbolics import define  # noqa: F401  (where SymPy is missing, it says what to install)
+import importlib
+from typing import Any
+
 from .andrews import andrews
 from .bicycle import bicycle
 from .cam_follower import cam_follower
@@ -36,6 +37,12 @@ from .watt import watt
 __all__ = ["andrews", "bicycle", "cam_follower", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars",
            "hoecken", "jansen", "klann", "pantograph", "peaucellier", "planetary_gear", "quarter_car",
            "quick_return", "scissor_lift", "slider_crank", "snakeboard", "stephenson", "toggle_press", "watt"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "symbolic":      # SymPy is imported where it is used
+        return importlib.import_module(".symbolic", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

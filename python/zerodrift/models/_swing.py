@@ -1,16 +1,26 @@
-"""What drives prescribe that swing to and fro; as expressions, so that the mechanism can be saved and written out."""
+"""What drives prescribe that swing to and fro; as expressions, so that mechanisms can be saved and written out."""
 
 from __future__ import annotations
 
+import importlib
 from typing import Any
 
 from .. import _check
 
 
-def swing(amplitude: Any, rate: Any) -> Any:
-    """The SymPy expression amplitude sin(rate t)."""
+def sympy() -> Any:
+    """SymPy; where it is missing, the error says what to install."""
     try:
-        import sympy as sp
+        return importlib.import_module("sympy")
     except ImportError as error:
-        raise ImportError("a drive that swings needs SymPy: pip install 'zerodrift[symbolic]'") from error
-    return _check.number("amplitude", amplitude) * sp.sin(_check.number("rate", rate) * sp.Symbol("t"))
+        raise ImportError("this model's drive is an expression of SymPy: pip install 'zerodrift[symbolic]'") from error
+
+
+def symbol(name: str) -> Any:
+    """A symbol: of time, or of a measure."""
+    return sympy().Symbol(name)
+
+
+def swing(amplitude: Any, rate: Any) -> Any:
+    """The expression amplitude sin(rate t)."""
+    return _check.number("amplitude", amplitude) * sympy().sin(_check.number("rate", rate) * symbol("t"))

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-import sympy as sp
-from sympy.physics.mechanics import dynamicsymbols
-
-from ..symbolics.define import symbolic
-from ..symbolics.system import SymbolicSystem
+from .. import _check
+from ..mechanisms.mechanism import Mechanism
 
 # In m, kg, kg m^2, N/m and N m, named as in the literature.
 PARAMETERS = {
@@ -26,66 +23,62 @@ START = {
 }
 
 
-def andrews(**parameters: float) -> SymbolicSystem:
-    """Andrews' squeezing mechanism, the seven-body test problem of the DAE literature.
+def andrews(**parameters: float) -> Mechanism:
+    """Andrews' squeezing mechanism, the seven-body test problem of the DAE literature, from bodies and joints.
 
     A crank, which a constant moment drives, a coupler, and three chains that carry the coupler's end: a lever on a spring, and
-    two pairs of a rocker and a link. It starts from rest and is known to 0.03 s.
+    two pairs of a rocker and a link. It starts from rest and is known to 0.03 s. The bodies are ``K1`` (crank), ``K2``
+    (coupler), ``K3`` (lever), ``K4`` and ``K5``, ``K6`` and ``K7``, as in the literature, whose angles are theirs: beta, beta +
+    theta, gamma, phi + delta, delta, omega + epsilon, epsilon. The motor is ``drive``.
 
     Parameters
     ----------
     **parameters : float
         Values of the literature's symbols that are to differ, such as ``mom=0.05`` for the moment in N m; SI units.
 
-    Notes
-    -----
-    Source: W. Schiehlen (ed.), Multibody Systems Handbook, Springer 1990; E. Hairer and G. Wanner, Solving Ordinary
-    Differential Equations II, section VII.7. The rows of Phi are in their order. The energy that the moment puts in is
-    integrated along, so that `Solution.energy_violation` is that of the whole balance.
+    Returns
+    -------
+    Mechanism
+
+    Raises
+    ------
+    ValueError
+        If the literature has no such symbol.
+
+    References
+    ----------
+    W. Schiehlen (ed.), Multibody Systems Handbook, Springer 1990; E. Hairer and G. Wanner, Solving Ordinary Differential
+    Equations II, section VII.7.
 
     Examples
     --------
     >>> import zerodrift as zd
     >>> sol = zd.simulate(zd.models.andrews(), 0.03, step=1e-5)
-    >>> sol.p[-1, :2].round(6)
-    array([ 15.810771, -15.756371])
+    >>> print(sol["K1.angle"][-1].round(6))
+    15.810771
     """
-    k = SimpleNamespace(**{name: sp.Symbol(name) for name in PARAMETERS})
-    angles = dynamicsymbols(" ".join(START))
-    beta, theta, gamma, phi, delta, omega, epsilon = angles
-    t = dynamicsymbols._t
-
-    def turned(angle: sp.Expr, x: sp.Expr, y: sp.Expr = sp.S.Zero) -> sp.Matrix:
-        return sp.Matrix([x * sp.cos(angle) - y * sp.sin(angle), x * sp.sin(angle) + y * sp.cos(angle)])
-
-    A, B, C = sp.Matrix([k.xa, k.ya]), sp.Matrix([k.xb, k.yb]), sp.Matrix([k.xc, k.yc])
-    crank = turned(beta, k.rr)
-    coupler = crank - turned(beta + theta, k.d)             # its end, where all chains meet
-    lever = B + turned(gamma, 0, -k.ss)
-    hook = B + turned(gamma, k.sd, -k.sc)                   # of the spring, whose other end is C
-    lower, upper = A + turned(delta, k.zt), A + turned(epsilon, 0, -k.u)       # ends of the rockers
-    lower_link = lower + turned(phi + delta, 0, -k.e)
-    upper_link = upper + turned(omega + epsilon, k.zf)
-
-    bodies = [      # mass, moment of inertia, centre of mass, angle
-        (k.m1, k.I1, turned(beta, k.ra), beta),
-        (k.m2, k.I2, crank - turned(beta + theta, k.da), beta + theta),
-        (k.m3, k.I3, B + turned(gamma, k.sa, k.sb), gamma),
-        (k.m4, k.I4, lower + turned(phi + delta, 0, k.ea - k.e), phi + delta),
-        (k.m5, k.I5, A + turned(delta, k.ta, k.tb), delta),
-        (k.m6, k.I6, upper + turned(omega + epsilon, k.zf - k.fa), omega + epsilon),
-        (k.m7, k.I7, A + turned(epsilon, k.ua, k.ub), epsilon),
-    ]
-    spring = sp.sqrt((hook - C).dot(hook - C))
-    system = symbolic(
-        angles,
-        kinetic=sum(m * centre.diff(t).dot(centre.diff(t)) / 2 + J * angle.diff(t)**2 / 2 for m, J, centre, angle in bodies),
-        potential=k.c0 * (spring - k.l0)**2 / 2,
-        force={beta: k.mom},
-        constraints=[*(coupler - lever), *(coupler - lower_link), *(coupler - upper_link)],
-        parameters=PARAMETERS,
-        points=[tuple(point) for point in (sp.zeros(2, 1), crank, coupler, lower, A, upper, coupler, B, hook, C)],
-        p0=list(START.values()),
-        name="andrews",
-    )
-    return system.with_parameters(**parameters)
+    given = {_check.choice("parameter", name, PARAMETERS): _check.number(f"parameter {name!r}", value)
+             for name, value in parameters.items()}
+    k, q = SimpleNamespace(**(PARAMETERS | given)), SimpleNamespace(**START)
+    m = Mechanism("andrews")
+    A, B, C = (k.xa, k.ya), (k.xb, k.yb), (k.xc, k.yc)
+    K1 = m.body("K1", k.m1, k.I1, angle=q.beta, com=(k.ra, 0))
+    E = K1.point((k.rr, 0))
+    K2 = m.body("K2", k.m2, k.I2, at=E, angle=q.beta + q.theta, com=(-k.da, 0))
+    F = K2.point((-k.d, 0))
+    K3 = m.body("K3", k.m3, k.I3, at=B, angle=q.gamma, com=(k.sa, k.sb))
+    K5 = m.body("K5", k.m5, k.I5, at=A, angle=q.delta, com=(k.ta, k.tb))
+    G = K5.point((k.zt, 0))
+    K4 = m.body("K4", k.m4, k.I4, at=G, angle=q.phi + q.delta, com=(0, k.ea - k.e))
+    K7 = m.body("K7", k.m7, k.I7, at=A, angle=q.epsilon, com=(k.ua, k.ub))
+    H = K7.point((0, -k.u))
+    K6 = m.body("K6", k.m6, k.I6, at=H, angle=q.omega + q.epsilon, com=(k.zf - k.fa, 0))
+    m.revolute("O", m.ground, K1, at=(0, 0))
+    pins = ("E", E, K2), ("B", m.ground, K3), ("A5", m.ground, K5), ("A7", m.ground, K7), ("G", G, K4), ("H", H, K6)
+    for name, first, second in pins:
+        m.revolute(name, first, second.point((0, 0)))
+    for body, end in ((K3, (0, -k.ss)), (K4, (0, -k.e)), (K6, (k.zf, 0))):
+        m.revolute(f"F{body.name}", F, body.point(end))
+    m.spring("spring", m.ground.point(C), K3.point((k.sd, -k.sc)), stiffness=k.c0, length=k.l0)
+    m.motor("drive", "O", torque=k.mom)
+    return m

@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import _check, inertia
 from ..mechanisms.mechanism import Mechanism
+from ._swing import sympy
 
 
 def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.pi / 2, dwell: float = np.pi / 2,
@@ -78,8 +79,7 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
 
 def _profile(lift: float, rise: float, dwell: float, fall: float) -> Any:
     """The lift over the cam's angle, as a SymPy expression."""
-    from ..symbolics.define import sympy as sp
-
+    sp = sympy()
     low = (2 * np.pi - rise - dwell - fall) / 2
     turned = sp.Mod(sp.Symbol("angle"), 2 * sp.pi)
 

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-import sympy as sp
-from sympy.physics.mechanics import dynamicsymbols
 
 from .. import _check
-from ..runs.operations import project
-from ..runs.settings import Projection
-from ..symbolics.define import symbolic
-from ..symbolics.system import SymbolicSystem
+from ..mechanisms.mechanism import Mechanism
 
 LEAN = np.radians(75.0)     # of the first link at the start, as the last leans the other way but for a quarter
 
 
 def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81,
-                    span: float | None = None) -> SymbolicSystem:
+                    span: float | None = None) -> Mechanism:
     """A chain of equal slender links, pinned at both ends on one level; it is let go from an arch above the pins.
 
-    Coordinates are the angles of the links from the x axis, so that the loop leaves two constraints; y points up.
+    The links are ``link1``, ``link2``, ..., the joints ``pin0`` (at the ground), ``pin1``, ...
 
     Parameters
     ----------
@@ -33,6 +28,15 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
         Distance of the pins in m, less than all links together; left out: about half of that, and as far as can be from where all
         links can line up with the pins.
 
+    Returns
+    -------
+    Mechanism
+
+    Raises
+    ------
+    ValueError
+        If the span is that of all links together, or more.
+
     Notes
     -----
     Where all links lie on the line through the pins, the constraints are dependent, and close to it, motions are as wild as the
@@ -41,8 +45,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     Examples
     --------
     >>> import zerodrift as zd
-    >>> zd.models.closed_pendulum(links=6)
-    <zd.symbolic closed_pendulum: 6 coordinates, 6 velocities, 2 holonomic and 0 nonholonomic constraints>
+    >>> print(repr(zd.models.closed_pendulum(links=6)))
+    <Mechanism closed_pendulum: plane, 6 bodies, 7 joints; no forces but gravity (0, -9.81)>
     """
     n = _check.count("links", links, least=3)
     length = _check.number("length", length, above=0)
@@ -51,33 +55,26 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     span = half * length if span is None else _check.number("span", span, above=0)
     if span >= n * length:
         raise ValueError(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}")
-
-    angles = dynamicsymbols(f"theta1:{n + 1}")
-    L, m, g, d = sp.symbols("length mass gravity span", positive=True)
-    t = dynamicsymbols._t
-
-    # Matrices and sums that are added to term by term would take SymPy the square of the number of links.
-    across, up = ([L * turn(angle) for angle in angles] for turn in (sp.cos, sp.sin))
-    moved = [[x.diff(t) for x in along] for along in (across, up)]
-    squares = [speed**2 for along in moved for speed in _middles(along)]
-    turning = m * L**2 / 12 * sp.Add(*(angle.diff(t)**2 for angle in angles)) / 2
-    joints = [(sp.Add(*across[:i]), sp.Add(*up[:i])) for i in range(n + 1)]
-
-    system = symbolic(
-        angles,
-        kinetic=m * sp.Add(*squares) / 2 + turning,
-        potential=m * g * sp.Add(*_middles(up)),
-        constraints={"closed_x": joints[-1][0] - d, "closed_y": joints[-1][1]},
-        parameters={L: length, m: mass, g: gravity, d: span},
-        points=joints,
-        name="closed_pendulum",
-    )
-    # The arch ends a quarter of the chain away from the pin. In the mass metric the last links, which move most easily, would go
-    # all that way and wind up; in that of the angles all of them turn a little.
-    arch, evenly = np.linspace(LEAN, -0.75 * LEAN, n), Projection(metric="identity", max_iterations=100)
-    return system.starting(*project(system, arch, np.zeros(n), projection=evenly))
+    steps = length * np.exp(1j * arch(n, span / length))
+    places = np.concatenate([[0.0], np.cumsum(steps)])
+    drawn = [(float(place.real), float(place.imag)) for place in places]
+    m = Mechanism("closed_pendulum", gravity=(0.0, -_check.number("gravity", gravity)))
+    last = m.ground.point(drawn[0])
+    for i in range(n):
+        link = m.link(f"link{i + 1}", drawn[i], drawn[i + 1], mass, length=length)
+        m.revolute(f"pin{i}", last, link.start)
+        last = link.end
+    m.revolute(f"pin{n}", last, m.ground.point((span, 0)))
+    return m
 
 
-def _middles(along: list[sp.Expr]) -> list[sp.Expr]:
-    """Halfway along each link, of what the links are long in one direction; and of their speeds likewise."""
-    return [sp.Add(*along[:i], each / 2) for i, each in enumerate(along)]
+def arch(n: int, span: float) -> np.ndarray:
+    """The angles (n,) of links of length one that end at (span, 0): those of an even arch, turned as little as can be."""
+    angles = np.linspace(LEAN, -0.75 * LEAN, n)
+    for _ in range(100):
+        along, up = np.cos(angles), np.sin(angles)
+        off = np.array([along.sum() - span, up.sum()])
+        if np.abs(off).max() < 1e-14 * n:
+            break
+        angles = angles - np.linalg.lstsq(np.array([-up, along]), off, rcond=None)[0]
+    return angles

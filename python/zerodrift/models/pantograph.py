@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
-from ._swing import swing
+from ._swing import swing, symbol
 
 MIDDLE = np.array([1.0, 0.6])       # of the figure, in arms from O
 
@@ -54,13 +54,11 @@ def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate
     a, k = _check.number("arm", arm, above=0), _check.number("ratio", ratio, above=1)
     if not 0 <= _check.number("size", size) < a / 3:
         raise ValueError(f"size must be from 0 to less than a third of the arm, {a / 3:g}, not {size:g}")
-    import sympy as sp
-
     Q = a * MIDDLE
     A = Q / 2 + np.sqrt(a**2 / (Q @ Q) - 1 / 4) * np.array([-Q[1], Q[0]])
     m = linkage({"O": (0, 0), "A": A, "B": k * A, "C": k * A + Q - A, "P": k * Q, "Q": Q},
                 {"ground": "O", "main": "OAB", "pen": "BCP", "short": "AQ", "side": "CQ"}, mass=mass, gravity=gravity,
                 name="pantograph")
-    m.constraint("tracer along", sp.Symbol("Q.position.x") - Q[0] - swing(size, rate))
-    m.constraint("tracer up", sp.Symbol("Q.position.y") - Q[1] - swing(size / 2, 2 * rate))
+    m.constraint("tracer along", symbol("Q.position.x") - Q[0] - swing(size, rate))
+    m.constraint("tracer up", symbol("Q.position.y") - Q[1] - swing(size / 2, 2 * rate))
     return m

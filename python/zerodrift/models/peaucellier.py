@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import sympy as sp
 
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._swing import swing
 
 
 def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, amplitude: float = 1.2, rate: float = 2 * np.pi,
@@ -66,5 +66,5 @@ def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, am
                 {"ground": "OA", **{link: link for link in ("AQ", "OS", "OR", "QS", "QR", "PS", "PR")}},
                 lengths={"AQ": crank, "OS": arm, "OR": arm, "QS": side, "QR": side, "PS": side, "PR": side}, mass=mass,
                 gravity=gravity, name="peaucellier")
-    m.motor("drive", "A", angle=amplitude * sp.sin(_check.number("rate", rate) * sp.Symbol("t")))
+    m.motor("drive", "A", angle=swing(amplitude, rate))
     return m

@@ -22,7 +22,7 @@ def kinds(chain):
     if chain.name == "four-bar":
         return {"built in": lambda chain: zd.systems.four_bar()} | ({"compiled": compiled_system} if sympy else {})
     if chain.name == "Andrews":
-        return {"compiled": lambda chain: zd.models.andrews()}
+        return {"compiled": lambda chain: zd.models.symbolic.andrews()}
     return ({"compiled": compiled_system} if sympy else {}) | {"Python system": python_system}
 
 
