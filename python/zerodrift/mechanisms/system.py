@@ -17,12 +17,14 @@ from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
 from . import advice
+from .arrows import acting, chosen
 from .compiled import Written
 from .describing import described
 from .drawing import Drawing
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
+from .posed import Parts, Posed
 from .sketch import sketches
 from .start import targets
 from .starting import Starting
@@ -206,6 +208,12 @@ class MechanismSystem(BaseSystem):
     def _sketches(self, positions: Sequence[np.ndarray]) -> list[list[Shape]]:
         poses = (self._first_core.poses(np.ascontiguousarray(p))[0] for p in positions)
         return sketches(self._drawing, self._numbers, poses)
+
+    def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        elements, parts = chosen(self._drawing, names), Parts(self._drawing, self._numbers)
+        moments = [Posed(parts, self._first_core.poses(np.ascontiguousarray(solution.p[row]))[0]) for row in rows]
+        return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
+                for element in elements]
 
     def _advice(self, error: Exception) -> str | None:
         """What helps where the start is singular."""

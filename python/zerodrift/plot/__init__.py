@@ -4,12 +4,12 @@ Each function draws into `ax`, or into a new figure, and returns the axes. Nothi
 and no global setting of matplotlib is touched.
 """
 
-from .drawing import animate, mechanism
+from .drawing import animate, mechanism, path
 from .plot import energy, energy_violation, error, motion, stability_map, violation, work_precision
 from .style import COLOURS, panels
 
-__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "stability_map",
-           "violation", "work_precision"]
+__all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "path",
+           "stability_map", "violation", "work_precision"]
 
 
 def __dir__() -> list[str]:

@@ -8,35 +8,56 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from .. import _check
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape
-from .mechanism import Picture
+from .annotations import Arrow, draw_path
+from .mechanism import Extras, Picture, points_of
 from .style import COLOURS, given_axes
 
 COLOUR = COLOURS[0]
-FAINT_POSITIONS = 9      # positions in the drawing of a motion
+GHOSTS = 8      # faint positions of a motion
 JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
+NARROW = 130.0  # points: axes that are narrower show no coordinates
+QUIET = "#6E6E6E"
 
 
-def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None) -> Axes:
-    """Draw a system in one position, or a solution's start with faint positions of its motion.
+def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None, *, t: float | None = None,
+              ghosts: Any = None, names: bool = False, path: Any = (), forces: Any = False,
+              force_scale: float | None = None) -> Axes:
+    """Draw a system in one position, or a solution at one time with faint positions of its motion.
 
-    Mechanisms of bodies and joints show bars and plates with their pins, supports of the ground, sliders on their rails, springs,
-    wheels, and pitch circles of gears. Of other systems lines are links and dots are joints (curves of many points have none);
-    points that stay in place during the motion are squares.
+    Mechanisms of bodies and joints are drawn as in textbooks: bars and plates with their pins, the ground hatched, sliders on
+    their rails and blocks in their grooves, springs and dashpots, wheels, pitch circles of gears, profiles of cams, motors and
+    loads as arrows. Of other systems lines are links and dots are joints (curves of many points have none); points that stay in
+    place during the motion are squares.
 
     Parameters
     ----------
-    system_or_solution : system or Solution
+    system_or_solution : system, Mechanism or Solution
         What to draw.
     p : array_like (nq,), optional
         The position; left out: the system's start, or the positions of the solution.
     ax : Axes, optional
         Left out: a new figure, with 3D axes where the drawing is spatial.
+    t : float, optional
+        The time of a solution at which it is drawn, by the row nearest to it; left out: the first.
+    ghosts : int or array_like of float, optional
+        How many other positions of a solution are drawn faintly, evenly over the run, or at which times. Left out: eight, and
+        none where `p` or `t` says the position.
+    names : bool
+        Whether to write the names of bodies, joints, points, springs and drives of a mechanism.
+    path : str, point or measure, or a sequence of them
+        Points of a mechanism whose paths over the whole solution are drawn, such as ``"F"`` or ``rod.end``.
+    forces : bool or sequence of str
+        Forces of a mechanism at that time as arrows: True for all joints, bushings and loads, or names of joints, springs, loads
+        and the like. That of a joint is what the first body does to the second. An arrow in the corner says the scale.
+    force_scale : float, optional
+        In N/m; left out: the longest arrow is about a fifth of the picture.
 
     Returns
     -------
@@ -45,30 +66,39 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     Raises
     ------
     ValueError
-        If the system has no drawing, or a spatial one does not fit into flat axes.
+        If the system has no drawing, or not what is asked for, or a spatial one does not fit into flat axes.
 
     Examples
     --------
     >>> import zerodrift as zd
-    >>> bar = zd.systems.four_bar()
-    >>> ax = zd.plot.mechanism(bar)
-    >>> ax = zd.plot.mechanism(zd.simulate(bar, 2.0, step=0.01))
+    >>> leg = zd.models.jansen()
+    >>> ax = zd.plot.mechanism(leg, names=True)
+    >>> sol = zd.simulate(leg, 1.0, step=0.005)
+    >>> ax = zd.plot.mechanism(sol, path="F")                           # with eight other positions
+    >>> ax = zd.plot.mechanism(sol, t=0.3, forces=["Z", "V"], ghosts=[0.1, 0.2])
     """
     system_or_solution = system_of(system_or_solution, p)
     if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
         raise TypeError(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
-    moving = isinstance(system_or_solution, Solution) and p is None
-    system = system_or_solution.system if isinstance(system_or_solution, Solution) else system_or_solution
-    if moving:
-        rows = np.unique(np.linspace(0, len(system_or_solution.t) - 1, FAINT_POSITIONS).round().astype(int))
-        positions = system_or_solution.p[rows]
-    else:
-        positions = [system.p0 if p is None else p]
+    sol = system_or_solution if isinstance(system_or_solution, Solution) else None
+    _check_asked(sol, p, t=t, ghosts=ghosts, forces=forces, path=path)
+    force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
+    system = sol.system if sol is not None else system_or_solution
+    rows = _rows(sol, p, t, ghosts)
+    positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
+    positions += [] if sol is None else [sol.p[row] for row in rows]
     if (moments := _moments(system, positions)) is not None:
-        picture = Picture(_drawing_axes(ax, 2), moments)
+        extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+        picture = Picture(_drawing_axes(ax, 2), moments, extras)
         picture.faintly(range(1, len(moments)))
         picture.show(0)
         return picture.ax
+    _check_points_only(system, names, path, forces)
+    return _draw_points(system, positions, ax, moving=sol is not None and p is None)
+
+
+def _draw_points(system: BaseSystem, positions: Any, ax: Axes | None, *, moving: bool) -> Axes:
+    """A system of which only points and lines are known."""
     drawings = _drawings(system, positions)
     ax = _drawing_axes(ax, drawings.shape[2])
     for points in drawings[:0:-1]:
@@ -79,10 +109,49 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     return _with_equal_scales(ax)
 
 
-def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0) -> FuncAnimation:
-    """Animate the motion in real time.
+def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Axes:
+    """Draw the paths of points of a mechanism, to equal scales; `mechanism(sol, path=...)` draws the mechanism, too.
 
-    In a notebook: ``HTML(zd.plot.animate(sol).to_jshtml())`` with ``from IPython.display import HTML``.
+    Parameters
+    ----------
+    sol : Solution
+        Of a mechanism.
+    points : str, point or measure, or a sequence of them
+        Such as ``"F"``, ``"rod.end"``, ``rod.end`` or ``"F.position"``.
+    ax : Axes, optional
+        Left out: a new figure.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    KeyError
+        If there is no such point.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.jansen(), 1.0, step=0.005)
+    >>> ax = zd.plot.path(sol, "F")
+    """
+    _check.instance("sol", sol, Solution, A_SOLUTION)
+    found = _paths(sol, points)
+    ax = _drawing_axes(ax, 2)
+    for places in found:
+        draw_path(ax, places, 1.0, **style)
+    return _with_equal_scales(ax)
+
+
+def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0, names: bool = False,
+            path: Any = (), forces: Any = False, force_scale: float | None = None) -> FuncAnimation:
+    """Animate the motion in real time, drawn as `mechanism` draws it.
+
+    In a notebook: ``HTML(zd.plot.animate(sol).to_jshtml())`` with ``from IPython.display import HTML``. In a file:
+    ``zd.plot.animate(sol).save("motion.gif")``, or ``"motion.mp4"`` where matplotlib finds ffmpeg.
 
     Parameters
     ----------
@@ -94,6 +163,8 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
         Left out: a new figure.
     speed : float
         Seconds of motion per second of film.
+    names, path, forces, force_scale
+        As of `mechanism`; forces are those of each frame, all to one scale.
 
     Returns
     -------
@@ -103,22 +174,29 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     Raises
     ------
     ValueError
-        If the system has no drawing.
+        If the system has no drawing, or not what is asked for.
 
     Examples
     --------
     >>> import zerodrift as zd
-    >>> film = zd.plot.animate(zd.simulate(zd.systems.four_bar(), 1.0, step=0.01), fps=4)
+    >>> film = zd.plot.animate(zd.simulate(zd.models.jansen(), 1.0, step=0.01), fps=4, path="F")
     >>> page = film.to_jshtml()
     """
     _check.instance("sol", sol, Solution, A_SOLUTION)
     fps, speed = _check.number("fps", fps, above=0), _check.number("speed", speed, above=0)
+    force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
     if (moments := _moments(sol.system, sol.p[rows])) is not None:
-        return _film(Picture(_drawing_axes(ax, 2), moments), times, fps)
-    drawings = _drawings(sol.system, sol.p[rows])
+        extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows), force_scale)
+        return _film(Picture(_drawing_axes(ax, 2), moments, extras), times, fps)
+    _check_points_only(sol.system, names, path, forces)
+    return _film_of_points(_drawings(sol.system, sol.p[rows]), times, fps, ax)
+
+
+def _film_of_points(drawings: np.ndarray, times: np.ndarray, fps: float, ax: Axes | None) -> FuncAnimation:
+    """A system of which only points and lines are known, as it moves."""
     ax = _drawing_axes(ax, drawings.shape[2])
     line = _links(ax, drawings[0])
     _set_limits(ax, drawings)
@@ -131,7 +209,66 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
         title.set_text(f"t = {times[frame]:.2f} s")
         return line, title
 
-    return FuncAnimation(ax.figure, show, frames=frames, interval=1000 / fps, blit=False)
+    return FuncAnimation(ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
+
+
+# ---- what is asked for ----
+
+
+def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
+    """Refuses what needs a motion where there is none, or a time of it where a position is given."""
+    wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
+    for name in wanted:
+        if sol is None:
+            raise ValueError(f"{name}= needs a solution, as zd.simulate returns, and this is a system in one position")
+        if p is not None and name in ("t", "forces"):
+            raise ValueError(f"{name}= needs a row of the solution: give t=, and leave p out")
+
+
+def _check_points_only(system: BaseSystem, names: Any, path: Any, forces: Any) -> None:
+    for name, value in {"names": names, "path": path, "forces": forces}.items():
+        if value is not False and not _is_nothing(value):
+            raise ValueError(f"{name}= needs a mechanism of bodies and joints, and {system.name} is drawn from its points alone")
+
+
+def _is_nothing(value: Any) -> bool:
+    return isinstance(value, tuple | list) and not value
+
+
+def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndarray:
+    """The rows to draw, first that which is not faint, if no position is given."""
+    if sol is None:
+        return np.zeros(0, dtype=int)
+    first = nearest(sol.t, np.array([sol.t[0] if t is None else _check.number("t", t)]))
+    if ghosts is None:
+        ghosts = GHOSTS if p is None and t is None else 0
+    if isinstance(ghosts, int | np.integer):
+        spread = np.linspace(0, len(sol.t) - 1, _check.count("ghosts", ghosts, least=0) + 1).round().astype(int)
+        others = np.setdiff1d(spread, first)[:ghosts]
+    else:
+        others = nearest(sol.t, _check.times("ghosts", ghosts, sol.t[0], sol.t[-1]))
+    return np.concatenate([first if p is None else first[:0], others])
+
+
+def _paths(sol: Solution | None, points: Any) -> list[np.ndarray]:
+    """The places (k, 2) of points at all rows."""
+    several = points if isinstance(points, list | tuple) else [points]
+    found = []
+    for point in several:
+        name = point if isinstance(point, str) else getattr(point, "measured_name", None) or getattr(point, "name", None)
+        if not isinstance(name, str):
+            raise TypeError(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
+        places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
+        if places.ndim != 2 or places.shape[1] != 2:
+            raise ValueError(f"path {name!r} must be of a point of the plane")
+        found.append(places)
+    return found
+
+
+def _arrows(sol: Solution | None, forces: Any, rows: np.ndarray) -> list[Arrow]:
+    if forces is False or sol is None:
+        return []
+    return [Arrow(*each) for each in sol.system._forces(forces, sol, rows)]
 
 
 def _film(picture: Picture, times: np.ndarray, fps: float) -> FuncAnimation:
@@ -184,7 +321,23 @@ def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
         raise ValueError("ax must be 3D axes for this system: fig.add_subplot(projection='3d')")
     for axis in "xyz"[:dimension]:
         getattr(ax, f"set_{axis}label")(f"{axis} [m]")
+    if dimension == 2:
+        _quieten(ax)
     return ax
+
+
+def _quieten(ax: Axes) -> None:
+    """Coordinates in grey behind what is drawn, and none where there is no room for them."""
+    if points_of(ax)[0] < NARROW:
+        ax.set_axis_off()
+        return
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.spines[["left", "bottom"]].set_color(QUIET)
+    ax.tick_params(color=QUIET, labelcolor=QUIET, labelsize="small")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.label.set(color=QUIET, size="small")
+        axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    ax.set_axisbelow(True)
 
 
 def _with_equal_scales(ax: Axes) -> Axes:

@@ -13,6 +13,7 @@ BODY, EDGE = "#A6CEE4", "#00476F"           # of bodies: a light blue, and a dar
 PLATE = BODY + "C0"                         # of plates, through which others are seen
 TINT = "#D3E7F2"                            # of wheels, gears and cams, which others are seen in front of
 LOAD = "#C44E00"                            # of forces and moments
+IN_LINE = 1e-6              # of a body's size: how far its points are from a line at most that are drawn as a bar
 DASHED, CHAIN = (0, (4, 2.5)), (0, (9, 2.5, 2, 2.5))        # a chain line, by ISO 128, is that of pitch circles
 
 
@@ -98,15 +99,16 @@ def box(place: np.ndarray, along: np.ndarray, half_length: float, half_width: fl
 
 
 def hull(points: np.ndarray) -> np.ndarray:
-    """The corners of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain)."""
+    """The corners of the convex hull of points (n, 2), counter-clockwise (Andrew's monotone chain); two where all are in line."""
     ordered = sorted({(float(x), float(y)) for x, y in points})
     if len(ordered) < 3:
         return np.array(ordered)
+    least = IN_LINE * float(np.ptp(points, axis=0).max()) ** 2
 
     def half(places: list[tuple[float, float]]) -> list[tuple[float, float]]:
         corners: list[tuple[float, float]] = []
         for place in places:
-            while len(corners) > 1 and _turn(corners[-2], corners[-1], place) <= 0:
+            while len(corners) > 1 and _turn(corners[-2], corners[-1], place) <= least:
                 corners.pop()
             corners.append(place)
         return corners[:-1]

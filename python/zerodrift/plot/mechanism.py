@@ -7,13 +7,14 @@ and films move what there is instead of drawing anew.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
 
 from ..systems.shapes import Shape
+from .annotations import Arrow, Arrows, Names, draw_path
 from .glyphs import GLYPHS
 from .marks import SMOOTH, Mark, arc, hull
 
@@ -27,21 +28,52 @@ THIN, THICK = 0.3, 1.0      # of lines, in points
 FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "wheel": "#C8C8C8"}       # what other positions show
 
 
+class Extras(NamedTuple):
+    """What is drawn of a mechanism besides its parts: names, paths (k, 2) of points, forces and their scale in N/m."""
+
+    names: bool = False
+    paths: Sequence[np.ndarray] = ()
+    arrows: Sequence[Arrow] = ()
+    force_scale: float | None = None
+
+
+NOTHING = Extras()
+
+
 class Picture:
     """Shapes in axes, all to the scale that holds every one of them; `show` draws those of one moment instead of those before."""
 
-    def __init__(self, ax: Axes, moments: Sequence[list[Shape]]) -> None:
-        self.ax, self._moments = ax, moments
+    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING) -> None:
+        shown = {arrow.name for arrow in extras.arrows}
+        self.ax = ax
+        self._moments = [[each for each in shapes if each.kind != "load" or each.name not in shown] for shapes in moments]
         self._drawn: dict[str, PathCollection] = {}
-        places = np.vstack([_extent(shape) for shapes in moments for shape in shapes] or [np.zeros((1, 2))])
+        places = [_extent(shape) for shapes in self._moments for shape in shapes] or [np.zeros((1, 2))]
+        places = np.vstack([*places, *extras.paths])
+        extent, per_point = self._scale(places)
+        points = self.size / per_point
+        self._arrows = self._names = None
+        if extras.arrows:
+            self._arrows = Arrows(ax, extras.arrows, extent, self.size, self.line, points, extras.force_scale)
+            places = np.vstack([places, self._arrows.ends()])
+        self._limit(places, extent)
+        if self._arrows:
+            self._arrows.say_scale(ax)
+        if extras.names:
+            self._names = Names(ax, self._moments[0], self.size, points, shown)
+        for path in extras.paths:
+            draw_path(ax, path, self.line, scalex=False, scaley=False)
+
+    def _scale(self, places: np.ndarray) -> tuple[float, float]:
+        """Sets the sizes of pins and lines; how large the picture is, and a point of its paper, in m."""
         low, high = places.min(axis=0), places.max(axis=0)
         extent = float((high - low).max()) or 1.0
-        per_point = 1.3 * float(((high - low) / np.maximum(_points(ax), 1.0)).max()) or extent / 300
-        bars = [float(np.hypot(*np.ptp(shape.points, axis=0))) for shape in moments[0] if shape.kind == "link"]
+        per_point = 1.3 * float(((high - low) / np.maximum(points_of(self.ax), 1.0)).max()) or extent / 300
+        bars = [float(np.hypot(*np.ptp(shape.points, axis=0))) for shape in self._moments[0] if shape.kind == "link"]
         wished = max(SMALL * extent, LEAST * per_point)
         self.size = min(wished, SLENDER * float(np.quantile(bars, 0.25))) if bars else wished
         self.line = float(np.clip(LINE * self.size / per_point, THIN, THICK))
-        self._limit(places, extent)
+        return extent, per_point
 
     def _limit(self, places: np.ndarray, extent: float) -> None:
         """Axes around all places, and around the marks of the first moment."""
@@ -67,7 +99,8 @@ class Picture:
             marks.setdefault(shape.kind, []).extend(GLYPHS[shape.kind].draw(shape, self.size))
         for kind, those in marks.items():
             self._collection(kind).set(**self._look(those))
-        return list(self._drawn.values())
+        more = self._arrows.show(moment) if self._arrows else []
+        return [*self._drawn.values(), *more, *(self._names.show(self._moments[moment]) if self._names else [])]
 
     def _collection(self, kind: str) -> PathCollection:
         """What shows all shapes of a kind."""
@@ -82,7 +115,7 @@ class Picture:
                 "linestyle": [each.dashes for each in marks]}
 
 
-def _points(ax: Axes) -> np.ndarray:
+def points_of(ax: Axes) -> np.ndarray:
     """Width and height of axes, (2,) in points."""
     box = ax.get_window_extent()
     return 72 / ax.figure.dpi * np.array([box.width, box.height])

@@ -228,6 +228,10 @@ class BaseSystem:
         found = self._sketches([p])
         return None if found is None else found[0]
 
+    def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        """Forces by name, with where they act and what they are at rows of a solution, (k, 2) in m and (k, 2) in N."""
+        return []
+
     @property
     def _measuring(self) -> _gateway.CoreSystem | None:
         """The core's system that has the measures; None where only a description is left."""
