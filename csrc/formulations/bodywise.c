@@ -17,8 +17,8 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { MAX_ITERATIONS = 12 };
-static const double WEIGHT = 0x1p22;            /* of a row in units of what its bodies have as mass in it */
+enum { MAX_ITERATIONS = 40 };
+static const double WEIGHT = 0x1p25;            /* of a row in units of what its bodies have as mass in it */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
 
 static void *take(zd_arena *arena, const void *of)
@@ -85,20 +85,18 @@ int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
     zd_blocks_clear(self->bodies->blocks);
     zd_bodies_add_mass(self->bodies, point->terms.M);
     zd_bodies_add_rows(self->bodies, self->C, self->weight);
-    const zd_pivots pivots = zd_blocks_factor(self->bodies->blocks, NULL, 0);
-    if (pivots.failed < 0) return ZD_DONE;
-    point->failed_index = zd_bodies_velocity(self->bodies, pivots.failed);
-    return ZD_NOT_DEFINITE;
+    const int failed = zd_bodies_factor(self->bodies);
+    if (failed >= 0) point->failed_index = failed;
+    return failed < 0 ? ZD_DONE : ZD_NOT_DEFINITE;
 }
 
 /* ---- solution ---- */
 
-/* unbalanced <- force - M x - C^T lambda + C^T W rest, rest <- rhs - C x. Returns how much of them is left, in units of what their terms are;
- * of the former without W. */
-static double find_rest(zd_bodywise *self, const double *force, const double *rhs, const double *x)
+/* unbalanced <- force - M x - C^T lambda. Returns how much that is, at the most, of the largest of its terms. */
+static double find_unbalanced(zd_bodywise *self, const double *force, const double *x)
 {
     const int n = self->point->system->nv, m = zd_constraints(self->point->system);
-    double left = 0, *b = self->unbalanced, *size = self->step;
+    double *b = self->unbalanced, *size = self->step, largest = 0, worst = 0;
     zd_times_M(self->point, self->point->terms.M, x, b);
     for (int i = 0; i < n; i++) {
         const double given = force ? force[i] : 0;
@@ -107,22 +105,60 @@ static double find_rest(zd_bodywise *self, const double *force, const double *rh
     }
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        double sum = rhs[k], terms = fabs(rhs[k]);
         for (int j = 0; j < row.count; j++) {
-            const double term = row.x[j] * x[row.column[j]], reaction = row.x[j] * self->lambda[k];
-            sum -= term, terms += fabs(term);
+            const double reaction = row.x[j] * self->lambda[k];
             b[row.column[j]] -= reaction, size[row.column[j]] += fabs(reaction);
         }
-        self->rest[k] = sum;
-        if (fabs(sum) > left * terms) left = fabs(sum) / terms;
     }
-    double largest = 0, worst = 0;
     for (int i = 0; i < n; i++) largest = fmax(largest, size[i]), worst = fmax(worst, fabs(b[i]));
+    return worst > 0 ? worst / largest : 0;
+}
+
+/* rest <- rhs - C x, likewise, in the metric W */
+static double find_rest(zd_bodywise *self, const double *rhs, const double *x)
+{
+    double largest = 0, worst = 0;
+    for (int k = 0; k < zd_constraints(self->point->system); k++) {
+        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
+        double sum = rhs[k], terms = fabs(rhs[k]);
+        for (int j = 0; j < row.count; j++) {
+            const double term = row.x[j] * x[row.column[j]];
+            sum -= term, terms += fabs(term);
+        }
+        self->rest[k] = sum;
+        worst = fmax(worst, sum * sum * self->weight[k]);
+        largest = fmax(largest, terms * terms * self->weight[k]);
+    }
+    return worst > 0 ? sqrt(worst / largest) : 0;
+}
+
+/* step <- (M + C^T W C)^-1 (unbalanced + C^T W rest), lambda <- lambda + W (C step - rest); rest NULL: zero */
+static void improve(zd_bodywise *self, const double *rest)
+{
+    const int m = zd_constraints(self->point->system);
+    for (int k = 0; rest && k < m; k++) {
+        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
+        for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += self->weight[k] * rest[k] * row.x[j];
+    }
+    zd_bodies_solve(self->bodies, self->unbalanced, self->step);
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        for (int j = 0; j < row.count; j++) b[row.column[j]] += self->weight[k] * self->rest[k] * row.x[j];
+        self->lambda[k] += self->weight[k] * (zd_row_times(&row, self->step) - (rest ? rest[k] : 0));       /* (8) */
     }
-    return worst > left * largest ? worst / largest : left;
+}
+
+/* Where C x = rhs, the multipliers are found once more, from C^T lambda = force - M x alone: W times what rounding leaves of rhs - C x is not
+ * in them then, nor what that has beside the range of C. */
+static void find_multipliers(zd_bodywise *self, const double *force, const double *x)
+{
+    double before = INFINITY;
+    memset(self->lambda, 0, (size_t)zd_constraints(self->point->system) * sizeof *self->lambda);
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
+        const double left = find_unbalanced(self, force, x);
+        if (!(left > ROUNDING) || !(left < 0.5 * before)) break;
+        before = left;
+        improve(self, NULL);
+    }
 }
 
 void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs, double *x, double *lambda)
@@ -132,15 +168,13 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
     memset(self->lambda, 0, (size_t)m * sizeof *x);
     double before = INFINITY;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        const double left = find_rest(self, force, rhs, x);
-        if (!(left > ROUNDING) || (i > 1 && !(left < 0.25 * before))) break;
+        const double left = fmax(find_unbalanced(self, force, x), find_rest(self, rhs, x));
+        if (!(left > ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
         before = left;
-        zd_bodies_solve(self->bodies, self->unbalanced, self->step);
-        for (int k = 0; k < m; k++) {
-            const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-            self->lambda[k] += self->weight[k] * (zd_row_times(&row, self->step) - self->rest[k]);      /* (8) */
-        }
+        improve(self, self->rest);
         for (int j = 0; j < n; j++) x[j] += self->step[j];
     }
-    if (lambda) memcpy(lambda, self->lambda, (size_t)m * sizeof *lambda);
+    if (!lambda) return;
+    find_multipliers(self, force, x);
+    memcpy(lambda, self->lambda, (size_t)m * sizeof *lambda);
 }

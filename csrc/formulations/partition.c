@@ -138,7 +138,7 @@ static zd_pivots eliminate(zd_partition *self, double share)
 {
     zd_blocks_clear(self->bodies->blocks);
     zd_bodies_add_rows(self->bodies, self->C, self->weight);
-    return zd_blocks_factor(self->bodies->blocks, self->left_out, share);
+    return zd_bodies_leave_out(self->bodies, self->left_out, share);
 }
 
 static int count_independents(const zd_partition *self)

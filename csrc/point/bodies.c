@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "../linalg/triangular.h"
+
 typedef struct plan {
     const zd_layout *layout;
     zd_pattern pattern;
@@ -102,12 +104,26 @@ void zd_bodies_add_rows(zd_bodies *self, const double *C, const double *W)
     for (int g = 0; g < self->layout->groups; g++) pair = add_group(self, g, C, W, pair);
 }
 
+int zd_bodies_factor(zd_bodies *self)
+{
+    self->is_triangular = 1;
+    const int failed = zd_triangular_factor(self->blocks);
+    return failed < 0 ? -1 : zd_bodies_velocity(self, failed);
+}
+
+zd_pivots zd_bodies_leave_out(zd_bodies *self, unsigned char *left_out, double least)
+{
+    self->is_triangular = 0;
+    return zd_blocks_factor(self->blocks, left_out, least);
+}
+
 void zd_bodies_solve(zd_bodies *self, const double *b, double *x)
 {
     const zd_layout *layout = self->layout;
     double *y = self->blocks->x;
     for (int i = 0; i < layout->blocks; i++) memcpy(y + self->at[i], b + layout->velocity_at[i], (size_t)size_of(layout, i) * sizeof *y);
-    zd_blocks_solve(self->blocks, y);
+    if (self->is_triangular) zd_triangular_solve(self->blocks, y);
+    else zd_blocks_solve(self->blocks, y);
     for (int i = 0; i < layout->blocks; i++) memcpy(x + layout->velocity_at[i], y + self->at[i], (size_t)size_of(layout, i) * sizeof *y);
 }
 
