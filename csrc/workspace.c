@@ -3,8 +3,20 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 enum { CACHE_LINE = 64 };
+
+/* Blocks that begin at a cache line; Windows has functions of its own for these, and they are given back by another. */
+#ifdef _WIN32
+#define TAKE_ALIGNED(size) _aligned_malloc(size, CACHE_LINE)
+#define GIVE_BACK _aligned_free
+#else
+#define TAKE_ALIGNED(size) aligned_alloc(CACHE_LINE, size)
+#define GIVE_BACK free
+#endif
 
 static size_t round_up(size_t bytes)
 {
@@ -33,13 +45,13 @@ void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes)
 void *zd_allocate(size_t bytes)
 {
     size_t size = round_up(bytes ? bytes : 1);
-    void *memory = aligned_alloc(CACHE_LINE, size);
+    void *memory = TAKE_ALIGNED(size);
     return memory ? memset(memory, 0, size) : NULL;
 }
 
 void zd_release(void *memory)
 {
-    free(memory);
+    GIVE_BACK(memory);
 }
 
 void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of)

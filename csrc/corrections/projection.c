@@ -68,14 +68,14 @@ static int every(const void *memory)
 static zd_hold hold(const void *memory)
 {
     const given_projection *given = memory;
-    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, given->metric == MASS, given->tol, (int)given->max_iterations};
+    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, (int)given->metric == MASS, given->tol, (int)given->max_iterations};
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *memory)
 {
     const given_projection *given = memory;
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
-    int identity = given->metric == IDENTITY;
+    int identity = (int)given->metric == IDENTITY;
     projection self = {
         .given = *given,
         .p = zd_take_doubles(arena, nq),

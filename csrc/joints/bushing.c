@@ -2,7 +2,11 @@
 #include "joint.h"
 
 const zd_element_kind zd_bushing = {
-    .card = {"bushing", "Springs with dampers along, across and about an axis of the first body.", "(2), (28)", 0, 0, 0},
+    .card = {
+        .name = "bushing",
+        .summary = "Springs with dampers along, across and about an axis of the first body.",
+        .equations = "(2), (28)",
+    },
     .gauges = 3,
     .gauge = {ZD_GAUGE_ALONG, ZD_GAUGE_ACROSS, ZD_GAUGE_ANGLE},
     .zero = {ZD_ZERO_ALONG, ZD_ZERO_ACROSS, ZD_ZERO_ANGLE},

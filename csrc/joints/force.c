@@ -2,7 +2,11 @@
 #include "joint.h"
 
 const zd_element_kind zd_force = {
-    .card = {"force", "Force at a point along a direction that stays fixed, or turns with a body.", "(2), (28)", 0, 0, 0},
+    .card = {
+        .name = "force",
+        .summary = "Force at a point along a direction that stays fixed, or turns with a body.",
+        .equations = "(2), (28)",
+    },
     .gauges = 1,
     .gauge = {ZD_GAUGE_GLIDE}, .zero = {ZD_ZERO_NONE},
     .effort = "force", .sign = 1,

@@ -2,7 +2,11 @@
 #include "joint.h"
 
 const zd_joint_kind zd_knife_edge_joint = {
-    .card = {"knife_edge", "Lets a point of a body glide along a direction that turns with the body, and not across.", "(5)", 0, 0, 0},
+    .card = {
+        .name = "knife_edge",
+        .summary = "Lets a point of a body glide along a direction that turns with the body, and not across.",
+        .equations = "(5)",
+    },
     .rows = 1,
     .row = {{.gauge = ZD_GAUGE_SKID, .nonholonomic = 1}},
     .takes_axis = 1,

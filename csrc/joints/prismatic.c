@@ -2,7 +2,7 @@
 #include "joint.h"
 
 const zd_joint_kind zd_prismatic = {
-    .card = {"prismatic", "Slides one body along an axis that turns with the other.", "(3), (5)", 0, 0, 0},
+    .card = {.name = "prismatic", .summary = "Slides one body along an axis that turns with the other.", .equations = "(3), (5)"},
     .carrier = ZD_SLIDES,
     .rows = 2,
     .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_ACROSS}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},

@@ -2,7 +2,11 @@
 #include "joint.h"
 
 const zd_joint_kind zd_rod = {
-    .card = {"rod", "Keeps two points at a distance, as a massless rod with a hinge at each end.", "(3), (5)", 0, 0, 0},
+    .card = {
+        .name = "rod",
+        .summary = "Keeps two points at a distance, as a massless rod with a hinge at each end.",
+        .equations = "(3), (5)",
+    },
     .rows = 1,
     .row = {{.gauge = ZD_GAUGE_DISTANCE, .zero = ZD_ZERO_LENGTH}},
     .takes_length = 1,

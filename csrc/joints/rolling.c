@@ -3,7 +3,7 @@
 #include "joint.h"
 
 const zd_joint_kind zd_rolling = {
-    .card = {"rolling", "Rolls a wheel along a line of the first body without slip.", "(3), (5)", 0, 0, 0},
+    .card = {.name = "rolling", .summary = "Rolls a wheel along a line of the first body without slip.", .equations = "(3), (5)"},
     .rows = 2,
     .row = {
         {.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_LENGTH},

@@ -2,7 +2,7 @@
 #include "joint.h"
 
 const zd_joint_kind zd_slot = {
-    .card = {"slot", "Guides a point along a line that turns with the first body.", "(3), (5)", 0, 0, 0},
+    .card = {.name = "slot", .summary = "Guides a point along a line that turns with the first body.", .equations = "(3), (5)"},
     .rows = 1,
     .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_ACROSS}},
     .coordinate = "displacement", .gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG,

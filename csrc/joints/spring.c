@@ -2,7 +2,7 @@
 #include "joint.h"
 
 const zd_element_kind zd_spring = {
-    .card = {"spring", "Spring with a damper between two points.", "(2), (28)", 0, 0, 0},
+    .card = {.name = "spring", .summary = "Spring with a damper between two points.", .equations = "(2), (28)"},
     .gauges = 1,
     .gauge = {ZD_GAUGE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
     .is_spring = 1,

@@ -2,7 +2,7 @@
 #include "joint.h"
 
 const zd_element_kind zd_torsion_spring = {
-    .card = {"torsion_spring", "Spring with a damper about a joint.", "(2), (28)", 0, 0, 0},
+    .card = {.name = "torsion_spring", .summary = "Spring with a damper about a joint.", .equations = "(2), (28)"},
     .gauges = 1,
     .gauge = {ZD_GAUGE_ANGLE}, .zero = {ZD_ZERO_ANGLE},
     .is_spring = 1,

@@ -10,6 +10,8 @@
 
 #if defined(__GNUC__) || defined(__clang__)
 #define ZD_INLINE static inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ZD_INLINE static __forceinline
 #else
 #define ZD_INLINE static inline
 #endif

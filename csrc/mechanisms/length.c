@@ -2,6 +2,7 @@
  * of joints and gauges. Coordinates alone do not tell it, as a slider may start at 0. */
 #include "length.h"
 
+#include "../linalg/roots.h"
 #include "plane.h"
 
 typedef struct extent {
@@ -12,7 +13,7 @@ typedef struct extent {
 static void extend(extent *to, int body, const double *point)
 {
     if (body) {
-        to->largest = fmax(to->largest, 2 * hypot(point[0], point[1]));
+        to->largest = fmax(to->largest, 2 * zd_hypotenuse(point[0], point[1]));
         return;
     }
     to->low = (zd_vector){fmin(to->low.x, point[0]), fmin(to->low.y, point[1])};
@@ -33,6 +34,6 @@ double zd_tables_length(const zd_tables *tables)
         extend(&all, gauge->second, gauge->point2);
         all.largest = fmax(all.largest, fabs(gauge->zero));
     }
-    if (all.high.x >= all.low.x) all.largest = fmax(all.largest, hypot(all.high.x - all.low.x, all.high.y - all.low.y));
+    if (all.high.x >= all.low.x) all.largest = fmax(all.largest, zd_hypotenuse(all.high.x - all.low.x, all.high.y - all.low.y));
     return all.largest > 0 ? all.largest : 1;
 }

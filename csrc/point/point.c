@@ -12,7 +12,7 @@
 
 static zd_terms take_terms(zd_arena *arena, const zd_system *system)
 {
-    zd_terms terms = {NULL};
+    zd_terms terms = {0};
     for (int row = 0; zd_term_at(row); row++)
         if (system->provides & zd_term_at(row)->term) *zd_term_in(&terms, row) = zd_take_doubles(arena, zd_term_size(system, row));
     terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);

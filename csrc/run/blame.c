@@ -54,5 +54,5 @@ int zd_run_not_finite(zd_run *run, int status, double *t)
     const zd_system *system = point->system;
     *t = point->t;
     int term = is_moderate(system, point->p, point->v) ? zd_first_not_finite(system, point->known, &point->terms) : 0;
-    return term || status != ZD_NOT_FINITE || !run->stepper.last.h ? term : watch_step(run, t);
+    return term || status != ZD_NOT_FINITE || run->stepper.last.h == 0 ? term : watch_step(run, t);
 }

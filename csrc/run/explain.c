@@ -178,7 +178,7 @@ static int is_for_jacobians(zd_run *run, int status)
     zd_consistency *consistency = &run->safeguards.consistency;
     const zd_last *last = &run->stepper.last;
     if (status != ZD_NO_CONVERGENCE && status != ZD_NO_STEP && status != ZD_NO_EMBEDDING) return 0;
-    if (!consistency->compares || !last->h) return 0;
+    if (!consistency->compares || last->h == 0) return 0;
     if (zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN) return 1;
     zd_point_move(run->motion.point, last->t, last->p, last->v);
     return zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN;

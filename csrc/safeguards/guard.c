@@ -39,16 +39,16 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
     const zd_hold *hold = &motion->hold;
     int holds = !(motion->drifts_from & ZD_PHI) || hold->positions;
     int own = (system->provides & ZD_A) != 0;
-    double least = NEARBY + 4 * hold->tolerance;
+    double least = NEARBY + 4 * hold->tolerance, astray = ASTRAY * fmax(1, hold->every), resolved = stability > 0 ? stability : RESOLVED;
     return (zd_guard){
         .motion = motion,
         .last = last,
         .crossing = crossing,
         .checks_branch = system->mh && holds,
         .checks_stability = settings->step > 0,
-        .astray = 0.5 * pow(ASTRAY * fmax(1, hold->every), 2),
+        .astray = 0.5 * astray * astray,
         .nearby = least * least,
-        .limit = pow(stability > 0 ? stability : RESOLVED, 4),
+        .limit = resolved * resolved * resolved * resolved,
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
         .vdot = zd_take_doubles(arena, (size_t)system->nv),

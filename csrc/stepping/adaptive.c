@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "../linalg/roots.h"
 #include "passage.h"
 #include "road.h"
 #include "short_step.h"
@@ -73,7 +74,7 @@ int zd_adaptive_start(zd_course *course, double *work)
     if (status) return status;
     for (int i = 0; i < n; i++) f1[i] -= f0[i];
     double fastest = fmax(time * d1, time * time * root_mean_square(n, f1, control->scale) / h0);
-    double h1 = fastest <= 1e-15 ? h0 : time * pow(0.01 / fastest, 1.0 / (stepper->integrator->card.error_order + 1));
+    double h1 = fastest <= 1e-15 ? h0 : time * zd_root(0.01 / fastest, stepper->integrator->card.error_order + 1);
     control->h = fmin(100 * h0, h1);
     return ZD_DONE;
 }
@@ -124,7 +125,7 @@ static int attempt_on_either_road(zd_course *course, double h, double t1, double
 static double factor(const zd_course *course, double norm)
 {
     if (norm == 0) return LARGEST;
-    double wanted = SAFETY * pow(norm, -1.0 / (course->stepper->integrator->card.error_order + 1));
+    double wanted = SAFETY / zd_root(norm, course->stepper->integrator->card.error_order + 1);
     return fmin(LARGEST, fmax(SMALLEST, wanted));
 }
 

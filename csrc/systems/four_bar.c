@@ -9,6 +9,7 @@
 #include "four_bar.h"
 
 #include "../include/zerodrift/sines.h"
+#include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "direct/four_bar.h"
 #include "kind.h"
@@ -98,7 +99,7 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
  * with side 0, on the side where alpha_2 has it. Returns whether they can. */
 static int close_loop(double l0, const double *l, double side, double *p)
 {
-    double x = l0 - l[0] * zd_cos(p[ALPHA_1]), y = -l[0] * zd_sin(p[ALPHA_1]), diagonal = hypot(x, y), direction = atan2(y, x);
+    double x = l0 - l[0] * zd_cos(p[ALPHA_1]), y = -l[0] * zd_sin(p[ALPHA_1]), diagonal = zd_hypotenuse(x, y), direction = atan2(y, x);
     double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
     if (!(fabs(cosine) <= 1 + ROUNDING)) return 0;
     if (side == 0) side = p[ALPHA_2] - direction < TURN * round((p[ALPHA_2] - direction) / TURN) ? -1 : 1;
@@ -132,7 +133,7 @@ static void close_rates(const given *q, const double *p, double *v)
 void zd_four_bar_start(const given *q, double *p, double *v)
 {
     p[ALPHA_1] = q->angle;
-    close_loop(q->l[0], q->l + 1, q->crossed ? -1 : 1, p);
+    close_loop(q->l[0], q->l + 1, q->crossed != 0 ? -1 : 1, p);
     close_rates(q, p, v);
 }
 
@@ -156,7 +157,7 @@ static double inertia(const given *q, int i)
 const char *zd_four_bar_prepare(const given *q, constants *to)
 {
     double p[N] = {q->angle};
-    if (!close_loop(q->l[0], q->l + 1, q->crossed ? -1 : 1, p))
+    if (!close_loop(q->l[0], q->l + 1, q->crossed != 0 ? -1 : 1, p))
         return "links of these lengths cannot close the loop at this crank_angle";
     if (!(fabs(zd_sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
@@ -166,7 +167,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
     *to = (constants){
         .l0 = q->l[0],
         .l = {l1, l2, l3},
-        .side = can_be_flat(q->l) ? 0 : q->crossed ? -1 : 1,
+        .side = can_be_flat(q->l) ? 0 : q->crossed != 0 ? -1 : 1,
         .diagonal = {J[0] + (0.25 * m1 + m2 + m3) * l1 * l1, J[1] + (0.25 * m2 + m3) * l2 * l2, J[2] + 0.25 * m3 * l3 * l3},
         .k12 = (0.5 * m2 + m3) * l1 * l2,
         .k13 = 0.5 * m3 * l1 * l3,

@@ -16,6 +16,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
+#include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "direct/slider_crank.h"
 #include "kind.h"
@@ -43,7 +44,7 @@ static geometry locate(const given *k, const double *p)
     geometry g = {.s1 = s[0], .c1 = c[0], .s2 = s[1], .c2 = c[1]};
     double dx = p[X] - 0.5 * (k->a * g.c1 + k->b * g.c2);      /* from the crank's midpoint to the rod's */
     double dy = -0.5 * (k->a * g.s1 + k->b * g.s2);
-    g.l = hypot(dx, dy);                                        /* at least (b - a) / 2 once the loop is closed */
+    g.l = zd_hypotenuse(dx, dy);                                        /* at least (b - a) / 2 once the loop is closed */
     g.l_p[Q] = 0.5 * k->a * (dx * g.s1 - dy * g.c1) / g.l;
     g.l_p[X] = dx / g.l;
     g.l_p[ANGLE] = 0.5 * k->b * (dx * g.s2 - dy * g.c2) / g.l;
