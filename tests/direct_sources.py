@@ -10,7 +10,8 @@ from zerodrift.symbolics import direct
 
 FOLDER = ROOT / "csrc" / "systems" / "direct"
 # Where in the doubles of a system those of its direct functions begin: behind its own, or with these where they are the same.
-BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0}
+BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0,
+          "oscillator": 0, "knife_edge": 0, "vertical_disc": 0}
 HEADING = f"/* Written by tests/direct_sources.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
 
 

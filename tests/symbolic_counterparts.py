@@ -138,6 +138,34 @@ def chaplygin_sleigh_of_parameters():
                        parameters=values | {m: 1.0, inertia: 0.1, a: 0.1}, units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
 
 
+def oscillator_of_parameters():
+    core = SYSTEMS["oscillator"]
+    x, vx = sp.symbols("x vx")
+    (mass, stiffness, _, _), values = of_parameters("mass", "stiffness", "x0", "v0")
+    return zd.symbolic([x], speeds=[vx], kinetic=mass * vx**2 / 2, potential=stiffness * x**2 / 2, parameters=values, units=["m"],
+                       p0=core.p0, v0=core.v0)
+
+
+def knife_edge_of_parameters():
+    core = SYSTEMS["knife_edge"]
+    x, y, phi, vx, vy, w = sp.symbols("x y phi vx vy w")
+    (m, inertia, weight), values = of_parameters("m", "I", "weight")
+    return zd.symbolic([x, y, phi], speeds=[vx, vy, w], kinetic=m * (vx**2 + vy**2) / 2 + inertia * w**2 / 2,
+                       potential=-weight * x, nonholonomic=[vx * sp.sin(phi) - vy * sp.cos(phi)], parameters=values,
+                       units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+
+
+def vertical_disc_of_parameters():
+    core = SYSTEMS["vertical_disc"]
+    x, y, phi, theta, vx, vy, turn, roll = sp.symbols("x y phi theta vx vy turn roll")
+    (m, R, axle, diameter, *_), values = of_parameters("m", "R", "Ia", "It", "heading", "turn_rate", "roll_rate")
+    return zd.symbolic([x, y, phi, theta], speeds=[vx, vy, turn, roll],
+                       kinetic=(m * (vx**2 + vy**2) + diameter * turn**2 + axle * roll**2) / 2,
+                       nonholonomic=[vx - R * roll * sp.cos(phi), vy - R * roll * sp.sin(phi)], parameters=values,
+                       units=["m", "m", "rad", "rad"], p0=core.p0, v0=core.v0)
+
+
 OF_PARAMETERS = {"four_bar": four_bar_of_parameters, "driven_four_bar": driven_four_bar_of_parameters,
                  "pendulum": pendulum_of_parameters, "slider_crank": slider_crank_of_parameters,
-                 "chaplygin_sleigh": chaplygin_sleigh_of_parameters}
+                 "chaplygin_sleigh": chaplygin_sleigh_of_parameters, "oscillator": oscillator_of_parameters,
+                 "knife_edge": knife_edge_of_parameters, "vertical_disc": vertical_disc_of_parameters}

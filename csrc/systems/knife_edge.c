@@ -9,6 +9,7 @@
  * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
  */
 #include "../include/zerodrift/sines.h"
+#include "direct/knife_edge.h"
 #include "kind.h"
 #include "skate.h"
 
@@ -50,6 +51,7 @@ static const char *prepare(const double *parameters, double *to)
     const given *q = (const given *)parameters;
     const constants k = {q->m, q->I, q->m * q->g * zd_sin(q->incline)};
     memcpy(to, &k, sizeof k);
+    zd_knife_edge_direct_constants(to);
     return NULL;
 }
 
@@ -96,8 +98,9 @@ const zd_kind zd_knife_edge = {
         .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .direct = zd_knife_edge_direct, .directs = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED(constants),
+    ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
 };

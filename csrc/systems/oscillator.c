@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../include/zerodrift/system.h"
+#include "direct/oscillator.h"
 #include "kind.h"
 
 typedef struct given {      /* the parameters, and what evaluate() needs of them */
@@ -23,6 +24,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
+    zd_oscillator_direct_constants(to);
     return NULL;
 }
 
@@ -65,8 +67,9 @@ const zd_kind zd_oscillator = {
         .nq = 1, .nv = 1,
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
+        .direct = zd_oscillator_direct, .directs = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity,
     .points = 2, .dimension = 2, .draw = draw,
 };

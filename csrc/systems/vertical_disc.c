@@ -13,6 +13,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
+#include "direct/vertical_disc.h"
 #include "disc.h"
 #include "kind.h"
 
@@ -64,6 +65,7 @@ static const char *prepare(const double *parameters, double *to)
     if (isnan(k.Ia)) k.Ia = 2 * thin;
     if (isnan(k.It)) k.It = thin;
     memcpy(to, &k, sizeof k);
+    zd_vertical_disc_direct_constants(to);
     return NULL;
 }
 
@@ -112,8 +114,9 @@ const zd_kind zd_vertical_disc = {
         .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .direct = zd_vertical_disc_direct, .directs = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED_DOUBLES(ZD_VERTICAL_DISC_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
 };

@@ -19,6 +19,9 @@ CHANGED = {
     "slider_crank": {"crank": 0.4, "rod": 1.3, "crank_inertia": 0.5, "mass": 2.0, "rod_inertia": 0.3, "stiffness": 3.0,
                      "damping": 0.5, "relaxed_length": 0.8, "force": 2.0, "crank_rate": 1.0},
     "chaplygin_sleigh": {"mass": 2.0, "inertia": 0.3, "offset": -0.2, "speed": 1.0},
+    "oscillator": {"mass": 2.0, "stiffness": 3.0, "x0": 0.5, "v0": -1.0},
+    "knife_edge": {"mass": 2.0, "inertia": 0.3, "gravity": 5.0, "incline": 0.3, "heading": 0.5, "speed": 1.0, "turn_rate": 2.0},
+    "vertical_disc": {"mass": 2.0, "radius": 0.4, "axle_inertia": 0.3, "diameter_inertia": 0.1, "heading": 0.5, "turn_rate": 3.0},
 }
 
 
@@ -43,5 +46,6 @@ def test_they_move_the_system_as_its_terms_do(name, changed):
 
 
 def test_all_that_have_them_are_compared():
+    """And those are all but one, whose pivots would not show where it is singular."""
     bring = {name for name in zd.systems.__all__ if getattr(zd.systems, name)()._core.c.directs}
-    assert bring == set(OF_PARAMETERS) == set(CHANGED)
+    assert bring == set(OF_PARAMETERS) == set(CHANGED) == set(zd.systems.__all__) - {"rolling_disc"}

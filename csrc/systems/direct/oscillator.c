@@ -1,0 +1,113 @@
+/* Written by tests/direct_sources.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+#ifndef ZD_LANES
+#include "oscillator.h"
+
+#include <math.h>
+#include "../../include/zerodrift/units.h"
+
+/* What follows from the parameters alone, behind them. */
+void zd_oscillator_direct_constants(double *k)
+{
+    k[4] = 1.0 / k[0];
+}
+
+static const int solve_0[] = {0};
+static const int row_0[] = {0};
+static const int column_0[] = {0};
+
+/* The functions below, for each vector unit. */
+#if (ZD_SETS) & ZD_SET_BASELINE_1
+#define ZD_UNIT 0
+#define ZD_LANES 1
+#include "oscillator.c"
+#endif
+#if (ZD_SETS) & ZD_SET_BASELINE_2
+#define ZD_UNIT 0
+#define ZD_LANES 2
+#include "oscillator.c"
+#endif
+#if (ZD_SETS) & ZD_SET_AVX2_1
+#define ZD_UNIT 1
+#define ZD_LANES 1
+#include "oscillator.c"
+#endif
+#if (ZD_SETS) & ZD_SET_AVX2_4
+#define ZD_UNIT 1
+#define ZD_LANES 4
+#include "oscillator.c"
+#endif
+#if (ZD_SETS) & ZD_SET_AVX512_1
+#define ZD_UNIT 2
+#define ZD_LANES 1
+#include "oscillator.c"
+#endif
+#if (ZD_SETS) & ZD_SET_AVX512_8
+#define ZD_UNIT 2
+#define ZD_LANES 8
+#include "oscillator.c"
+#endif
+
+const zd_direct zd_oscillator_direct[] = {
+#if (ZD_SETS) & ZD_SET_BASELINE_1
+    {0, 1, 1, orders_0_1},
+#endif
+#if (ZD_SETS) & ZD_SET_BASELINE_2
+    {0, 2, 1, orders_0_2},
+#endif
+#if (ZD_SETS) & ZD_SET_AVX2_1
+    {1, 1, 1, orders_1_1},
+#endif
+#if (ZD_SETS) & ZD_SET_AVX2_4
+    {1, 4, 1, orders_1_4},
+#endif
+#if (ZD_SETS) & ZD_SET_AVX512_1
+    {2, 1, 1, orders_2_1},
+#endif
+#if (ZD_SETS) & ZD_SET_AVX512_8
+    {2, 8, 1, orders_2_8},
+#endif
+};
+
+#else
+#include "../../include/zerodrift/lanes.h"
+
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_time, const double *at_p,
+    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
+    double *to_power, double *to_pivots)
+{
+    const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const time = (const zd_stored *)at_time;
+    const zd_stored *restrict const p = (const zd_stored *)at_p;
+    const zd_stored *restrict const v = (const zd_stored *)at_v;
+    const zd_stored *restrict const added = (const zd_stored *)with_added;
+    zd_stored *restrict const pdot = (zd_stored *)to_pdot;
+    zd_stored *restrict const vdot = (zd_stored *)to_vdot;
+    zd_stored *restrict const lambda = (zd_stored *)to_lambda;
+    zd_stored *restrict const power = (zd_stored *)to_power;
+    zd_stored *restrict const pivots = (zd_stored *)to_pivots;
+    const zd_real t = *time;
+    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    const zd_real p0 = p[0];
+    vdot[0] = -((p0 * k[1]) * k[4]);
+    if (power) {
+        power[0] = ZD_SPLAT(0.0);
+    }
+    if (pivots) {
+        pivots[0] = ZD_SPLAT(1.0);
+    }
+    return ZD_DONE;
+}
+
+#if ZD_LANES == 1
+#define ZD_LANDING(name) ZD_NAMED(name)
+#else
+#define ZD_LANDING(name) NULL
+#endif
+static const zd_elimination ZD_NAMED(orders)[] = {
+    {0, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), NULL, NULL},
+};
+#undef ZD_LANDING
+
+#undef ZD_UNIT
+#undef ZD_LANES
+#endif
