@@ -1,10 +1,13 @@
 """Vector units, and sets of functions for one trajectory or several: what this machine has, and one call for all of them."""
 
+import ctypes
+
 import numpy as np
 import pytest
 from zerodrift._core import ffi, lib
 
 from zerodrift import _gateway
+from zerodrift.symbolics.direct_functions import QUICKLY
 
 # The sets of csrc/include/zerodrift/units.h by their unit's number and how many trajectories they take at once
 SETS = {(0, 1): "BASELINE_1", (0, 2): "BASELINE_2", (1, 1): "AVX2_1", (1, 4): "AVX2_4", (2, 1): "AVX512_1", (2, 8): "AVX512_8"}
@@ -20,12 +23,17 @@ def available(of):
 
 
 class DirectSet:
-    """Direct functions of one set, called for as many trajectories as it takes; `data` (lanes, doubles)."""
+    """Direct functions of one set, called for as many trajectories as it takes; `data` (lanes, doubles).
 
-    def __init__(self, direct, sizes, data):
+    `of_mechanism`: those for one trajectory are handed where the doubles are, and not these.
+    """
+
+    def __init__(self, direct, sizes, data, of_mechanism=False):
         self.direct, self.lanes, (self.nq, self.nv, self.mh, self.m) = direct, direct.lanes, sizes
         assert data.shape[0] == self.lanes
-        self.data = np.ascontiguousarray(data.T)
+        self._data = np.ascontiguousarray(data.T)
+        doubles = ffi.from_buffer("double[]", self._data)
+        self.data = ffi.new("double *[1]", [doubles]) if of_mechanism and self.lanes == 1 else doubles
         self.orders = range(direct.orders)
 
     def _into(self, **sizes):
@@ -35,7 +43,7 @@ class DirectSet:
     def _called(self, function, inputs, sizes):
         arrays, memory = self._into(**sizes)
         given = [ffi.NULL if x is None else ffi.from_buffer("double[]", np.ascontiguousarray(np.transpose(x))) for x in inputs]
-        assert function(ffi.from_buffer(self.data), *given, *memory) == 0
+        assert function(self.data, *given, *memory) == 0
         return {name: array.T for name, array in arrays.items()}
 
     def accelerate(self, i, t, p, v, added=None):
@@ -55,15 +63,25 @@ class DirectSet:
 
 
 def direct_sets(system):
-    """Of a built-in or symbolic system: its direct functions by unit and lanes, (nq, nv, mh, m), its data and its start."""
+    """Of any system: its direct functions by unit and lanes, (nq, nv, mh, m), its data and its start."""
     if hasattr(system, "_direct"):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
-        library = system._direct.library_of("|".join(known))
+        direct = system._direct[1] if hasattr(system, "_written") else system._direct
+        library = direct.library_of("|".join(known), QUICKLY)
         table = ffi.cast("const zd_direct *", _gateway.address_of(library, "zd_symbolic_direct"))
-        rows, data = [table[i] for i in range(len(known))], system._with_direct_data(library)
+        rows = [table[i] for i in range(len(known))]
+        data = doubles_of(system._written, direct, library) if hasattr(system, "_written") else system._with_direct_data(library)
     else:
         c, kind = system._core.c, _gateway.kinds()[system.name].c
         rows = [c.direct[i] for i in range(c.directs)]
         data = np.frombuffer(ffi.buffer(ffi.cast("double *", c.data), 8 * kind.constants)).copy()
     sizes = system.nq, system.nv, system._core.c.mh, system.m
     return {(row.unit, row.lanes): row for row in rows}, sizes, data, system.p0
+
+
+def doubles_of(written, direct, library):
+    """What the compiled functions of a mechanism are handed: its numbers, and constants that follow from these."""
+    doubles = np.concatenate([written._values, np.zeros(written._code.constants + direct.constants + 1)])
+    for fill in (written._library.zd_symbolic_constants, library.zd_symbolic_direct_constants):
+        fill(ctypes.c_void_p(doubles.ctypes.data))
+    return doubles

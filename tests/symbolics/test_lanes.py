@@ -8,6 +8,8 @@ from zerodrift._core import ffi
 
 import tolerances as tol
 import zerodrift as zd
+from mechanisms.known import four_bar
+from mechanisms.random_mechanisms import Maker
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from symbolic_counterparts import OF_PARAMETERS
@@ -31,7 +33,9 @@ def with_everything():
 
 
 SYSTEMS = {**{name: getattr(zd.systems, name) for name in OF_PARAMETERS},
-           **{f"random {seed}": functools.partial(random_system, seed) for seed in SEEDS}, "with everything": with_everything}
+           **{f"random {seed}": functools.partial(random_system, seed) for seed in SEEDS}, "with everything": with_everything,
+           "mechanism": lambda: Maker(2).m.system(compiled=True), "mechanism in absolute coordinates":
+           lambda: four_bar().system("absolute", compiled=True)}
 
 
 @functools.cache
@@ -49,12 +53,17 @@ def inputs(name, lanes, seed):
             p0 + rng.normal(size=(lanes, nq)) / 4, rng.normal(size=(lanes, nv)), rng.normal(size=(lanes, m)))
 
 
+def functions(name, of, data):
+    """Those of a set with these doubles, (lanes, doubles)."""
+    sets, sizes, _, _ = sets_of(name)
+    return DirectSet(sets[of], sizes, data, of_mechanism=name.startswith("mechanism"))
+
+
 def one_by_one(name, unit, given):
     """By the functions for one trajectory."""
-    direct, sizes = sets_of(name)[0][unit, 1], sets_of(name)[1]
     data, *states = given
-    singles = [[DirectSet(direct, sizes, data[k:k + 1]).all(i, *(x[k:k + 1] for x in states)) for k in range(len(data))]
-               for i in range(direct.orders)]
+    each = [functions(name, (unit, 1), data[k:k + 1]) for k in range(len(data))]
+    singles = [[one.all(i, *(x[k:k + 1] for x in states)) for k, one in enumerate(each)] for i in each[0].orders]
     return [{key: np.concatenate([each[key] for each in found]) for key in found[0]} for found in singles]
 
 
@@ -70,11 +79,10 @@ def assert_same_bits(found, expected, lanes):
 def test_a_lane_has_the_bits_of_a_trajectory_by_itself(name, of):
     """And those of all units that contract are the same."""
     unit, lanes = available(of)
-    direct, sizes = sets_of(name)[0][of], sets_of(name)[1]
     for seed in range(STATES):
         given = inputs(name, lanes, seed)
         expected = one_by_one(name, min(unit, 1), given)
-        called = DirectSet(direct, sizes, given[0])
+        called = functions(name, of, given[0])
         for i in called.orders:
             assert_same_bits(called.all(i, *given[1:]), expected[i], slice(None))
 
@@ -84,16 +92,15 @@ def test_a_lane_has_the_bits_of_a_trajectory_by_itself(name, of):
 def test_a_lane_does_not_depend_on_its_neighbours(name, of):
     """Not on their places either, nor on whether they are numbers at all."""
     _, lanes = available(of)
-    direct, sizes = sets_of(name)[0][of], sets_of(name)[1]
     given, rng = inputs(name, lanes, 7), np.random.default_rng(1)
-    alone = DirectSet(direct, sizes, given[0]).all(0, *given[1:])
+    alone = functions(name, of, given[0]).all(0, *given[1:])
     for k in range(lanes):
         data, *states = (x.copy() for x in given)
         for x in states:
             x[np.arange(lanes) != k] = rng.choice([np.nan, np.inf, 1e9, -1e300, 0.0], x[1:].shape)
-        assert_same_bits(DirectSet(direct, sizes, data).all(0, *states), alone, [k])
+        assert_same_bits(functions(name, of, data).all(0, *states), alone, [k])
     order = np.roll(np.arange(lanes), 1)
-    moved = DirectSet(direct, sizes, given[0][order]).all(0, *(x[order] for x in given[1:]))
+    moved = functions(name, of, given[0][order]).all(0, *(x[order] for x in given[1:]))
     assert_same_bits(moved, {key: value[order] for key, value in alone.items()}, slice(None))
 
 
