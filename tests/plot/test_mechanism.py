@@ -298,12 +298,53 @@ def test_a_cam_that_would_be_too_small_gets_a_stem():
     assert np.ptp(found["link"].points[:, 1]) > 0.02
 
 
+def test_a_guide_is_clear_of_its_cam():
+    """Where the follower is guided at its roller, the guide is drawn further up, and the follower reaches it."""
+    m = zd.Mechanism("valve")
+    turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1).point((0, 0)))
+    guide = m.prismatic("guide", m.ground, m.body("stem", 0.1, 0.01, at=(0, 0.05)), axis=(0, 1))
+    m.cam("cam", turn, guide, profile=lambda a: 0.01 * (1 - np.cos(a)))
+    ax = zd.plot.mechanism(m)
+    assert centres(ax, "slider")[0, 1] > 0.09
+    (stem,) = outlines(ax, "link")
+    assert stem[:, 1].min() < 0.05
+    assert stem[:, 1].max() > 0.09
+
+
+def test_a_load_outside_its_body_is_led_to_it():
+    m = zd.Mechanism("m")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    m.force("far", link.point((2, 0)), along=(0, 1), value=1.0)
+    m.force("near", link.point((0.7, 0)), along=(0, 1), value=1.0)
+    (lead,) = outlines(zd.plot.mechanism(m), "coupled")
+    np.testing.assert_allclose(lead, [(1, 0), (2, 0)], atol=1e-12)
+
+
 def test_the_ground_holds_each_of_its_pins_once_and_springs_by_walls(sol):
     def places(kind):
         return sorted(tuple(shape.points[0].round(9)) for shape in sol.system._shapes(sol.p[0]) if shape.kind == kind)
 
     assert places("ground") == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (3.0, 0.0), (4.0, 2.0)]
     assert places("wall") == [(2.0, -1.0), (2.0, 3.0)]
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_grooves_are_within_their_bodies(moving):
+    m = zd.Mechanism("lever")
+    lever, crank = m.link("lever", (0, 0), (0, 1), mass=1.0), m.link("crank", (0.0, 0.4), (0.1, 0.4), mass=1.0)
+    m.revolute("O", m.ground, lever.start)
+    turn = m.revolute("turn", m.ground, crank.start)
+    m.slot("slot", lever, crank.end, axis=(0, 1))
+    m.motor("drive", turn, speed=6.3)
+    sol = zd.simulate(m, 1.0, step=0.01)
+    ax = zd.plot.mechanism(sol if moving else m)
+    (groove,), bars, (block,) = outlines(ax, "groove"), outlines(ax, "link"), outlines(ax, "block")
+    assert any(marks.Path(bar).contains_points(groove).all() for bar in bars)
+    assert marks.Path(groove).contains_points(0.99 * block + 0.01 * block.mean(axis=0)).all()
+    if moving:      # the pin is 0.3 to 0.5 m from the lever's end
+        start, end = groove[np.argmin(groove @ [0, 1])], groove[np.argmax(groove @ [0, 1])]
+        assert np.hypot(*(end - start)) == pytest.approx(0.25, abs=0.05)     # and half a block at each end
 
 
 def test_rails_are_as_long_as_the_motion_needs():

@@ -19,6 +19,8 @@ from .posed import Parts, Posed
 from .sketched_couplings import Couplings
 from .sketched_forces import forces, walls
 
+ASSUMED = 0.35      # of the way to the end of its body: the length of a groove of which no motion is known
+
 Ranges = dict[str, tuple[float, float]]
 
 
@@ -42,7 +44,16 @@ class Sketch:
                 s = posed.displacement(joint)
                 low, high = found.get(joint.name, (s, s))
                 found[joint.name] = min(low, s), max(high, s)
+        for joint in self.sliding:
+            if has_groove(joint) and joint.name in found and np.ptp(found[joint.name]) <= APART:
+                found[joint.name] = self._assumed(joint, found[joint.name][0])
         return found
+
+    def _assumed(self, joint: Joint, s: float) -> tuple[float, float]:
+        """The ends of a groove of which no motion is known: towards the ends of its body."""
+        start = joint.first.local_with(self.parts.numbers)
+        ends = [float((place - start) @ joint.axis) for place in self.parts.outline[joint.bodies[0].name]]
+        return s + ASSUMED * min(0.0, min(ends) - s), s + ASSUMED * max(0.0, max(ends) - s)
 
     def shapes(self, posed: Posed, ranges: Ranges) -> list[Shape]:
         """Everything."""
@@ -82,7 +93,7 @@ class Sketch:
                 yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
                 yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
             elif slides(joint):
-                yield from _slider(joint, posed, ranges)
+                yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
             elif joint.is_of_one_body:
                 yield Shape("blade", np.array([second, posed.direction(joint.bodies[1], joint.axis)]), joint.name)
             elif {"x", "y", "angle"} <= gauges(joint):
@@ -93,9 +104,12 @@ class Sketch:
                 yield Shape("pin", second[None], joint.name)
 
 
-def _slider(joint: Joint, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
-    """A block on the ground, in a groove of a body where it turns, and around a rod of the body where it does not."""
-    second, axis, track = posed.at(joint.second), posed.direction(joint.bodies[0], joint.axis), posed.track(joint, ranges)
+def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
+    """A block on the ground, in a groove of a body where it turns, and around a rod of the body where it does not; further
+    along its axis where it would be in the way.
+    """
+    axis = posed.direction(joint.bodies[0], joint.axis)
+    second, track = posed.at(joint.second) + lifted * axis, posed.track(joint, ranges) + lifted * axis
     if joint.bodies[0] is posed.parts.drawing.ground:
         yield Shape("rail", np.array([*track, posed.parts.side(joint)]), joint.name)
         yield Shape("slider", np.array([second, axis]), joint.name)

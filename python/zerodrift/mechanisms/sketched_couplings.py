@@ -15,6 +15,7 @@ from .plane import turned
 from .posed import Parts, Posed
 
 ANGLES = 180        # of a cam's profile
+ROOM = 0.7          # of a cam's radius: the least distance of its roller from where the guide is drawn
 BASE = 1.2          # of the lift: the least radius of a cam that is drawn
 
 
@@ -37,8 +38,20 @@ class Couplings:
         self.wheels = {wheel.body.name for gear in self.of["gear"] for wheel in _wheels(parts, gear)}
         self.wheels |= {self._joint(rack, 0).bodies[1].name for rack in self.of["rack_pinion"]}
         self.wheels |= {cam.joint.bodies[1].name for cam in self.cams}
+        self.lifted = {cam.guide.name: cam.lifted for cam in self.cams}
         for cam in self.cams:
-            parts.outline.get(cam.follower.name, []).append(cam.roller)
+            self._lengthen(cam)
+
+    def _lengthen(self, cam: Cam) -> None:
+        """The outline of a follower goes from its roller to its guide."""
+        if isinstance(cam.follower, Particle):
+            return
+        places = self.parts.outline[cam.follower.name]
+        guide = cam.guide.second.local_with(self.parts.numbers)
+        axis = cam.follower.pose.local_direction(cam.guide.axis_as_drawn()) if cam.lifted else np.zeros(2)
+        for place in (cam.roller, guide + cam.lifted * axis):
+            if all(np.hypot(*(place - other)) > APART for other in places):
+                places.append(place)
 
     def _joint(self, coupling: Coupling, which: int) -> Joint:
         return self.parts.drawing.elements[coupling.of[which].rpartition(".")[0]]
@@ -104,8 +117,10 @@ class Cam(NamedTuple):
     name: str
     joint: Joint
     path: np.ndarray
+    guide: Joint
     follower: Body
     roller: np.ndarray      # (2,) in the follower's frame
+    lifted: float           # how far along its axis the guide is drawn from where it is, so that it does not hide the roller
 
     def shapes(self, posed: Posed) -> Iterator[Shape]:
         """The cam and the roller."""
@@ -138,7 +153,14 @@ def profile(parts: Parts, coupling: Coupling) -> Cam | None:
         path = path + stem
     zero = joint.bodies[1].pose.angle
     path = np.array([turned(-zero - angle, place) for angle, place in zip(angles, path, strict=True)])
-    return Cam(coupling.name, joint, path, roller.body, roller.body.pose.local(start + stem))
+    lifted = 0.0 if follower.coordinate == "angle" else _room(path, start + stem, follower.second.drawn_with(numbers), axis)
+    return Cam(coupling.name, joint, path, follower, roller.body, roller.body.pose.local(start + stem), lifted)
+
+
+def _room(path: np.ndarray, roller: np.ndarray, guide: np.ndarray, axis: np.ndarray) -> float:
+    """How far along its axis a guide has to be drawn from where it is, to be clear of the cam and the roller."""
+    radius = float(np.hypot(*path.T).max())
+    return max(0.0, ROOM * radius - float((guide - roller) @ axis))
 
 
 def _lengthened(path: np.ndarray, axis: np.ndarray) -> np.ndarray:

@@ -28,10 +28,21 @@ def forces(posed: Posed) -> Iterator[Shape]:
     for motor in drawing.of(Motor):
         yield _motor(motor, posed)
     for force in drawing.of(Force):
-        along = posed.direction(force.frame, force.along)
-        yield Shape("load", np.array([posed.at(force.point), _sign(force.law) * along]), force.name)
+        place, along = posed.at(force.point), posed.direction(force.frame, force.along)
+        yield from _to_outside(place, force.point, posed)
+        yield Shape("load", np.array([place, _sign(force.law) * along]), force.name)
     for torque in drawing.of(Torque):
         yield Shape("moment", posed.at(torque.body.center)[None], torque.name, _sign(torque.law))
+
+
+def _to_outside(place: np.ndarray, point: Point, posed: Posed) -> Iterator[Shape]:
+    """What leads from the outline of a body to a place of it that is further out."""
+    places = [posed.pose[point.body.name].point(each) for each in posed.parts.outline.get(point.body.name, [])]
+    if not places:
+        return
+    middle = np.mean(places, axis=0)
+    if np.hypot(*(place - middle)) > max(np.hypot(*(each - middle)) for each in places) + APART:
+        yield Shape("coupled", np.array([min(places, key=lambda each: float(np.hypot(*(each - place)))), place]))
 
 
 def _between(element: Any, posed: Posed) -> Iterator[Shape]:

@@ -113,7 +113,7 @@ def road(shape: Shape, size: float) -> list[Mark]:
 def groove(shape: Shape, size: float) -> list[Mark]:
     """A slot in a moving body from one place to another: (place, place, axis)."""
     start, end, axis = shape.points
-    longer = 3.2 * size * axis
+    longer = 0.7 * size * axis
     return [area(rounded(np.array([start - longer, end + longer]), HALF_GROOVE * size), edge=EDGE, width=1.0)]
 
 
