@@ -32,7 +32,7 @@ import json, resource, sys, time
 import sympy, sympy.physics.mechanics
 import zerodrift as zd
 from zerodrift.symbolics import define
-zd.symbolic, zd.models
+zd.symbolic, zd.models.symbolic
 
 def spent():
     mine, of_compiler = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))

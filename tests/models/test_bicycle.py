@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scipy.integrate
 
+import known_motions
 import zerodrift as zd
 from support import assert_close
 
@@ -47,6 +48,7 @@ def test_bodies_and_joints_against_equations_by_hand(given):
     expected = bicycle_by_hand(zd.models.symbolic.bicycle(**given), sol.t)
     found = np.column_stack([sol["frame.position"], sol["frame.angle"], sol["head.angle"]])
     assert_close(found, expected[:, :4], 1e-9)
+    assert bool(given) or known_motions.bicycle(sol) < 1e-9
     assert np.abs(sol.velocity_violation).max() <= 1e-12
 
 

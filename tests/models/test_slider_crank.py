@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import known_motions
 import zerodrift as zd
 from reference_files import table
 from support import assert_close
@@ -22,8 +23,7 @@ def test_slider_crank_is_the_built_in_one(formulation):
 def test_bodies_and_joints_against_the_reference():
     reference = table("sundials_slider_crank")
     sol = zd.simulate(zd.models.slider_crank(), 10.0, step=0.02, integrator="dop853", t_eval=reference["t"])
-    for name, measure in {"q": "crank.angle", "x": "slider.position.x", "p": "rod.angle"}.items():
-        assert_close(sol[measure], reference[name], 1e-9)
+    assert known_motions.slider_crank(sol) < 1e-9
     built_in = zd.simulate(zd.systems.slider_crank(), 10.0, step=0.02, integrator="dop853", t_eval=reference["t"])
     assert_close(sol.kinetic_energy, built_in.kinetic_energy, 1e-9)
 
