@@ -73,6 +73,13 @@ class CoreSystem(Measuring):
     error: BaseException | None = None      # what a system written in Python raised
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
+    def structure_count(self) -> float:
+        """Multiplications in C W C^T of a declared structure, in its factors and in a solve with them; 0 where there is none."""
+        count = lib.zd_structure_count(self.c)
+        if count < 0:
+            raise MemoryError("there is no memory for the order of elimination of the constraints")
+        return count
+
     @property
     def has_direct(self) -> bool:
         """Whether it brings direct functions."""

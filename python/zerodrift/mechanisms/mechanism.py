@@ -85,8 +85,10 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         ----------
         coordinates : {None, "joint", "absolute"}
             "joint": absolute angles and displacements along a tree of joints; joints that close loops are constraints.
-            "absolute": three coordinates a body, and all joints are constraints. None: "joint", until structured
-            systems have linear cost.
+            "absolute": three coordinates a body, and all joints are constraints; what that costs follows the number of bodies,
+            where joint coordinates cost up to its third power. None: those that cost less, by a count of what a step does: joint
+            ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
+            body has no mass, and for `compiled`. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
         compiled : bool
             Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
@@ -112,7 +114,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         >>> m.system("absolute")
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
-        layout = LAYOUTS[0] if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
+        layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
         return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
 
     def with_parameters(self, changes: Mapping[str, float] | None = None, /, **changed: float) -> MechanismSystem:

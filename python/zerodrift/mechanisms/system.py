@@ -16,7 +16,7 @@ from ..errors import ZerodriftError
 from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
-from . import advice
+from . import advice, cost
 from .arrows import acting, chosen
 from .compiled import Written
 from .describing import described
@@ -31,6 +31,7 @@ from .starting import Starting
 from .tables import Tables
 
 LAYOUTS = ("joint", "absolute")
+MANY = 32       # joint coordinates: of fewer, none is told what they cost
 
 
 class MechanismSystem(BaseSystem):
@@ -51,11 +52,14 @@ class MechanismSystem(BaseSystem):
         Whether the equations are written out and compiled; False, too, where there was no compiler.
     """
 
-    def __init__(self, drawing: Drawing, layout: str, changed: dict[str, float], compiled: bool = False,
+    def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool = False,
                  direct: tuple[str, DirectFunctions] | None = None) -> None:
-        self._drawing, self.layout, self._changed, self.name = drawing, layout, changed, drawing.name
+        self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
-        self._tables = Tables(drawing, self._numbers, in_tree=layout == "joint")
+        self._tables = Tables(drawing, self._numbers, in_tree=layout != "absolute")
+        self.layout = layout or ("joint" if compiled else cost.cost(self._tables).cheaper)
+        if self.layout == "absolute":
+            self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._tables.core()
         self._is_written_out, self._given_direct = compiled, direct
@@ -197,8 +201,17 @@ class MechanismSystem(BaseSystem):
 
     def __repr__(self) -> str:
         how = f", compiled{self._direct[1].in_words}" if self.compiled else ""
+        dear = cost.of_a_step(self._cost) if self._cost else ""
         return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
-                f"nonholonomic constraints>")
+                f"nonholonomic constraints{f'; {dear}' if dear else ''}>")
+
+    @functools.cached_property
+    def _cost(self) -> cost.Cost | None:
+        """Of many joint coordinates, as absolute ones may be cheaper; the count is of interpreted tables."""
+        return cost.cost(self._tables) if self.layout == "joint" and self.nq >= MANY and not self._is_written_out else None
+
+    def _what_it_costs(self, steps: int | None) -> str | None:
+        return cost.of_a_run(self._cost, steps) if self._cost else None
 
     def points(self, p: Any) -> np.ndarray | None:
         """The drawing at p: points (n, 2) in m, joined by lines where not NaN."""

@@ -73,6 +73,12 @@ class Tables:
         other.carrier = [-1] * len(self.parts)
         return other
 
+    def joint_coordinates(self) -> int:
+        """How many coordinates the bodies have along the tree."""
+        hung = [(body, self.joints[carrier]) for body, carrier in zip(self.parts, self.carrier, strict=True) if carrier >= 0]
+        free = sum(3 if body.turns else 2 for body, carrier in zip(self.parts, self.carrier, strict=True) if carrier < 0)
+        return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
+
     def _gravity(self) -> tuple[float, float]:
         return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value)) for axis, value in zip("xy", self.drawing.gravity,
                                                                                                      strict=True))

@@ -116,6 +116,11 @@ class Plan(NamedTuple):
     options: Any                # the same for the core
     rows: int | None            # that are saved, the start included; None: not known, as steps are chosen
 
+    @property
+    def steps(self) -> int | None:
+        """How many are made; None: not known."""
+        return _gateway.count_steps(self.options.t0, self.options.t1, self.options.step) if self.chosen["step"] else None
+
 
 class _Known(NamedTuple):
     """What follows from arguments whatever the times of the run are, and is remembered."""

@@ -282,6 +282,10 @@ class BaseSystem:
             raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
         return self._watching.unique(getattr(name, "name", name), solution)
 
+    def _what_it_costs(self, steps: int | None) -> str | None:
+        """What so many steps (None: nobody knows how many) cost, where they could cost far less; None: they could not."""
+        return None
+
     def _described(self) -> dict[str, Any]:
         """What a saved solution says of its system, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,

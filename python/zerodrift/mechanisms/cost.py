@@ -1,0 +1,141 @@
+"""What a step costs in joint and in absolute coordinates: `Mechanism.system` takes the cheaper by this count.
+
+An operation is a multiplication, with its addition, in the factors of a dense matrix; what else a step does is counted in as
+many of them as take its time. A step is a corrected one of "rk4" in "schur", which has five factorizations. With bodies B, joint
+coordinates n, and m rows that close loops:
+
+    joint       5 (n^3/6 + n^2 m + n m^2/2 + m^3/6 + 2 (n^2 + n m + m^2)) + b B + d D + r R
+    absolute    a + f B + g (rows of all joints) + s 5 S
+
+D is the sum of the bodies' depths in the tree, and R that of the depths of both bodies of each row that closes a loop, as these
+are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in
+the order in which a run eliminates. Weights are those that tests/bench/bench_coordinates.py measured on chains, rows of
+four-bars, stars and trees of 1 to 129 bodies.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .tables import Tables
+
+FACTORIZATIONS = 5
+JOINT = 1.0, 550.0, 140.0, 920.0        # 1, b, d, r
+LEAST_OF_ABSOLUTE = 3000.0               # a
+ABSOLUTE = 1500.0, 110.0, 4.0           # f, g, s
+NANOSECONDS = 0.35      # of an operation, there
+DEARER = 3.0            # so many times the operations are worth a sentence, and
+WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
+
+
+class Cost(NamedTuple):
+    """Operations of a step in both coordinates."""
+
+    joint: float
+    absolute: float         # infinite where they cannot be taken: a body has no mass, or a row touches none
+
+    @property
+    def cheaper(self) -> str:
+        """The layout that costs less; of equal ones that of fewer coordinates."""
+        return "absolute" if self.absolute < self.joint else "joint"
+
+    @property
+    def ratio(self) -> float:
+        """How many times as much joint coordinates cost."""
+        return self.joint / self.absolute
+
+    @property
+    def in_words(self) -> str:
+        """Both, those that are taken first."""
+        counts = {"joint": self.joint, "absolute": self.absolute}
+        other = "joint" if self.cheaper == "absolute" else "absolute"
+        more = "" if counts[other] == np.inf else f", in {other} ones {counts[other]:.3g}"
+        return f"{counts[self.cheaper]:.3g} operations a step{more}"
+
+
+def cost(tables: Tables, exact: bool = False) -> Cost:
+    """Of a mechanism whose tables have a tree; `exact`: S is counted, too, where joint coordinates cost less whatever it is."""
+    joint = float(np.dot(JOINT, parts_of_joint(tables)))
+    if not _has_mass(tables):
+        return Cost(joint, np.inf)
+    least = LEAST_OF_ABSOLUTE + float(np.dot(ABSOLUTE, parts_of_absolute(tables)))
+    if joint <= least and not exact:
+        return Cost(joint, least)
+    parts = parts_of_absolute(tables, exact=True)
+    return Cost(joint, LEAST_OF_ABSOLUTE + float(np.dot(ABSOLUTE, parts)) if parts[-1] else np.inf)
+
+
+def parts_of_absolute(tables: Tables, exact: bool = False) -> tuple[float, ...]:
+    """B, the rows of all joints, and 5 S where that is counted."""
+    rows = sum(len(joint.row.rows) for joint in tables.joints) + len(tables.relations)
+    count = tables.absolute().core().structure_count() if exact else 0.0
+    return float(len(tables.parts)), float(rows), FACTORIZATIONS * count
+
+
+def parts_of_joint(tables: Tables) -> tuple[float, ...]:
+    """Five times the dense matrices, B, D and R."""
+    depth, ends = _depths(tables), _ends(tables)
+    carriers = {joint for joint in tables.carrier if joint >= 0}
+    loops = [(len(joint.row.rows), depth[first] + depth[second])
+             for i, (joint, (first, second)) in enumerate(zip(tables.joints, ends, strict=True)) if i not in carriers]
+    n, m = tables.joint_coordinates(), sum(rows for rows, _ in loops) + len(tables.relations)
+    dense = n**3 / 6 + n**2 * m + n * m**2 / 2 + m**3 / 6 + 2 * (n**2 + n * m + m**2)
+    passed = sum(rows * depths for rows, depths in loops)
+    return FACTORIZATIONS * dense, float(len(tables.parts)), float(sum(depth)), float(passed)
+
+
+def _ends(tables: Tables) -> list[tuple[int, int]]:
+    """The bodies of each joint, by number."""
+    return [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+
+
+def _depths(tables: Tables) -> list[int]:
+    """How many bodies there are from each down to the ground or a free root, itself included; of the ground none."""
+    ends, depth = _ends(tables), [0] + [-1] * len(tables.parts)
+    for body in range(1, len(depth)):
+        way = []
+        while depth[body] < 0:
+            way.append(body)
+            carrier = tables.carrier[body - 1]
+            body = 0 if carrier < 0 else sum(ends[carrier]) - body
+        for further, each in enumerate(reversed(way), depth[body] + 1):
+            depth[each] = further
+    return depth
+
+
+def _has_mass(tables: Tables) -> bool:
+    """Whether every body has, which absolute coordinates need."""
+    known = ((body, *tables.inertias.of[body.name]) for body in tables.parts)
+    return all(mass > 0 and (inertia > 0 or not body.turns) for body, mass, inertia, _ in known)
+
+
+def seconds(operations: float) -> float:
+    """About how long they take."""
+    return 1e-9 * NANOSECONDS * operations
+
+
+def of_a_step(found: Cost) -> str:
+    """What a step in joint coordinates costs, where absolute ones cost much less; else nothing."""
+    if found.ratio < DEARER:
+        return ""
+    return f"a step takes about {in_words(seconds(found.joint))}, {found.ratio:.3g} times as long as in absolute coordinates"
+
+
+def of_a_run(found: Cost, steps: int | None) -> str | None:
+    """A warning of what so many steps in joint coordinates cost; None: it is not worth one. Steps may be unknown."""
+    times, run, step = WORTH_A_WARNING
+    each = seconds(found.joint)
+    if found.ratio < times or (each < step if steps is None else steps * each < run):
+        return None
+    whole = "" if steps is None else f", and {steps} steps about {in_words(steps * each)}"
+    return f"{of_a_step(found)}{whole}: system('absolute') has these"
+
+
+def in_words(time: float) -> str:
+    """Seconds, as people read them."""
+    for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
+        if time >= size:
+            return f"{time / size:.3g} {unit}"
+    return f"{1e6 * time:.3g} us"

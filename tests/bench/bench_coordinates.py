@@ -1,0 +1,70 @@
+"""What a step costs in joint and in absolute coordinates, counted and measured: ``python tests/bench/bench_coordinates.py``.
+
+The weights of `zerodrift/mechanisms/cost.py` are fitted to what is measured here, so that the least sum of squares of relative
+errors is left; it prints them as they are now and as they would be. Time is that of a corrected step of rk4 in schur, least of
+interleaved rounds.
+"""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+import numpy as np
+from scipy.optimize import nnls
+
+import zerodrift as zd
+from large_mechanisms import binary_tree, chain, four_bars, star
+from measuring import RESULTS, least
+from zerodrift.mechanisms import cost
+
+ROUNDS, SECONDS, STEP = 5, 0.02, 1e-4
+CASES = [(make, n) for make, sizes in ((chain, (1, 3, 6, 10, 16, 24, 32, 48, 80)), (four_bars, (1, 2, 3, 4, 6, 10, 16)),
+                                       (star, (4, 8, 16, 32, 64, 128)), (binary_tree, (3, 4, 5, 6))) for n in sizes]
+
+
+def seconds_of(system, steps):
+    """A callable that gives the core's seconds of a step; p, v are found once."""
+    p, v = system.p0, system.v0
+
+    def seconds():
+        run = zd.simulate(system, steps * STEP, p, v, step=STEP, save_every=steps, on_failure="return")
+        return run.stats["seconds"] / run.stats["steps"]
+    return seconds
+
+
+def measured(mechanism):
+    """Seconds of a step in joint and in absolute coordinates."""
+    systems = [mechanism.system(layout) for layout in ("joint", "absolute")]
+    steps = [max(4, int(SECONDS / seconds_of(system, 8)())) for system in systems]
+    return least(ROUNDS, *(seconds_of(system, count) for system, count in zip(systems, steps, strict=True)))
+
+
+def fitted(columns, times):
+    """Weights that are not negative, in seconds."""
+    return nnls(np.array(columns) / np.array(times)[:, None], np.ones(len(times)))[0]
+
+
+def main():
+    rows, parts = [], {"joint": [], "absolute": []}
+    for make, n in CASES:
+        mechanism = make(n)
+        tables, times = mechanism.system("joint")._tables, measured(mechanism)
+        counted = cost.cost(tables, exact=True)
+        parts["joint"].append(cost.parts_of_joint(tables))
+        parts["absolute"].append((1.0, *cost.parts_of_absolute(tables, exact=True)))
+        taken, faster = counted.cheaper, "joint" if times[0] < times[1] else "absolute"
+        lost = max(times[taken == "absolute"] / min(times), 1.0)
+        rows.append((make.__name__, n, len(mechanism.bodies), *(f"{1e6 * time:.3g}" for time in times),
+                     *(f"{1e6 * cost.seconds(each):.3g}" for each in counted), faster, taken, f"{lost:.2f}"))
+        print(*rows[-1], sep="\t", flush=True)
+    times = np.array([[float(row[3]), float(row[4])] for row in rows]) * 1e-6
+    joint, absolute = fitted(parts["joint"], times[:, 0]), fitted(parts["absolute"], times[:, 1])
+    print("an operation:", joint[0], "s; weights in operations:", joint / joint[0], absolute / joint[0])
+    header = ("mechanism", "n", "bodies", "joint us", "absolute us", "joint counted us", "absolute counted us", "faster", "taken",
+              "time lost")
+    (RESULTS / "coordinates.csv").write_text("\n".join(",".join(map(str, row)) for row in (header, *rows)) + "\n")
+
+
+if __name__ == "__main__":
+    main()
