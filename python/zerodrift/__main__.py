@@ -1,4 +1,4 @@
-"""The command line: ``python -m zerodrift reproduce [--out DIR]``."""
+"""The command line: ``python -m zerodrift reproduce [--out DIR]``, and ``gallery``."""
 
 from __future__ import annotations
 
@@ -8,24 +8,37 @@ from collections.abc import Sequence
 from pathlib import Path
 
 DEFAULT_FOLDER = Path("zerodrift-figures")
+DEFAULT_GALLERY = Path("zerodrift-gallery")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the arguments say; the exit code."""
     options = _parser().parse_args(arguments)
     try:
-        from .paper.reproduce import reproduce  # with matplotlib: only now
+        import matplotlib.pyplot  # noqa: F401  (only now)
     except ValueError as error:     # of a setting of matplotlib's own, such as the environment variable MPLBACKEND
         print(f"python -m zerodrift: matplotlib refuses its settings (MPLBACKEND, matplotlibrc): {error}", file=sys.stderr)
         return 1
     try:
-        table = reproduce(options.out)
+        options.command(options.out)
     except OSError as error:
         print(f"python -m zerodrift: cannot write to {options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
-    print(table)
-    print(f"Figures 4-9 (PNG and SVG), claims.txt and claims.csv are in {options.out.resolve()}")
     return 0
+
+
+def _reproduce(folder: Path) -> None:
+    from .paper.reproduce import reproduce
+
+    print(reproduce(folder))
+    print(f"Figures 4-9 (PNG and SVG), claims.txt and claims.csv are in {folder.resolve()}")
+
+
+def _gallery(folder: Path) -> None:
+    from . import gallery
+
+    page = gallery.write(folder)
+    print(f"{len(gallery.exhibits())} models in motion (animated PNG) and the page that shows them, {page.resolve()}")
 
 
 def _folder(given: str) -> Path:
@@ -39,10 +52,13 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m zerodrift", description="Constrained multibody systems without constraint drift.")
     commands = parser.add_subparsers(title="commands", required=True)
-    what = "Figures 4-9 of Blajer (2002), and its claims against what we measure"
-    command = commands.add_parser("reproduce", help=what, description=f"{what}.")
-    command.add_argument("--out", type=_folder, default=DEFAULT_FOLDER, metavar="DIR",
-                         help="folder to write to (default: %(default)s)")
+    for name, does, folder, what in (
+            ("reproduce", _reproduce, DEFAULT_FOLDER, "Figures 4-9 of Blajer (2002), and its claims against what we measure"),
+            ("gallery", _gallery, DEFAULT_GALLERY, "All models in motion, with their lines and what there is to see")):
+        command = commands.add_parser(name, help=what, description=f"{what}.")
+        command.add_argument("--out", type=_folder, default=folder, metavar="DIR",
+                             help="folder to write to (default: %(default)s)")
+        command.set_defaults(command=does)
     return parser
 
 

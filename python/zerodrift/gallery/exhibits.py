@@ -1,0 +1,207 @@
+"""What the gallery shows of each model: for how long it moves, whose path is drawn, and what there is to see.
+
+Models that are not in the table are shown, too, by their docstring's first sentence and their motor's turn.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check, models
+from ..mechanisms.forces import Motor
+from ..mechanisms.mechanism import Mechanism
+from ..runs.simulate import simulate
+from ..runs.solution import Solution
+
+
+class Exhibit(NamedTuple):
+    """A model in motion.
+
+    Attributes
+    ----------
+    name : str
+        Of the model in `zerodrift.models`.
+    see : str
+        A sentence on what to see.
+    span, step : float
+        In s.
+    path : tuple of str
+        The points whose paths are drawn.
+    speed : float
+        Seconds of motion per second of film.
+    options : dict
+        What `zerodrift.simulate` takes besides.
+    """
+
+    name: str
+    see: str
+    span: float
+    step: float
+    path: tuple[str, ...] = ()
+    speed: float = 1.0
+    options: tuple[tuple[str, Any], ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Its name in words."""
+        return self.name.replace("_", " ").capitalize()
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines that show it."""
+        options = "".join(f", {name}={_word(value)}" for name, value in self.options)
+        path = f", path={_word(self.path[0] if len(self.path) == 1 else list(self.path))}" if self.path else ""
+        speed = f", speed={self.speed:g}" if self.speed != 1 else ""
+        return [f"m = zd.models.{self.name}()", f"sol = zd.simulate(m, {self.span:g}, step={self.step:g}{options})",
+                f"zd.plot.animate(sol{speed}{path})"]
+
+    @property
+    def source(self) -> str:
+        """The model's own lines: its file without docstrings and imports."""
+        text = inspect.getsource(inspect.getmodule(getattr(models, self.name)))
+        dropped: set[int] = set()
+        for node in ast.walk(tree := ast.parse(text)):
+            if isinstance(node, ast.Module | ast.FunctionDef | ast.ClassDef) and ast.get_docstring(node, clean=False) is not None:
+                dropped |= _lines_of(node.body[0])
+        for node in tree.body:
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                dropped |= _lines_of(node)
+        kept = "\n".join(line for i, line in enumerate(text.splitlines(), 1) if i not in dropped)
+        while "\n\n\n\n" in kept:
+            kept = kept.replace("\n\n\n\n", "\n\n\n")
+        return kept.strip()
+
+    def run(self) -> Solution:
+        """Its motion."""
+        return simulate(getattr(models, self.name)(), self.span, step=self.step, **dict(self.options))
+
+
+def _word(value: Any) -> str:
+    return repr(value).replace("'", '"')
+
+
+def _lines_of(node: ast.stmt) -> set[int]:
+    return set(range(node.lineno, (node.end_lineno or node.lineno) + 1))
+
+
+TABLE = [
+    Exhibit("andrews",
+            "A constant moment spins the crank up to two and a half turns in 0.03 s, and three chains of links follow its"
+            " coupler.",
+            0.03, 2e-05, speed=0.012),
+    Exhibit("bicycle",
+            "The steering swings, and the frame follows: the rear wheel cuts the corners of the front wheel's slalom.",
+            3.0, 0.01, ("frame", "fork")),
+    Exhibit("cam_follower",
+            "The follower rises and falls without a jolt and rests in between, as acceleration and jerk begin and end at "
+            "zero.",
+            1.0, 0.005, speed=0.4),
+    Exhibit("chebyshev_lambda",
+            "For half of the crank's turn P goes along a line that is nearly straight; then it comes back in an arc.",
+            1.0, 0.005, ("P",), speed=0.4),
+    Exhibit("closed_pendulum",
+            "The chain falls from its arch, folds and whips: nothing repeats, and it stays closed to rounding.",
+            4.0, 0.002),
+    Exhibit("four_bar",
+            "The paper's mechanism falls from its start: the crank turns fully, and the rocker swings.",
+            4.0, 0.005, ("C",)),
+    Exhibit("four_bars",
+            "All uprights stay parallel, also where the row lies flat, and the motion could branch.",
+            4.0, 0.005, options=(("on_singular", "continue"),)),
+    Exhibit("hoecken",
+            "P draws a line that is straight to 0.023 % while the crank turns through 140 degrees.",
+            1.0, 0.0025, ("P",), speed=0.4),
+    Exhibit("jansen",
+            "The toe is flat on the ground for half of the turn, and is lifted back in the other half.",
+            1.0, 0.005, ("F",), speed=0.4),
+    Exhibit("klann",
+            "The foot steps as a spider's does: it is set down, drawn back, and lifted high over obstacles.",
+            1.0, 0.005, ("F",), speed=0.4),
+    Exhibit("pantograph",
+            "The pen P draws twice as large what the tracer Q is led along: O, Q and P are always in line.",
+            1.0, 0.005, ("Q", "P"), speed=0.4),
+    Exhibit("peaucellier",
+            "Q goes on a circle, and P on a line that is exactly straight: to 1e-12 m here.",
+            1.0, 0.002, ("Q", "P"), speed=0.4),
+    Exhibit("planetary_gear",
+            "Carrier and sun are driven, and the ring runs ahead of both, as Willis's equation has it.",
+            0.6, 0.002, speed=0.2),
+    Exhibit("quarter_car",
+            "The wheel follows the road, and the body sways late and far: the road's waves are near its resonance.",
+            3.0, 0.002),
+    Exhibit("quick_return",
+            "The ram goes slowly one way and returns in less than two fifths of the turn.",
+            0.42, 0.001, speed=0.17),
+    Exhibit("scissor_lift",
+            "The platform stays level, and its height follows from the width of the foot, whatever the load.",
+            2.0, 0.01, speed=0.8),
+    Exhibit("slider_crank",
+            "It swings on the spring between its links, and the damper beside that takes the energy out.",
+            10.0, 0.01, speed=3.0),
+    Exhibit("snakeboard",
+            "Nothing pushes from behind: swinging the rotor and turning the axles in step drives the board forward.",
+            20.0, 0.02, ("board",), speed=6.0),
+    Exhibit("stephenson",
+            "With each turn of the crank the output swings to and fro, unevenly, as the coupler's curve has it.",
+            1.0, 0.005, ("E",), speed=0.4),
+    Exhibit("toggle_press",
+            "The knee is nearly straight where the ram is lowest: there a small torque holds a large force.",
+            1.0, 0.002, speed=0.4),
+    Exhibit("watt",
+            "P goes along a lemniscate whose middle is straight to the eye: it guided the pistons of steam engines.",
+            1.0, 0.005, ("P",), speed=0.4),
+]
+
+
+def exhibits() -> list[Exhibit]:
+    """Every model that `zerodrift.models` has, in its order.
+
+    Examples
+    --------
+    >>> from zerodrift import gallery, models
+    >>> [each.name for each in gallery.exhibits()] == models.__all__
+    True
+    """
+    return [exhibit(name) for name in models.__all__]
+
+
+def exhibit(name: str) -> Exhibit:
+    """What the gallery shows of one model.
+
+    Parameters
+    ----------
+    name : str
+        As in `zerodrift.models`.
+
+    Returns
+    -------
+    Exhibit
+
+    Raises
+    ------
+    ValueError
+        If there is no such model.
+
+    Examples
+    --------
+    >>> from zerodrift import gallery
+    >>> gallery.exhibit("watt").path
+    ('P',)
+    """
+    _check.choice("name", name, models.__all__)
+    listed = next((each for each in TABLE if each.name == name), None)
+    return listed or by_itself(name, getattr(models, name))
+
+
+def by_itself(name: str, model: Any) -> Exhibit:
+    """An exhibit of a model that is not in the table: a turn of its first motor, or two seconds."""
+    made = model()
+    speeds = [abs(motor.law.constant) for motor in (made.motors if isinstance(made, Mechanism) else ())
+              if isinstance(motor, Motor) and motor.drives == "speed" and motor.law.constant]
+    span = float(2 * np.pi / speeds[0]) if speeds else 2.0
+    return Exhibit(name, " ".join((inspect.getdoc(model) or name).split("\n\n")[0].split()), float(f"{span:.3g}"),
+                   float(f"{span / 400:.2g}"), speed=float(f"{span / 2.5:.2g}"))
