@@ -97,12 +97,12 @@ int zd_rows_find(zd_point *point)
 {
     zd_rank *self = point->rank;
     if (point->known & ZD_RANKED) return ZD_DONE;
-    int status = zd_point_need(point, ZD_C);
-    if (status) return status;
     if (self->is_large) {
         zd_rows_use_all(point);
         return ZD_DONE;
     }
+    int status = zd_point_need(point, ZD_C);
+    if (status) return status;
     if (self->most_rows < self->m || self->m > self->n) return reduce(point);
     status = need_look(self, point->system);
     if (status) return status;

@@ -95,8 +95,9 @@ static void *take(zd_arena *arena, const zd_system *system, const void *memory)
 /* M and C are wanted at this point in any case, here or for the velocities: so they come with Phi in one evaluation. */
 static int position_residual(void *context, double *size)
 {
-    zd_point *point = ((position_problem *)context)->motion->point;
-    int status = zd_point_need(point, ZD_PHI | ZD_M | ZD_C);
+    const zd_motion *motion = ((position_problem *)context)->motion;
+    zd_point *point = motion->point;
+    int status = zd_point_need(point, ZD_PHI | motion->matrices);
     if (!status) *size = zd_point_violation(point);
     return status;
 }
@@ -108,6 +109,7 @@ static int solve_with_identity(projection *self, zd_motion *motion, enum zd_limi
     if (status) return status;
     zd_point unit = *motion->point;
     unit.terms.M = self->identity;
+    unit.known |= ZD_M;
     motion->statistics.factorizations++;
     status = zd_schur.factor(self->plain, &unit);
     motion->point->failed_index = unit.failed_index;
@@ -203,7 +205,8 @@ static int correct_positions(projection *self, zd_motion *motion)
 static int correct_velocities(projection *self, zd_motion *motion)
 {
     zd_point *point = motion->point;
-    int status = zd_point_need(point, ZD_C | ZD_M | ZD_PHI_T);
+    int status = zd_point_need(point, motion->matrices | ZD_PHI_T);
+    if (!status) status = zd_point_need_times_C(point);
     if (status) return status;
     zd_point_velocity_violation(point, self->rhs);
     status = solve(self, motion, ZD_LIMIT_PSI, self->x);

@@ -155,6 +155,7 @@ const zd_formulation zd_augmented = {
     },
     ZD_DEPENDENT_STATE,
     .takes_many_rows = ZD_MANY_ROWS,
+    .has_matrices_evaluated = 1,
     .take = take,
     .lend_workspace = lend_workspace,
     .factor = factor,

@@ -79,6 +79,8 @@ static void set_weights(zd_bodywise *self, const zd_point *point)
 
 int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
 {
+    int status = zd_point_need(point, ZD_M | ZD_C);
+    if (status) return status;
     self->point = point;
     self->C = point->terms.C;
     set_weights(self, point);

@@ -23,14 +23,6 @@ static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing 
 static const double GOOD = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
 static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
 
-/* Whether all of M is so declared. */
-static int is_all(const zd_structure *structure, enum zd_mass kind)
-{
-    for (int b = 0; b < structure->blocks; b++)
-        if (!structure->mass || !(structure->mass[b] & kind)) return 0;
-    return 1;
-}
-
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
@@ -42,8 +34,8 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
         .n = (int)n,
         .m = (int)m,
         .W = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-        .is_diagonal = is_all(structure, ZD_DIAGONAL),
-        .is_constant = is_all(structure, ZD_CONSTANT),
+        .is_diagonal = zd_mass_is(system, ZD_DIAGONAL),
+        .is_constant = zd_mass_is(system, ZD_CONSTANT),
         .force = zd_take_doubles(arena, n),
         .lambda = zd_take_doubles(arena, m),
         .rest = zd_take_doubles(arena, m),
@@ -87,6 +79,8 @@ static int are_alike(zd_coupling *self)
 static int invert_mass(zd_coupling *self, zd_point *point)
 {
     if (self->is_known && self->is_constant) return ZD_DONE;
+    int status = zd_point_need(point, ZD_M | ZD_C);
+    if (status) return status;
     point->failed_index = zd_mass_factor(point, self->W);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
     self->is_accurate = are_alike(self);
@@ -94,18 +88,37 @@ static int invert_mass(zd_coupling *self, zd_point *point)
     return ZD_DONE;
 }
 
+/* S and its factors; what it takes of C is there before, or is what a call with ZD_MOVED has left in the scratch. */
+static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
+{
+    if (!self->products) {
+        int status = zd_point_need(point, ZD_C);
+        if (!status) *pivots = zd_weighted_factor(self->weighted, self->C, self->W);
+        return status;
+    }
+    int status = point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
+    if (!status) *pivots = zd_weighted_factor_by(self->weighted, self->products, self->data, &self->terms, self->W);
+    return status;
+}
+
+static int is_to_be_refined(const zd_coupling *self) { return !self->is_accurate || self->share < GOOD; }
+
 int zd_coupling_factor(zd_coupling *self, zd_point *point)
 {
+    zd_pivots pivots;
     if (!self->weighted) self->weighted = zd_weighted_create(point->rank->store, point->layout);
     if (!self->weighted) return ZD_NO_MEMORY;
     self->layout = point->layout;
     self->C = point->terms.C;
+    self->products = zd_weighted_products(self->weighted, point->system);
+    self->data = point->system->data;
+    self->terms = point->terms;
     int status = invert_mass(self, point);
+    if (!status) status = factor(self, point, &pivots);
     if (status) return status;
-    const zd_pivots pivots = zd_weighted_factor(self->weighted, self->C, self->W);
     self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
     self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
-    if (pivots.failed < 0) return ZD_DONE;
+    if (pivots.failed < 0) return is_to_be_refined(self) ? zd_point_need(point, ZD_C) : ZD_DONE;
     point->failed_index = zd_weighted_row(self->weighted, pivots.failed);
     return ZD_DEPENDENT_ROWS;
 }
@@ -119,24 +132,40 @@ static void times_W(const zd_coupling *self, const double *y, double *x)
     if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
 }
 
-/* S lambda = C W force - rhs, in the order of S; x <- W force */
-static void find_multipliers(zd_coupling *self, const double *force, const double *rhs, double *x)
+/* y <- C x - rhs in the order of S, x NULL: zero */
+static void find_right_side(zd_coupling *self, const double *x, const double *rhs, double *y)
 {
-    double *y = self->weighted->blocks->x;
-    if (force) times_W(self, force, x);
-    zd_weighted_times(self->weighted, self->C, force ? x : NULL, rhs, y);
-    zd_weighted_solve(self->weighted, y);
+    if (!self->products) {
+        zd_weighted_times(self->weighted, self->C, x, rhs, y);
+        return;
+    }
+    if (x) self->products->times_C(self->data, &self->terms, x, self->lambda);
+    zd_strips_gather(&self->weighted->strips, x ? self->lambda : NULL, rhs, y);
 }
 
-/* x <- W (force - C^T lambda) */
+/* x <- x - W C^T y, y in the order of S */
+static void subtract_weighted(zd_coupling *self, const double *y, double *x)
+{
+    const zd_strips *strips = &self->weighted->strips;
+    if (!self->products) {
+        zd_strips_subtract_weighted(strips, self->C, self->W, y, x);
+        return;
+    }
+    zd_strips_scatter(strips, y, self->lambda);
+    self->products->subtract_weighted(self->data, &self->terms, self->W, self->lambda, x);
+}
+
+/* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */
 static void exchange(zd_coupling *self, const double *force, const double *rhs, double *x)
 {
-    const double *y = self->weighted->blocks->x;
+    double *y = self->weighted->blocks->x;
     const size_t bytes = (size_t)self->n * sizeof *x;
-    find_multipliers(self, force, rhs, x);
+    if (force) times_W(self, force, x);
+    find_right_side(self, force ? x : NULL, rhs, y);
+    zd_weighted_solve(self->weighted, y);
     if (self->is_diagonal) {
         if (!force) memset(x, 0, bytes);
-        zd_strips_subtract_weighted(&self->weighted->strips, self->C, self->W, y, x);       /* (13), (27) */
+        subtract_weighted(self, y, x);                                                      /* (13), (27) */
         return;
     }
     if (force) memcpy(self->force, force, bytes);
@@ -185,5 +214,5 @@ void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs
 {
     exchange(self, force, rhs, x);
     if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
-    if (!self->is_accurate || self->share < GOOD) refine(self, rhs, x, lambda);
+    if (is_to_be_refined(self)) refine(self, rhs, x, lambda);
 }

@@ -18,6 +18,9 @@ typedef struct zd_coupling {
     double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */
     double *rest, *step;    /* (m,), (n,): what is left of C x = rhs, and what removes it */
+    const zd_operations *products;      /* of the system, in place of those with C; NULL: there are none */
+    const void *data;           /* what these are called with, and the terms at the point */
+    zd_terms terms;
     const zd_layout *layout;    /* of the point where it was factored, as its C */
     const double *C;
 } zd_coupling;

@@ -15,6 +15,7 @@ typedef struct zd_formulation {
     int drifts_from;        /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
     int inverts_mass;       /* whether M has to be definite; else M is only where the constraints leave the velocities free */
     enum zd_many takes_many_rows;   /* whether it does without dense matrices where a declared structure has many rows */
+    int has_matrices_evaluated; /* whether factor() of a structure of many rows has M and C evaluated itself, where it needs them */
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
     /* Both are told of as many constraints as are independent. */
     int (*state_size)(const zd_system *system);

@@ -285,6 +285,7 @@ const zd_formulation zd_schur = {
     ZD_DEPENDENT_STATE,
     .inverts_mass = 1,
     .takes_many_rows = ZD_MANY_ROWS,
+    .has_matrices_evaluated = 1,
     .take = take,
     .finds_rows = finds_rows,
     .factor = factor,

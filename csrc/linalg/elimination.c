@@ -74,19 +74,24 @@ ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, un
     zd_invert(n, P);
 }
 
+typedef struct inverse_of_two {  /* symmetric, in registers */
+    double aa, ab, bb;
+} inverse_of_two;
+
 /* The same of two rows, by one division: both pivots would take one each, and the second would wait for the first. What both are of their
  * diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are judged. */
-ZD_INLINE void invert_two(const zd_blocks *self, int row, double *P, zd_pivots *pivots)
+ZD_INLINE inverse_of_two invert_two(const double *diagonal, int row, double *P, zd_pivots *pivots)
 {
-    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, *diagonal = self->diagonal + row;
-    const double rounding = 2 * 0x1p-52;
+    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;
     int are_pivots = 1;
     if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
         are_pivots = judge(pivots, row, a, diagonal[0], rounding) & judge(pivots, row + 1, determinant, a * diagonal[1], rounding);
     const double scale = are_pivots ? 1 / determinant : 0;
-    P[0] = c * scale;
-    P[1] = P[2] = -b * scale;
-    P[3] = a * scale;
+    const inverse_of_two it = {c * scale, -b * scale, a * scale};
+    P[0] = it.aa;
+    P[1] = P[2] = it.ab;
+    P[3] = it.bb;
+    return it;
 }
 
 /* to (a, b) <- to - A B^T, A (a, n), B (b, n) */
@@ -111,13 +116,40 @@ ZD_INLINE void multiply(const int a, const int n, const double *B, const double 
         }
 }
 
+/* Column k of blocks of two rows, written out: where a compiler takes entries in pairs that were stored one by one, it waits for each. */
+ZD_INLINE void eliminate_two(const int is_whole, const zd_blocks *self, int k, zd_pivots *pivots)
+{
+    const int first = self->begin[k], end = self->begin[k + 1], *target = self->target + self->target_begin[k], at = at_of(2, is_whole, self, k);
+    const inverse_of_two P = invert_two(self->diagonal + at, at, pivot_of(2, is_whole, self, k), pivots);
+    for (int e = first; e < end; e++) {
+        double *B = entry_of(2, is_whole, self, e), *D = pivot_of(2, is_whole, self, self->row[e]);
+        const double b0 = B[0], b1 = B[1], b2 = B[2], b3 = B[3];
+        const double l0 = b0 * P.aa + b1 * P.ab, l1 = b0 * P.ab + b1 * P.bb, l2 = b2 * P.aa + b3 * P.ab, l3 = b2 * P.ab + b3 * P.bb;
+        for (int f = first; f < e; f++) {
+            const double *L = entry_of(2, is_whole, self, f);
+            double *to = self->S + *target++;
+            to[0] -= b0 * L[0] + b1 * L[1];
+            to[1] -= b0 * L[2] + b1 * L[3];
+            to[2] -= b2 * L[0] + b3 * L[1];
+            to[3] -= b2 * L[2] + b3 * L[3];
+        }
+        D[0] -= l0 * b0 + l1 * b1;
+        D[2] -= l2 * b0 + l3 * b1;
+        D[3] -= l2 * b2 + l3 * b3;
+        B[0] = l0, B[1] = l1, B[2] = l2, B[3] = l3;
+    }
+}
+
 ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out, double least,
                          zd_pivots *pivots)
 {
+    if (is_same && n == 2) {
+        eliminate_two(is_whole, self, k, pivots);
+        return;
+    }
     double *P = pivot_of(n, is_whole, self, k), here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;
     const int *target = self->target + self->target_begin[k], first = self->begin[k];
-    if (is_same && n == 2) invert_two(self, at_of(n, is_whole, self, k), P, pivots);
-    else invert(n, self, at_of(n, is_whole, self, k), P, left_out, least, pivots);
+    invert(n, self, at_of(n, is_whole, self, k), P, left_out, least, pivots);
     for (int e = first; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
         double *B = entry_of(n, is_whole, self, e);
@@ -206,6 +238,31 @@ ZD_INLINE void backward(const int n, const int is_same, const int is_whole, cons
     }
 }
 
+ZD_INLINE void solve_two(const zd_blocks *self, double *x)
+{
+    for (int k = 0; k < self->count; k++) {
+        const double *P = pivot_of(2, 1, self, k), x0 = x[2 * k], x1 = x[2 * k + 1];
+        for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
+            const double *L = entry_of(2, 1, self, e);
+            double *y = x + 2 * self->row[e];
+            y[0] -= L[0] * x0 + L[1] * x1;
+            y[1] -= L[2] * x0 + L[3] * x1;
+        }
+        x[2 * k] = P[0] * x0 + P[2] * x1;
+        x[2 * k + 1] = P[2] * x0 + P[3] * x1;
+    }
+    for (int k = self->count - 1; k >= 0; k--) {
+        double x0 = x[2 * k], x1 = x[2 * k + 1];
+        for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
+            const double *L = entry_of(2, 1, self, e), *y = x + 2 * self->row[e];
+            x0 -= L[0] * y[0] + L[2] * y[1];
+            x1 -= L[1] * y[0] + L[3] * y[1];
+        }
+        x[2 * k] = x0;
+        x[2 * k + 1] = x1;
+    }
+}
+
 ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
 {
     for (int k = 0; k < self->count; k++) forward(n, is_same, is_whole, self, k, x);
@@ -215,7 +272,8 @@ ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, con
 void zd_blocks_solve(const zd_blocks *self, double *x)
 {
     if (self->uniform) {
-        FOR_SIZE(solve_all, self->uniform, 1, self, x)
+        if (self->uniform == 2) solve_two(self, x);
+        else FOR_SIZE(solve_all, self->uniform, 1, self, x)
         return;
     }
     for (int k = 0; k < self->count; k++) {

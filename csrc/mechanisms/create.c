@@ -7,6 +7,7 @@
 #include "evaluate.h"
 #include "length.h"
 #include "measures.h"
+#include "products.h"
 #include "structure.h"
 
 /* What is filled in here, and constant afterwards. */
@@ -316,6 +317,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
         .structure = self->packing ? &self->packing->structure : NULL,
+        .operations = self->packing && self->packing->pins.are_all ? &zd_mechanism_products : NULL,
     };
     self->measures = zd_mechanism_measures(self, from->measure);
 }
@@ -342,6 +344,7 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     };
     self->measures.count = tables->measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
+    self->pins = self->packing ? self->packing->pins.count : 0;
     zd_hinged_plan(&all->hinged, &self->tree, self->mh, self->row, self->term, self->coefficient, self->gauge);
     self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);

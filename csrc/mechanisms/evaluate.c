@@ -28,8 +28,8 @@ static void clear(const zd_mechanism *self, int want, const zd_terms *out)
     size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->size_of_C : (size_t)self->m * nv;
     if ((want & ZD_M) && !self->packing) memset(out->M, 0, nv * nv * sizeof *out->M);
     if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
-    if (want & ZD_FORCE) memset(out->f, 0, nv * sizeof *out->f);
-    if (want & ZD_C) memset(out->C, 0, size_of_C * sizeof *out->C);
+    if ((want & ZD_FORCE) && (self->efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
+    if ((want & ZD_C) && !(self->packing && self->packing->pins.are_all)) memset(out->C, 0, size_of_C * sizeof *out->C);
 }
 
 /* The diagonals of the bodies, one after another */
@@ -45,6 +45,10 @@ static void write_packed_mass(const zd_tree *tree, double *M)
 /* Of the wanted terms, those that are not known from sines and cosines alone, for which bodies are placed. */
 static int terms_of_bodies(const zd_mechanism *self, int want)
 {
+    if (self->packing) {
+        const int known = ZD_M | (self->packing->pins.are_all ? ROWS : 0) | (self->efforts ? 0 : ZD_FORCE);
+        return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
+    }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     if (!self->hinged.is_whole) return left;
     if (2 * self->hinged.closures == self->m) left &= ~ROWS;
@@ -70,6 +74,25 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
+/* The weight of bodies that are free, on which nothing else acts */
+static void write_weight(const zd_mechanism *self, double *f)
+{
+    for (const zd_link *link = self->tree.link + 1; link <= self->tree.link + self->tree.bodies; link++) {
+        *f++ = link->mass * self->gravity.x;
+        *f++ = link->mass * self->gravity.y;
+        if (link->hang == ZD_HANGS_FREE) *f++ = 0;
+    }
+}
+
+/* What is known of packed terms without the bodies' poses. */
+static void write_packed(const zd_mechanism *self, const zd_frame *frame, int want, const double *p, const double *v, const zd_terms *out)
+{
+    if (want & ZD_MOVED) zd_pins_turn(&self->packing->pins, self, frame);
+    if (want & ZD_M) write_packed_mass(&self->tree, out->M);
+    if ((want & ZD_FORCE) && !self->efforts) write_weight(self, out->f);
+    zd_pins_write(&self->packing->pins, self, frame, want, p, v, out);
+}
+
 int zd_mechanism_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     const zd_mechanism *self = data;
@@ -80,10 +103,10 @@ int zd_mechanism_evaluate(const void *data, int want, double t, const double *p,
         zd_tree_turn(&self->tree, p, frame.sines);
         *frame.is_placed = 0;
     }
+    if (self->packing) write_packed(self, &frame, want, p, v, out);
     if (left) place(self, &frame, left, p, v);
     if (self->hinged.is_whole) write_hinged(self, &frame, want, v, out);
-    if ((left & ZD_M) && self->packing) write_packed_mass(&self->tree, out->M);
-    else if (left & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
+    if (left & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
     if (left & ZD_BIAS) write_bias(self, &frame, out->d);
     if (left & ZD_POTENTIAL) *out->V = zd_efforts_potential(self, &frame);
     if ((left & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;

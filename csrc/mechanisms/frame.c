@@ -17,6 +17,9 @@ static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
     to->wrench = (zd_wrench *)next(scratch, &used, bodies, sizeof(zd_wrench));
     to->composite = (zd_composite *)next(scratch, &used, bodies, sizeof(zd_composite));
     to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
+    to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
+    to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));
+    to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
     to->sines = next(scratch, &used, 3 * bodies, sizeof(double));
     to->is_placed = next(scratch, &used, 1, sizeof(double));
     to->row = next(scratch, &used, self->tree.nv, sizeof(double));

@@ -2,7 +2,8 @@
  *
  *     Phi = x2 + w - x1 - u,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u.         (3), (5), (6)
  *
- * Gauges along x and y say the same one by one, and turn both points each time. */
+ * Gauges along x and y say the same one by one, and turn both points each time. Vectors over the coordinates are spread to three entries for
+ * each body and for the ground, whose are zero, so that nothing asks which bodies a pin has. */
 #include "pins.h"
 
 static int is_plain(const zd_mechanism *mechanism, const zd_relation *row, int kind)
@@ -23,6 +24,78 @@ int zd_pin_is_at(const zd_mechanism *mechanism, int row)
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 
+void zd_pins_list(zd_pins *self, int bodies)
+{
+    int *at = self->end_at;
+    for (int k = 0; k < self->count; k++) at[self->pin[k].first + 1]++, at[self->pin[k].second + 1]++;
+    for (int body = 0; body <= bodies; body++) at[body + 1] += at[body];
+    for (int k = self->count - 1; k >= 0; k--) {        /* each one's place is where the next one's end is, from the back */
+        self->end[--at[self->pin[k].second + 1]] = 2 * k + 1;
+        self->end[--at[self->pin[k].first + 1]] = 2 * k;
+    }
+    for (int body = 0; body <= bodies; body++) at[body] = at[body + 1];
+    at[bodies + 1] = 2 * self->count;
+}
+
+/* ---- where the points are ---- */
+
+void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame)
+{
+    const zd_tree *tree = &mechanism->tree;
+    const double *sine = frame->sines + tree->angles, *cosine = sine + tree->angles;
+    zd_vector *axis = frame->axis;          /* of each body: its own x */
+    axis[0] = (zd_vector){1, 0};
+    for (int i = 1, k = 0; i <= tree->bodies; i++) {
+        const int turns = self->have_angles || tree->link[i].hang == ZD_HANGS_FREE;
+        axis[i] = turns ? (zd_vector){cosine[k], sine[k]} : axis[0];
+        k += turns;
+    }
+    for (int k = 0; k < self->count; k++) {
+        const zd_pin *pin = self->pin + k;
+        const zd_vector a = axis[pin->first], b = axis[pin->second];
+        frame->arm[2 * k] = zd_rotated(a.x, a.y, pin->point1);
+        frame->arm[2 * k + 1] = zd_rotated(b.x, b.y, pin->point2);
+    }
+}
+
+const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const zd_frame *frame, const double *x)
+{
+    double *to = frame->spread;
+    to[0] = to[1] = to[2] = 0;
+    if (self->have_angles) memcpy(to + 3, x, (size_t)tree->nv * sizeof *x);
+    for (int i = 1; !self->have_angles && i <= tree->bodies; i++) {
+        const double *own = x + tree->link[i].coordinate;
+        to[3 * i] = own[0];
+        to[3 * i + 1] = own[1];
+        to[3 * i + 2] = tree->link[i].hang == ZD_HANGS_FREE ? own[2] : 0;
+    }
+    return to;
+}
+
+/* ---- terms ---- */
+
+static void write_Phi(const zd_pins *self, const zd_frame *frame, const double *p, double *Phi)
+{
+    for (int k = 0; k < self->count; k++) {
+        const zd_pin *pin = self->pin + k;
+        const double *a = p + 3 * pin->first, *b = p + 3 * pin->second;
+        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
+        Phi[pin->row] = b[0] + w.x - (a[0] + u.x) - pin->zero.x;
+        Phi[pin->row + 1] = b[1] + w.y - (a[1] + u.y) - pin->zero.y;
+    }
+}
+
+static void write_xi(const zd_pins *self, const zd_frame *frame, const double *v, double *xi)
+{
+    for (int k = 0; k < self->count; k++) {
+        const zd_pin *pin = self->pin + k;
+        const double turn1 = v[3 * pin->first + 2], turn2 = v[3 * pin->second + 2], square1 = turn1 * turn1, square2 = turn2 * turn2;
+        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
+        xi[pin->row] = square2 * w.x - square1 * u.x;
+        xi[pin->row + 1] = square2 * w.y - square1 * u.y;
+    }
+}
+
 /* Both rows of a body: sign [I  k x arm] */
 ZD_INLINE void write_body(double *x, int width, double sign, zd_vector arm, int turns)
 {
@@ -34,21 +107,20 @@ ZD_INLINE void write_body(double *x, int width, double sign, zd_vector arm, int 
     y[2] = sign * arm.x;
 }
 
-void zd_pin_write(const zd_pin *pin, const zd_frame *frame, int want, double *Phi, double *C, double *xi)
+static void write_C(const zd_pins *self, const zd_frame *frame, double *C)
 {
-    const zd_pose *first = frame->pose + pin->first, *second = frame->pose + pin->second;
-    const zd_vector u = zd_rotated(first->cosine, first->sine, pin->point1), w = zd_rotated(second->cosine, second->sine, pin->point2);
-    if (want & ZD_PHI) {
-        Phi[0] = second->at.x + w.x - (first->at.x + u.x) - pin->zero.x;
-        Phi[1] = second->at.y + w.y - (first->at.y + u.y) - pin->zero.y;
+    for (int k = 0; k < self->count; k++) {
+        const zd_pin *pin = self->pin + k;
+        if (pin->near >= 0) write_body(C + pin->C + pin->near, pin->width, -1, frame->arm[2 * k], pin->near_turns);
+        if (pin->far >= 0) write_body(C + pin->C + pin->far, pin->width, 1, frame->arm[2 * k + 1], pin->far_turns);
     }
-    if (want & ZD_C) {
-        if (pin->near >= 0) write_body(C + pin->C + pin->near, pin->width, -1, u, pin->near_turns);
-        if (pin->far >= 0) write_body(C + pin->C + pin->far, pin->width, 1, w, pin->far_turns);
-    }
-    if (want & ZD_XI) {
-        const double turn1 = frame->twist[pin->first].turn, turn2 = frame->twist[pin->second].turn;
-        xi[0] = turn2 * turn2 * w.x - turn1 * turn1 * u.x;
-        xi[1] = turn2 * turn2 * w.y - turn1 * turn1 * u.y;
-    }
+}
+
+void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
+                   const zd_terms *out)
+{
+    if (want & ZD_PHI) write_Phi(self, frame, zd_pins_spread(self, &mechanism->tree, frame, p), out->Phi);
+    if (want & ZD_XI) write_xi(self, frame, zd_pins_spread(self, &mechanism->tree, frame, v), out->xi);
+    if (want & ZD_C) write_C(self, frame, out->C);
+    for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->pin[k].row] = out->Phi_t[self->pin[k].row + 1] = 0;
 }

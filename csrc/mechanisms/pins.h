@@ -1,4 +1,5 @@
-/* Two rows that hold a point of one body at a point of another, in absolute coordinates: most rows of most mechanisms. */
+/* Revolute joints between bodies that are free: two rows that hold a point of one body to a point of another. They need the ways from mass
+ * centres to these points and nothing else, so that C is not stored for products with it. */
 #ifndef ZD_PINS_H
 #define ZD_PINS_H
 
@@ -7,14 +8,32 @@
 typedef struct zd_pin {
     int first, second;      /* bodies */
     zd_vector point1, point2, zero;
-    int C, width;           /* where the first row begins in C, and how long each is */
+    int row;                /* the first of the two */
+    int C, width;           /* where that begins in C, and how long each is */
     int near, far;          /* where in a row the entries of each body begin; -1: it is the ground */
     int near_turns, far_turns;  /* whether the body has an angle */
 } zd_pin;
 
+typedef struct zd_pins {
+    int count;
+    zd_pin *pin;
+    int *end_at;            /* (bodies + 2,): where the pins of each body begin in */
+    int *end;               /* (2 count,): 2 * pin, or 1 more where the body is its second */
+    int are_all;            /* whether there are no other rows */
+    int have_angles;        /* whether all bodies have three coordinates */
+} zd_pins;
+
 /* Whether rows `row` and the next are a pin: gauges of the same two points along x and y, of which nothing else is asked. */
 int zd_pin_is_at(const zd_mechanism *mechanism, int row);
-/* Phi (2,), C and xi (2,), as far as they are wanted. */
-void zd_pin_write(const zd_pin *pin, const zd_frame *frame, int want, double *Phi, double *C, double *xi);
+/* Which pins each body has, once these are there. */
+void zd_pins_list(zd_pins *self, int bodies);
+/* The ways to all points, where sines and cosines are known. */
+void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame);
+/* Phi, C and xi of all pins, as far as they are wanted. */
+void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
+                   const zd_terms *out);
+
+/* x (nv,), with three entries for each body, and those of the ground before them, in memory of the frame. */
+const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const zd_frame *frame, const double *x);
 
 #endif

@@ -37,6 +37,7 @@ struct zd_mechanism {
     void *owner;
     zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
+    int pins;                       /* in absolute coordinates, how many rows are in pairs of these: see pins.h */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
     int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
@@ -49,6 +50,8 @@ typedef struct zd_frame {
     zd_wrench *wrench;
     zd_composite *composite;
     zd_spin *spin;                  /* of measures alone */
+    zd_vector *axis, *arm;          /* (bodies + 1,), (2 pins,): of each body its x, and of each pin the ways to it, see pins.c */
+    double *spread;                 /* (3 bodies + 3,): a vector over the coordinates */
     double *sines;                  /* 3 for each body, see zd_tree_turn() */
     double *is_placed;              /* whether the poses are those of this (t, p), 0 or 1 */
     double *row;                    /* (nv,) of measures alone */

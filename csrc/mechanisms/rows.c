@@ -98,20 +98,11 @@ static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, con
     return sum;
 }
 
-static void write_pin(const zd_mechanism *self, const zd_frame *frame, int want, int row, const zd_terms *out)
-{
-    zd_pin_write(self->packing->pin + self->packing->pin_at[row], frame, want, want & ZD_PHI ? out->Phi + row : NULL, out->C, want & ZD_XI ? out->xi + row : NULL);
-    if (want & ZD_PHI_T) out->Phi_t[row] = out->Phi_t[row + 1] = 0;
-}
-
 int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, double t, const zd_terms *out)
 {
     int nv = self->tree.nv;
     for (int i = 0; i < self->m; i++) {
-        if (self->packing && self->packing->pin_at[i] >= 0) {
-            write_pin(self, frame, want, i++, out);
-            continue;
-        }
+        if (self->packing && self->packing->is_of_pin[i]) continue;
         const zd_relation *row = self->row + i;
         if (self->hinged.is_whole && self->hinged.is_closure[i]) continue;
         combined all;

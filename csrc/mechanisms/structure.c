@@ -12,8 +12,10 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     TAKE(rows, rows);
     TAKE(first, rows + 1);
     TAKE(block, 2 * terms);
-    TAKE(pin, rows / 2);
-    TAKE(pin_at, rows);
+    TAKE(pins.pin, rows / 2);
+    TAKE(pins.end_at, bodies + 2);
+    TAKE(pins.end, rows);
+    TAKE(is_of_pin, rows);
 #undef TAKE
 }
 
@@ -72,19 +74,21 @@ static int has_angle(const zd_mechanism *mechanism, int body) { return mechanism
 /* The pins among the rows, which are packed by then. */
 static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
 {
-    int pins = 0;
-    for (int row = 0; row < mechanism->m; row++) self->pin_at[row] = -1;
+    zd_pins *pins = &self->pins;
     for (int row = 0; row < mechanism->m; row++) {
         if (!zd_pin_is_at(mechanism, row)) continue;
         const int term = mechanism->row[row].first, next = mechanism->row[row + 1].first;
         const zd_gauge *x = mechanism->gauge + mechanism->term[term].gauge, *y = mechanism->gauge + mechanism->term[next].gauge;
-        self->pin_at[row] = pins;
-        self->pin[pins++] = (zd_pin){
+        pins->pin[pins->count++] = (zd_pin){
             x->first, x->second, {x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}, {x->zero, y->zero},
-            self->row[row], self->row[row + 1] - self->row[row], self->near[term], self->far[term],
+            row, self->row[row], self->row[row + 1] - self->row[row], self->near[term], self->far[term],
             has_angle(mechanism, x->first), has_angle(mechanism, x->second)};
+        self->is_of_pin[row] = self->is_of_pin[row + 1] = 1;
         row++;
     }
+    zd_pins_list(pins, mechanism->tree.bodies);
+    pins->are_all = 2 * pins->count == mechanism->m && pins->count == self->structure.groups;
+    pins->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
 }
 
 int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)

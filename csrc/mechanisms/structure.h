@@ -10,8 +10,8 @@ typedef struct zd_packing {
     int size_of_C;          /* entries that are stored */
     int *row;               /* (m,) where each row begins in C */
     int *near, *far;        /* (terms,) where in a row the entries of its first and second body begin; -1: it is the ground */
-    zd_pin *pin;            /* (rows / 2,) */
-    int *pin_at;            /* (m,) which of them begins at a row; -1: none */
+    zd_pins pins;
+    int *is_of_pin;         /* (m,) whether a row is of one of these */
     int *coordinates, *mass, *rows, *first, *block;     /* those of the structure */
 } zd_packing;
 

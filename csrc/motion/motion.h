@@ -91,6 +91,7 @@ struct zd_motion {
     int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
     zd_hold hold;           /* what they promise of both */
     int corrections_need;   /* terms behind the corrections that are on */
+    int matrices;           /* ZD_M, ZD_C: what the formulation's factorization does not have evaluated itself */
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;        /* how many are on */

@@ -6,7 +6,7 @@
 int zd_motion_factor_anew(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    int status = zd_point_need(point, ZD_M | ZD_C);
+    int status = zd_point_need(point, motion->matrices);
     if (status) return status;
     motion->statistics.factorizations++;
     status = motion->formulation->factor(motion->solver, point);

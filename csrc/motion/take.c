@@ -27,13 +27,16 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
                     const zd_formulation *formulation, const void *given)
 {
+    const int has_products = system->operations && system->operations->add_weighted;
+    const int matrices = has_products && formulation->has_matrices_evaluated && zd_takes_many_rows(formulation, system) ? 0 : ZD_M | ZD_C;
     *motion = (zd_motion){
         .system = *system,
         .formulation = formulation,
         .drifts_from = formulation->drifts_from,
         .corrects = ZD_PHI | ZD_C,
+        .matrices = matrices,
         /* A is for the rates of p, which always go with it: so it comes in the same evaluation. */
-        .acceleration_needs = ZD_A | ZD_M | ZD_C | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
+        .acceleration_needs = ZD_A | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = formulation->take(arena, independent, given),
     };

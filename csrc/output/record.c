@@ -15,7 +15,8 @@ static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
     zd_point *point = motion->point;
     int m = zd_constraints(point->system);
     if (!m) return ZD_DONE;
-    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
+    int status = zd_point_need(point, ZD_PHI | ZD_PHI_T);
+    if (!status) status = zd_point_need_times_C(point);
     if (status) return status;
     copy_row(record->position_violation, row, point->system->mh, point->terms.Phi);     /* (3) */
     zd_point_velocity_violation(point, record->velocity_violation + row * m);            /* (5) */

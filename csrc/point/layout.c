@@ -27,6 +27,14 @@ int zd_packed_size(const zd_system *system, int term)
     return size;
 }
 
+int zd_mass_is(const zd_system *system, enum zd_mass kind)
+{
+    const zd_structure *structure = system->structure;
+    for (int b = 0; structure && b < structure->blocks; b++)
+        if (!structure->mass || !(structure->mass[b] & kind)) return 0;
+    return structure != NULL;
+}
+
 int zd_size_of_M(const zd_system *system)
 {
     return system->structure ? zd_packed_size(system, ZD_M) : system->nv * system->nv;

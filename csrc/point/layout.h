@@ -40,6 +40,8 @@ static inline zd_row_of_C zd_packed_row(const zd_layout *layout, const double *C
 const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system);
 /* How many entries are stored, packed, of A, M or C of a system that declares its structure. */
 int zd_packed_size(const zd_system *system, int term);
+/* Whether all of M is declared so. */
+int zd_mass_is(const zd_system *system, enum zd_mass kind);
 /* How many are stored of M, of C, of any system. */
 int zd_size_of_M(const zd_system *system);
 int zd_size_of_C(const zd_system *system);

@@ -15,7 +15,8 @@ double zd_row_product(const zd_row_of_C *a, const zd_row_of_C *b);
 void zd_row_expand(const zd_row_of_C *row, int n, double *x);       /* x (n,) <- the row with its zeros */
 void zd_add_C(const zd_point *point, double weight, double *C);     /* C (m, nv) <- C + weight times the point's */
 
-void zd_point_velocity_violation(const zd_point *point, double *Psi);       /* (5); needs C, Phi_t */
+int zd_point_need_times_C(zd_point *point);         /* what the next one needs of C: its entries, or that the system knows where it is */
+void zd_point_velocity_violation(const zd_point *point, double *Psi);       /* (5); needs these, Phi_t */
 void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 /* y (nv,) <- M x; M is stored as the point's is. */

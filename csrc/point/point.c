@@ -26,6 +26,7 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .system = system,
         .statistics = statistics,
         .layout = zd_layout_take(arena, system),
+        .constant = zd_mass_is(system, ZD_CONSTANT) ? ZD_M : 0,
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .terms = take_terms(arena, system),
@@ -53,7 +54,7 @@ ZD_INLINE int replace(const int n, double *to, const double *from)
 void zd_point_move(zd_point *point, double t, const double *p, const double *v)
 {
     int moved = ZD_SIZED(replace, point->system->nq, point->p, p);
-    if (moved || !(t == point->t)) point->known = 0;
+    if (moved || !(t == point->t)) point->known &= point->constant;
     point->t = t;
     zd_point_move_velocity(point, v);
 }

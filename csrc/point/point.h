@@ -21,6 +21,7 @@ typedef struct zd_point {
     zd_statistics *statistics;
     const zd_layout *layout;    /* of A, M and C; NULL where they are dense */
     int known;              /* what of all this is valid now */
+    int constant;           /* ZD_M, where it stays valid wherever the point moves */
     double t, *p, *v;
     zd_terms terms;
     double *vdot, *lambda;  /* (nv,), (m,) */

@@ -41,8 +41,18 @@ static zd_strip strip_of(const zd_layout *layout, int g, int y)
 
 zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
 {
-    zd_strips self = {layout->groups, zd_take(arena, (size_t)layout->groups * sizeof(zd_strip)), layout->column};
-    for (int g = 0; arena->base && g < layout->groups; g++) self.strip[g] = strip_of(layout, g, y[g]);
+    const int rows = layout->row_at[layout->groups];
+    zd_strips self = {
+        .count = layout->groups,
+        .strip = zd_take(arena, (size_t)layout->groups * sizeof(zd_strip)),
+        .column = layout->column,
+        .rows = rows,
+        .place = zd_take(arena, (size_t)rows * sizeof(int)),
+    };
+    for (int g = 0; arena->base && g < layout->groups; g++) {
+        self.strip[g] = strip_of(layout, g, y[g]);
+        for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++) self.place[k] = y[g] + k - layout->row_at[g];
+    }
     return self;
 }
 
@@ -133,8 +143,13 @@ void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const d
         FOR_SIZES(subtract, subtract_any(strip, self->column, C, W, y, x), strip, C, W, y, x)
 }
 
+void zd_strips_gather(const zd_strips *self, const double *a, const double *b, double *y)
+{
+    for (int k = 0; a && k < self->rows; k++) y[self->place[k]] = a[k] - b[k];
+    for (int k = 0; !a && k < self->rows; k++) y[self->place[k]] = -b[k];
+}
+
 void zd_strips_scatter(const zd_strips *self, const double *y, double *rows)
 {
-    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
-        for (int i = 0; i < strip->rows; i++) rows[strip->row + i] = y[strip->y + i];
+    for (int k = 0; k < self->rows; k++) rows[k] = y[self->place[k]];
 }

@@ -16,6 +16,7 @@ typedef struct zd_strips {
     int count;
     zd_strip *strip;
     const int *column;      /* those of the layout */
+    int rows, *place;       /* (rows,) where each row of C is in the order of S */
 } zd_strips;
 
 /* `y` (groups,): where the rows of each begin in the order of S. */
@@ -26,6 +27,8 @@ void zd_strips_times(const zd_strips *self, const double *C, const double *x, co
 void zd_strips_subtract_transposed(const zd_strips *self, const double *C, const double *y, double *x);
 /* x <- x - W C^T y, W all in its diagonal */
 void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const double *W, const double *y, double *x);
+/* y <- a - b, of a, b (m,) in the order of C; a NULL: zero */
+void zd_strips_gather(const zd_strips *self, const double *a, const double *b, double *y);
 /* rows (m,) <- y, in the order of C */
 void zd_strips_scatter(const zd_strips *self, const double *y, double *rows);
 

@@ -134,6 +134,7 @@ static void list_pairs(zd_weighted *self, const int *piece, const int *member, i
     for (int i = 0; i < members; i++)
         for (int j = 0; j <= i; j++) {
             const int is_later = place[member[i]] >= place[member[j]], a = piece[is_later ? i : j], b = piece[is_later ? j : i];
+            self->at[self->pairs] = 2 * zd_blocks_find(self->blocks, member[i], member[j]) + !is_later;
             self->pair[self->pairs++] = pair_of(self, a, b, zd_blocks_find(self->blocks, member[i], member[j]));
         }
 }
@@ -178,6 +179,7 @@ static void *take(zd_arena *arena, const void *of)
         .blocks = zd_blocks_take(arena, &it->ordering),
         .piece = zd_take(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
         .pair = zd_take(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
+        .at = take_ints(arena, it->all.pairs),
         .weld = zd_take_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
         .largest = largest,
         .row = take_ints(arena, it->layout->groups),
@@ -286,6 +288,20 @@ static void fill_S(zd_weighted *self, const double *C, const double *W)
 zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W)
 {
     fill_S(self, C, W);
+    return zd_blocks_factor(self->blocks, NULL, 0);
+}
+
+/* Where a body is taken as several, the system's products would take it as one. */
+const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_system *system)
+{
+    const zd_operations *products = system->operations;
+    return products && products->add_weighted && !zd_weighted_has_welds(self) ? products : NULL;
+}
+
+zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W)
+{
+    zd_blocks_clear(self->blocks);
+    products->add_weighted(data, terms, W, self->at, self->blocks->S);
     return zd_blocks_factor(self->blocks, NULL, 0);
 }
 

@@ -30,6 +30,7 @@ typedef struct zd_weighted {
     zd_piece *piece;
     zd_pair *pair;
     double *weld;           /* an identity and its opposite, as large as the largest body */
+    int *at;                /* (pairs,) where the blocks of each are, for a system's own products: see zd_operations */
     int largest;            /* velocities of that; 0 where there are no welds */
     int *row;               /* (groups,) where the rows of each stand in a right side of S */
     zd_strips strips;       /* the same rows, for products */
@@ -39,8 +40,11 @@ typedef struct zd_weighted {
 /* All that is symbolic, and memory for the factors; NULL where there is none. */
 zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout);
 static inline int zd_weighted_has_welds(const zd_weighted *self) { return self->largest > 0; }
-/* S(W) and its factors. */
+/* Those of the system, where they serve for all of its bodies; NULL: C is needed. */
+const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_system *system);
+/* S(W) and its factors, from C or from these products. */
 zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W);
+zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W);
 /* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
  * once those eliminated before are taken out. */
 zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);

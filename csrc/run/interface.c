@@ -7,6 +7,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "../point/layout.h"
+
 typedef struct text {
     char *here;
     int size;
@@ -112,8 +114,9 @@ static int check_structure(const zd_system *system, text message)
 static int check_operations(const zd_system *system, text message)
 {
     const zd_operations *operations = system->operations;
-    if (!operations || !operations->omits_C) return ZD_DONE;
-    return refuse(message, "operations: C is not stored, and this version of the core needs its rows");
+    if (!operations || (!operations->subtract_weighted && !operations->add_weighted)) return ZD_DONE;
+    if (operations->times_C && operations->subtract_weighted && operations->add_weighted && zd_mass_is(system, ZD_DIAGONAL)) return ZD_DONE;
+    return refuse(message, "operations: subtract_weighted and add_weighted go together, with times_C and a structure all of whose M is diagonal");
 }
 
 /* Rows are eliminated once each, for as many different velocities, in solves that are counted up. */

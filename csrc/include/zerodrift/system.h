@@ -139,15 +139,18 @@ typedef struct zd_structure {
     const int *block;           /* (first[groups],) the blocks that each group touches, at least one, increasing */
 } zd_structure;
 
-/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. What asks for no more than
- * C v or M x goes through the first and the third; factorizations take the entries. */
+/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. They follow a call with
+ * ZD_MOVED at the same (t, p), from whose scratch they may take what they need. Where both of the last two are there, and all of M is diagonal by
+ * structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare. */
 typedef struct zd_operations {
-    int omits_C;            /* whether C is not stored: then out->C is NULL and never asked for, and all four functions are there */
-    void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = C x, (m,) */
-    void (*times_transposed_C)(const void *data, const zd_terms *terms, const double *x, double *y);   /* y = C^T x, (nv,) */
-    void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);              /* y = M x, (nv,) */
-    /* S = C W C^T, W packed as M is: the blocks (rows[g], rows[h]) of all groups h <= g that share a block, g after g, h increasing. */
-    void (*weighted)(const void *data, const zd_terms *terms, const double *W, double *S);
+    void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
+    void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
+    /* x <- x - W C^T y, W (nv,) diagonal */
+    void (*subtract_weighted)(const void *data, const zd_terms *terms, const double *W, const double *y, double *x);
+    /* S <- S + C W C^T: for each block in order, the products of its columns in the groups that touch it, of each group g and all h <= g, increasing
+     * both. The block (rows[g], rows[h]) of the next of them begins in S at half of the next entry of `at`; it is stored transposed where that entry
+     * is odd. */
+    void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 
 /* The equations with their constraints eliminated in closed form: accelerations and corrections without a leading matrix.
