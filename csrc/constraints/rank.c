@@ -24,6 +24,8 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
+enum { MOST_NAMED = 8 };       /* rows in a sentence */
+
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
 {
     size_t m = (size_t)zd_constraints(system);
@@ -285,12 +287,32 @@ int zd_rank_redundant(const zd_rank *self, int *rows)
     return count;
 }
 
+/* Rows that do not count, the next from this one on among `all`: those that were not chosen, or were left out at the start. */
+static int next_of_others(const zd_rank *self, int k)
+{
+    if (self->selection) return k < self->m ? self->selection->row[k] : -1;
+    while (k < self->m && !self->left_out[k]) k++;
+    return k < self->m ? k : -1;
+}
+
+static int count_others(const zd_rank *self)
+{
+    int count = 0;
+    for (int k = 0; self->left_out && k < self->m; k++) count += self->left_out[k];
+    return self->selection ? self->m - self->selection->independent : count;
+}
+
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
 {
-    int first = point->rank->selection->independent, end = point->rank->m, length = snprintf(to, size, end - first > 1 ? "rows" : "row");
-    for (int d = first; d < end && (size_t)length < size; d++) {
-        const char *before = d == first ? " " : d == end - 1 ? " and " : ", ";
-        length += snprintf(to + length, size - (size_t)length, "%s%d", before, point->rank->selection->row[d]);
+    const zd_rank *self = point->rank;
+    const int count = count_others(self), named = count > MOST_NAMED ? MOST_NAMED : count;
+    int length = snprintf(to, size, count > 1 ? "rows" : "row");
+    for (int i = 0, k = self->selection ? self->selection->independent : 0; i < named && (size_t)length < size; i++, k++) {
+        const int row = next_of_others(self, k);
+        const char *before = i == 0 ? " " : i == count - 1 ? " and " : ", ";
+        length += snprintf(to + length, size - (size_t)length, "%s%d", before, row);
+        if (!self->selection) k = row;
     }
-    if ((size_t)length < size) snprintf(to + length, size - (size_t)length, end - first > 1 ? " follow" : " follows");
+    if (count > named && (size_t)length < size) length += snprintf(to + length, size - (size_t)length, " and %d others", count - named);
+    if ((size_t)length < size) snprintf(to + length, size - (size_t)length, count > 1 ? " follow" : " follows");
 }

@@ -8,8 +8,8 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
+#include "redundant.h"
 #include "rows.h"
-#include "surplus.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
 static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6): a larger rest shows a row that is independent elsewhere */
@@ -142,7 +142,7 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
     zd_rank *self = point->rank;
     if (self->is_large) {
         self->is_started = 1;
-        return zd_surplus_find(point);
+        return zd_redundant_find(point);
     }
     int status = zd_rows_find(point);
     self->may_be_deficient = on_singular == ZD_CONTINUE;

@@ -47,7 +47,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
-                 run->settings.on_singular == ZD_STOP ? ON_SINGULAR
+                 run->motion.point->rank->is_large ? "among so many rows no branch is looked for, so begin beside it"
+                 : run->settings.on_singular == ZD_STOP ? ON_SINGULAR
                  : "no branch was found that the motion is on, and independent velocities need one; 'schur' does not");
         break;
     case ZD_BIFURCATION_PASSED:
@@ -146,8 +147,9 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->motion.point;
     const char *failure = run->watch.failed ? "the evaluation of an event failed" : run->motion.system.failure;
-    char rows[64] = "";
-    if (point->rank->selection && point->rows < zd_constraints(point->system)) zd_rank_name_rows(point, rows, sizeof rows);
+    char rows[96] = "";
+    const int are_fewer = point->rank->selection && point->rows < zd_constraints(point->system);
+    if (are_fewer || point->rank->left_out) zd_rank_name_rows(point, rows, sizeof rows);
     if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;
     switch (status) {
     case ZD_NOT_FINITE:

@@ -7,7 +7,6 @@
 #include <stdio.h>
 
 #include "../constraints/rows.h"
-#include "../constraints/surplus.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/mass.h"
@@ -204,7 +203,6 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);
     if (!status) status = zd_motion_accelerate(motion);
-    if (!status && zd_constraints(&motion->system)) status = zd_surplus_check(motion->point);
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (!status && run->settings.events) status = zd_watch_start(&run->watch);

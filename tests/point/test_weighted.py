@@ -91,6 +91,27 @@ def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(formul
 
 
 @needs_compiler
+def test_rows_that_only_follow_from_others_where_a_large_structure_begins_are_not_taken_for_redundant(formulation):
+    flat = four_bars(14, angle=0.0)
+    with pytest.raises(zd.Bifurcation, match=r"row \d+ follows from the others\); among so many rows no branch"):
+        zd.simulate(flat.system(), 0.01, formulation=formulation, **STEP)
+    with pytest.raises(zd.Bifurcation):
+        zd.simulate(flat.system(packed=False), 0.01, formulation=formulation, **STEP)
+
+
+def test_rows_of_a_large_structure_that_contradict_each_other_are_named():
+    n = 42
+
+    def system(order):      # a slope of each body, and of the first again, which moves
+        return zd.System(2 * n, mass=lambda p: np.eye(2 * n), p0=np.zeros(2 * n), v0=np.zeros(2 * n),
+                         constraints=lambda p, t: np.append(p[::2] - p[1::2], p[0] - p[1] - t**order),
+                         structure=zd.Structure([2] * n, [*((1, [b]) for b in range(n)), (1, [0])], "constant diagonal"))
+
+    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d+ follows from the others, but row \d+ asks"):
+        zd.simulate(system(2), 0.01, **STEP)
+
+
+@needs_compiler
 @pytest.mark.parametrize("road", ["augmented", "nullspace", "mixed", "independent"])
 def test_a_body_without_mass_among_many(road):
     rods = chain(25, closed=True, masses=[1.0] * 12 + [0.0] + [1.0] * 12)

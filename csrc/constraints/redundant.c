@@ -1,28 +1,33 @@
-/* Rows that follow from others at the start, of a structure with many rows, at a cost that follows these.
+/* Redundant rows of a structure with many, at a cost that follows these.
  *
  * In the metric of natural units, pivots of S = C U^2 C^T are the squares of what is left of each row once those eliminated before are taken
  * out: of a row that follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random
  * velocity is projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that
  * follows from them, too, and with probability one no other.
+ *
+ * A row that follows from others here is redundant if it does so wherever the system goes: then accelerations that the others ask for satisfy
+ * it at any velocity, (6), and so at this random one. Else it only does so in this position, a bifurcation.
  */
-#include "surplus.h"
+#include "redundant.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/norms.h"
 #include "../point/matrices.h"
 #include "../point/weighted.h"
 
 enum { PROJECTIONS = 6 };
 static const double LITTLE = 0x1p-20;   /* of the square of a row: what is left of one that may follow from others */
 static const double MOVED = 0x1p-28;    /* of what its terms are: a row that the projected velocity satisfies */
-static const double AGREES = 0x1p-20;   /* of the terms of (6): the accelerations satisfy it */
+static const double AGREES = 0x1p-20;   /* of the terms of (6), and of the largest: the accelerations satisfy it */
 
 typedef struct search {
     zd_store store;
     zd_weighted *weighted;
     double *U;              /* stored as M is: squares of the natural units */
     double *x, *change;     /* (nv,) */
+    double *v0, *v;         /* (nv,): the start's, and one besides */
     unsigned char *aside;   /* (m,) */
 } search;
 
@@ -33,6 +38,8 @@ static void *take(zd_arena *arena, const void *of)
         .U = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .x = zd_take_doubles(arena, (size_t)system->nv),
         .change = zd_take_doubles(arena, (size_t)system->nv),
+        .v0 = zd_take_doubles(arena, (size_t)system->nv),
+        .v = zd_take_doubles(arena, (size_t)system->nv),
         .aside = zd_take(arena, (size_t)zd_constraints(system)),
     };
     return zd_take_filled(arena, &self, sizeof self);
@@ -48,22 +55,22 @@ static void set_metric(const zd_point *point, double *U)
     }
 }
 
-/* x <- x - U^2 C^T S^-1 C x, with the rows that are not aside */
-static void project(search *self, const zd_point *point)
+/* x <- x - U^2 C^T S^-1 (C x - rhs), with the rows that are not aside; rhs NULL: zero */
+static void project(search *self, const zd_point *point, const double *rhs)
 {
     double *y = self->weighted->blocks->x;
     const int n = point->system->nv;
-    zd_weighted_times(self->weighted, point->terms.C, self->x, NULL, y);
+    zd_weighted_times(self->weighted, point->terms.C, self->x, rhs, y);
     zd_weighted_solve(self->weighted, y);
     memset(self->change, 0, (size_t)n * sizeof *self->change);
     zd_weighted_subtract_transposed(self->weighted, point->terms.C, y, self->change);
     for (int i = 0; i < n; i++) self->x[i] += point->unit[i] * point->unit[i] * self->change[i];
 }
 
-/* Whether x satisfies the row. */
-static int is_satisfied(const zd_row_of_C *row, const double *x, double target, double share)
+/* Whether x satisfies the row, to a share of its terms and of another size. */
+static int is_satisfied(const zd_row_of_C *row, const double *x, double target, double share, double other)
 {
-    double sum = -target, size = fabs(target);
+    double sum = -target, size = fabs(target) + other;
     for (int j = 0; j < row->count; j++) {
         sum += row->x[j] * x[row->column[j]];
         size += fabs(row->x[j] * x[row->column[j]]);
@@ -77,7 +84,7 @@ static int judge(search *self, const zd_point *point, int *holonomic)
     int count = *holonomic = 0;
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        if (!is_satisfied(&row, self->x, 0, MOVED)) self->aside[k] = 0;
+        if (!is_satisfied(&row, self->x, 0, MOVED, 0)) self->aside[k] = 0;
         count += self->aside[k];
         *holonomic += self->aside[k] && k < point->system->mh;
     }
@@ -85,6 +92,39 @@ static int judge(search *self, const zd_point *point, int *holonomic)
 }
 
 static void *take_note(zd_arena *arena, const void *system) { return zd_take(arena, (size_t)zd_constraints(system)); }
+
+/* Whether accelerations that satisfy the others satisfy the rows aside at this velocity; else the point has one that they do not. */
+static int agree(search *self, zd_point *point, const double *v, int *they_do)
+{
+    zd_point_move_velocity(point, v);
+    int status = zd_point_need(point, ZD_XI);
+    if (status) return status;
+    memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
+    for (int i = 0; i < PROJECTIONS; i++) project(self, point, point->terms.xi);
+    const double largest = zd_max_scaled(zd_constraints(point->system), point->terms.xi, point->inverse_size);
+    *they_do = 1;
+    for (int k = 0; k < zd_constraints(point->system) && *they_do; k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], AGREES, largest * point->size[k]);
+        if (!*they_do) point->failed_index = k;
+    }
+    return ZD_DONE;
+}
+
+/* At the start's velocity, and with a random one besides, which self->x has. */
+static int tell_redundant(search *self, zd_point *point)
+{
+    const int n = point->system->nv;
+    const double speed = 1 + zd_max_scaled(n, point->v, point->inverse_unit);
+    int at_start = 1, at_any = 1;
+    if (!(point->system->provides & ZD_XI)) return ZD_DONE;
+    memcpy(self->v0, point->v, (size_t)n * sizeof *self->v);
+    for (int i = 0; i < n; i++) self->v[i] = self->v0[i] + speed * self->x[i];
+    int status = agree(self, point, self->v0, &at_start);
+    if (!status && at_start) status = agree(self, point, self->v, &at_any);
+    zd_point_move_velocity(point, self->v0);
+    return status ? status : !at_start ? ZD_CONTRADICTION : !at_any ? ZD_BIFURCATION : ZD_DONE;
+}
 
 static int note(search *self, zd_point *point)
 {
@@ -96,7 +136,7 @@ static int note(search *self, zd_point *point)
     memcpy(rank->left_out, self->aside, (size_t)zd_constraints(point->system));
     rank->most_rows -= count;
     rank->most_holonomic -= holonomic;
-    return ZD_DONE;
+    return tell_redundant(self, point);
 }
 
 static int find(search *self, zd_point *point)
@@ -111,11 +151,11 @@ static int find(search *self, zd_point *point)
         seed = seed * 1664525u + 1013904223u;
         self->x[i] = point->unit[i] * ((double)(seed >> 8) * 0x1p-23 - 1);
     }
-    for (int i = 0; i < PROJECTIONS; i++) project(self, point);
+    for (int i = 0; i < PROJECTIONS; i++) project(self, point, NULL);
     return note(self, point);
 }
 
-int zd_surplus_find(zd_point *point)
+int zd_redundant_find(zd_point *point)
 {
     zd_store store = {NULL};
     search *self = zd_store_take(&store, take, point->system);
@@ -123,15 +163,4 @@ int zd_surplus_find(zd_point *point)
     const int status = self && self->weighted ? find(self, point) : ZD_NO_MEMORY;
     zd_store_release(&store);
     return status;
-}
-
-int zd_surplus_check(zd_point *point)
-{
-    for (int k = 0; point->rank->left_out && k < zd_constraints(point->system); k++) {
-        const zd_row_of_C row = zd_point_row(point, k);
-        if (!point->rank->left_out[k] || is_satisfied(&row, point->vdot, point->terms.xi[k], AGREES)) continue;
-        point->failed_index = k;
-        return ZD_CONTRADICTION;
-    }
-    return ZD_DONE;
 }
