@@ -12,6 +12,7 @@ from zerodrift.studies import compare
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
+from matplotlib.path import Path
 
 
 @pytest.fixture(autouse=True)
@@ -61,7 +62,7 @@ def test_every_function_draws_into_the_axes_it_is_given(sol):
         ax = plt.figure().add_subplot(projection="3d" if spatial else None)
         figures = plt.get_fignums()
         assert drawn(draw(sol, ax=ax)) is ax
-        assert ax.lines
+        assert ax.lines or ax.collections
         assert plt.get_fignums() == figures
 
 
@@ -227,13 +228,37 @@ def test_a_drawing_in_space_has_equal_scales(animated):
     assert np.ptp(scales) < 1e-12 * scales.max()
 
 
-def test_mechanism_joins_joints_and_marks_what_rests(bar):
+def shapes(ax, kind):
+    (found,) = [each for each in ax.collections if each.get_label() == f"_{kind}"]
+    return [path.vertices for path in found.get_paths()]
+
+
+def test_points_of_the_plane_are_joined_by_bars_and_what_rests_is_on_the_ground(bar):
     ax = drawn(plot.mechanism(bar))
-    squares = [line for line in ax.lines if line.get_marker() == "s"]
-    np.testing.assert_allclose(squares[0].get_xydata(), [[0, 0], [1, 0]], atol=1e-12)
+    for points, corner in zip(shapes(ax, "link"), bar.system.points(bar.p[0])[:-1], strict=True):
+        assert Path(points).contains_point(corner)
+    supports = shapes(ax, "ground")[::3]      # between them, the line under each and its hatching
+    np.testing.assert_allclose([points[:, 0].min() / 2 + points[:, 0].max() / 2 for points in supports], [0, 1], atol=0.01)
+    assert len(shapes(ax, "pin")) == 4
     assert ax.get_aspect() == 1
-    assert len(ax.lines) > 5
-    assert len(plot.mechanism(bar, bar.p[4]).lines) == 1
+    assert "_ground" in [each.get_label() for each in plot.mechanism(bar, bar.p[4]).collections]
+    assert "_ground" not in [each.get_label() for each in plot.mechanism(bar.system).collections]    # nobody knows what rests
+
+
+class Curve(Spatial):
+    """A wave of many points, a gap, and a bar, in the plane."""
+
+    def points(self, p):
+        x = np.linspace(0, 1, 30)
+        return np.vstack([np.column_stack([x, np.sin(9 * x)]), [np.nan, np.nan], [[0, 0], [1, p[0]]], [np.nan, np.nan], [[2, 0]]])
+
+
+def test_curves_of_many_points_stay_curves_and_points_alone_are_masses():
+    ax = drawn(plot.mechanism(Curve(), [0.5]))
+    (wave,), (rod,), (mass,) = (shapes(ax, kind) for kind in ("curve", "link", "particle"))
+    np.testing.assert_allclose(wave, Curve().points([0.5])[:30])
+    assert rod.max() > 1.0
+    np.testing.assert_allclose(mass[:-1].mean(axis=0), [2, 0], atol=1e-12)
 
 
 def test_mechanism_needs_a_drawing(bar):

@@ -22,10 +22,13 @@ REPETITIONS = 15        # of each timed run; the fastest counts
 
 def figure_4(fine: Solution) -> Figure:
     """The mechanism at the start, and positions it goes through."""
-    figure, axes = plot.panels(1, 2, 9, 3.6, sharex=True, sharey=True)
-    plot.mechanism(fine.system, ax=axes[0, 0])
+    figure, axes = plot.panels(1, 2, 9, 3.6)
+    plot.mechanism(fine, t=fine.t[0], ax=axes[0, 0])
     _name_links(axes[0, 0], fine.system)
     plot.mechanism(fine, ax=axes[0, 1])
+    for ax in axes.flat:
+        ax.grid(False)
+        ax.set(xlim=axes[0, 1].get_xlim(), ylim=axes[0, 1].get_ylim())      # one scale
     axes[0, 0].set_title("start")
     axes[0, 1].set_title("positions during the motion")
     return figure
@@ -35,7 +38,7 @@ def _name_links(ax: Any, system: Any) -> None:
     points = system.points(system.p0)
     for number, (start, end) in enumerate(pairwise(points), start=1):
         along = (end - start) / np.hypot(*(end - start))
-        ax.annotate(f"$l_{number},\\ \\alpha_{number}$", (start + end) / 2 + 0.1 * np.array([-along[1], along[0]]),
+        ax.annotate(f"$l_{number},\\ \\alpha_{number}$", (start + end) / 2 + 0.12 * np.array([-along[1], along[0]]),
                     ha="center", va="center")
     ax.plot(*points[[0, -1]].T, "--", color="black", linewidth=1, zorder=1)
     ax.annotate("$l_0$", points[[0, -1]].mean(axis=0) - np.array([0, 0.07]), ha="center", va="center")

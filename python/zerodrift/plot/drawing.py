@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -17,11 +18,10 @@ from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape
 from .annotations import Arrow, draw_path
 from .mechanism import Extras, Picture, points_of
-from .style import COLOURS, given_axes
+from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_equal_scales
+from .style import given_axes
 
-COLOUR = COLOURS[0]
 GHOSTS = 8      # faint positions of a motion
-JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
 NARROW = 130.0  # points: axes that are narrower show no coordinates
 QUIET = "#6E6E6E"
 
@@ -33,8 +33,8 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
 
     Mechanisms of bodies and joints are drawn as in textbooks: bars and plates with their pins, the ground hatched, sliders on
     their rails and blocks in their grooves, springs and dashpots, wheels, pitch circles of gears, profiles of cams, motors and
-    loads as arrows. Of other systems lines are links and dots are joints (curves of many points have none); points that stay in
-    place during the motion are squares.
+    loads as arrows. Of other systems only points and the lines between them are known: in the plane lines are links, and points
+    that stay in place during the motion are on the ground (curves of many points stay curves); in space they are lines.
 
     Parameters
     ----------
@@ -87,26 +87,14 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     rows = _rows(sol, p, t, ghosts)
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
     positions += [] if sol is None else [sol.p[row] for row in rows]
-    if (moments := _moments(system, positions)) is not None:
-        extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
-        picture = Picture(_drawing_axes(ax, 2), moments, extras)
-        picture.faintly(range(1, len(moments)))
-        picture.show(0)
-        return picture.ax
-    _check_points_only(system, names, path, forces)
-    return _draw_points(system, positions, ax, moving=sol is not None and p is None)
-
-
-def _draw_points(system: BaseSystem, positions: Any, ax: Axes | None, *, moving: bool) -> Axes:
-    """A system of which only points and lines are known."""
-    drawings = _drawings(system, positions)
-    ax = _drawing_axes(ax, drawings.shape[2])
-    for points in drawings[:0:-1]:
-        ax.plot(*points.T, _line_format(points), color=COLOUR, alpha=0.25, linewidth=1.2, markersize=2.5)
-    _links(ax, drawings[0])
-    if moving:
-        ax.plot(*_fixed_points(drawings).T, "s", color="black", markersize=7, zorder=3)
-    return _with_equal_scales(ax)
+    moments, points = _moments(system, positions, sol, names=names, path=path, forces=forces)
+    if moments is None:
+        return draw_in_space(_drawing_axes(ax, 3), points, moving=sol is not None and p is None)
+    extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+    picture = Picture(_drawing_axes(ax, 2), moments, extras)
+    picture.faintly(range(1, len(moments)))
+    picture.show(0)
+    return picture.ax
 
 
 def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Axes:
@@ -143,7 +131,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     ax = _drawing_axes(ax, 2)
     for places in found:
         draw_path(ax, places, 1.0, **style)
-    return _with_equal_scales(ax)
+    return with_equal_scales(ax)
 
 
 def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0, names: bool = False,
@@ -188,28 +176,12 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
-    if (moments := _moments(sol.system, sol.p[rows])) is not None:
-        extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows), force_scale)
-        return _film(Picture(_drawing_axes(ax, 2), moments, extras), times, fps)
-    _check_points_only(sol.system, names, path, forces)
-    return _film_of_points(_drawings(sol.system, sol.p[rows]), times, fps, ax)
-
-
-def _film_of_points(drawings: np.ndarray, times: np.ndarray, fps: float, ax: Axes | None) -> FuncAnimation:
-    """A system of which only points and lines are known, as it moves."""
-    ax = _drawing_axes(ax, drawings.shape[2])
-    line = _links(ax, drawings[0])
-    _set_limits(ax, drawings)
-    _with_equal_scales(ax)
-    title = ax.set_title("", fontsize="medium")
-
-    def show(frame: int) -> tuple[Any, ...]:
-        points = drawings[frame]
-        (line.set_data if points.shape[1] == 2 else line.set_data_3d)(*points.T)
-        title.set_text(f"t = {times[frame]:.2f} s")
-        return line, title
-
-    return FuncAnimation(ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
+    moments, points = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
+    ax = _drawing_axes(ax, 3 if moments is None else 2)
+    if moments is None:
+        return _film(ax, moved_in_space(ax, points), times, fps)
+    extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows), force_scale)
+    return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
 
 # ---- what is asked for ----
@@ -225,12 +197,6 @@ def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
             raise ValueError(f"{name}= needs a row of the solution: give t=, and leave p out")
 
 
-def _check_points_only(system: BaseSystem, names: Any, path: Any, forces: Any) -> None:
-    for name, value in {"names": names, "path": path, "forces": forces}.items():
-        if value is not False and not _is_nothing(value):
-            raise ValueError(f"{name}= needs a mechanism of bodies and joints, and {system.name} is drawn from its points alone")
-
-
 def _is_nothing(value: Any) -> bool:
     return isinstance(value, tuple | list) and not value
 
@@ -243,11 +209,15 @@ def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndar
     if ghosts is None:
         ghosts = GHOSTS if p is None and t is None else 0
     if isinstance(ghosts, int | np.integer):
-        spread = np.linspace(0, len(sol.t) - 1, _check.count("ghosts", ghosts, least=0) + 1).round().astype(int)
-        others = np.setdiff1d(spread, first)[:ghosts]
+        others = np.setdiff1d(_spread(sol, _check.count("ghosts", ghosts, least=0)), first)[:ghosts]
     else:
         others = nearest(sol.t, _check.times("ghosts", ghosts, sol.t[0], sol.t[-1]))
     return np.concatenate([first if p is None else first[:0], others])
+
+
+def _spread(sol: Solution, count: int) -> np.ndarray:
+    """The first row, and others evenly over the run."""
+    return np.linspace(0, len(sol.t) - 1, count + 1).round().astype(int)
 
 
 def _paths(sol: Solution | None, points: Any) -> list[np.ndarray]:
@@ -271,46 +241,32 @@ def _arrows(sol: Solution | None, forces: Any, rows: np.ndarray) -> list[Arrow]:
     return [Arrow(*each) for each in sol.system._forces(forces, sol, rows)]
 
 
-def _film(picture: Picture, times: np.ndarray, fps: float) -> FuncAnimation:
-    """A mechanism of shapes as it moves."""
-    title = picture.ax.set_title("", fontsize="medium")
+def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: float) -> FuncAnimation:
+    """What is drawn as frames, with the time above it."""
+    title = ax.set_title("", fontsize="medium")
 
     def show(frame: int) -> list[Any]:
         title.set_text(f"t = {times[frame]:.2f} s")
-        return [*picture.show(frame), title]
+        return [*draw(frame), title]
 
-    return FuncAnimation(picture.ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
-
-
-def _moments(system: BaseSystem, positions: Any) -> list[list[Shape]] | None:
-    """The shapes of each position; None where there are none, but points and lines."""
-    if not isinstance(system, BaseSystem):
-        return None
-    return system._sketches([_check.vector("p", p, system.nq) for p in positions])
+    return FuncAnimation(ax.figure, show, frames=len(times), interval=1000 / fps, blit=False)
 
 
-def _drawings(system: BaseSystem, positions: Any) -> np.ndarray:
-    """The points of each position, (positions, points, dimension)."""
-    drawings = [system.points(p) for p in positions]
-    if not drawings or drawings[0] is None:
-        raise ValueError(f"{system.name} has no drawing: it gives no points")
-    return np.array(drawings)
-
-
-def _links(ax: Axes, points: np.ndarray) -> Any:
-    """The mechanism as one line."""
-    (line,) = ax.plot(*points.T, _line_format(points), color=COLOUR, linewidth=2.5, markersize=6, solid_capstyle="round")
-    return line
-
-
-def _line_format(points: np.ndarray) -> str:
-    return "o-" if len(points) <= JOINTS else "-"
-
-
-def _fixed_points(drawings: np.ndarray) -> np.ndarray:
-    """The points (n, dimension) that are in the same place in all drawings."""
-    size = (np.nanmax(drawings, axis=(0, 1)) - np.nanmin(drawings, axis=(0, 1))).max()
-    return drawings[0][np.ptp(drawings, axis=0).max(axis=1) <= 1e-6 * size]
+def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
+             **asked: Any) -> tuple[list[list[Shape]] | None, np.ndarray | None]:
+    """The shapes of each position; where there are none, as in space, its points."""
+    if isinstance(system, BaseSystem):
+        known = system._sketches([_check.vector("p", p, system.nq) for p in positions])
+        if known is not None:
+            return known, None
+    for name, value in asked.items():
+        if value is not False and not _is_nothing(value):
+            raise ValueError(f"{name}= needs a mechanism of bodies and joints, and {system.name} is drawn from its points alone")
+    points = points_at(system, positions)
+    if points.shape[2] == 3:
+        return None, points
+    motion = points if sol is None else points_at(system, sol.p[_spread(sol, GHOSTS)])
+    return shapes_of(points, motion), None
 
 
 def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
@@ -338,17 +294,3 @@ def _quieten(ax: Axes) -> None:
         axis.label.set(color=QUIET, size="small")
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     ax.set_axisbelow(True)
-
-
-def _with_equal_scales(ax: Axes) -> Axes:
-    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn."""
-    ax.set_aspect("equal", adjustable="box")
-    return ax
-
-
-def _set_limits(ax: Axes, drawings: np.ndarray) -> None:
-    """Axes that hold all drawings, with a margin."""
-    low, high = np.nanmin(drawings, axis=(0, 1)), np.nanmax(drawings, axis=(0, 1))
-    margin = 0.08 * (high - low).max()
-    for axis, a, b in zip("xyz", low, high, strict=False):
-        getattr(ax, f"set_{axis}lim")(a - margin, b + margin)

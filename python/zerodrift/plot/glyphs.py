@@ -73,6 +73,11 @@ def mark(shape: Shape, size: float) -> list[Mark]:
     return [circle(shape.points[0], 0.6 * size, face=DARK, edge=WHITE, width=0.5)]
 
 
+def curve(shape: Shape, size: float) -> list[Mark]:
+    """A line (n, 2), of what is no body."""
+    return [line(shape.points, edge=EDGE, width=1.8)]
+
+
 # ---- joints ----
 
 
@@ -311,9 +316,9 @@ class Glyph(NamedTuple):
     directions: int
 
 
-BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, link, groove, rod, cylinder, damper,
-                 spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive, load,
-                 moment)
+BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, link, curve, groove, rod, cylinder,
+                 damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive,
+                 load, moment)
 DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "wall", "groove", "guide", "slider", "block", "disc", "wheel", "gear",
                                          "ring", "rack", "blade", "weld", "load"), 1)}
 GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

@@ -25,7 +25,7 @@ MARGIN = 3.0        # sizes, around all that is drawn
 NARROW = 0.4        # of the picture's longer side: no picture is narrower
 LINE = 0.22         # points in a picture's line for each point in a pin's radius
 THIN, THICK = 0.3, 1.0      # of lines, in points
-FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "wheel": "#C8C8C8"}       # what other positions show
+FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "curve": "#9A9A9A", "wheel": "#C8C8C8"}       # what other positions show
 
 
 class Extras(NamedTuple):
@@ -132,5 +132,7 @@ def _skeleton(shape: Shape) -> np.ndarray:
     """A bar's middle line, a plate's edge, a wheel's rim: points (n, 2)."""
     if shape.kind == "wheel":
         return arc(shape.points[0], shape.number, corners=SMOOTH)
+    if shape.kind == "curve":
+        return shape.points
     corners = hull(shape.points)
     return np.vstack([corners, corners[:1]]) if len(corners) > 2 else corners

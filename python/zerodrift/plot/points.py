@@ -1,0 +1,101 @@
+"""Systems of which only points are known, and the lines between them: in the plane as bars and pins, in space as lines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..systems.base import BaseSystem
+from ..systems.shapes import Shape
+from .style import COLOURS
+
+JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
+RESTING = 1e-6  # of the drawing: what moves by less rests
+
+
+def points_at(system: BaseSystem, positions: Any) -> np.ndarray:
+    """The points of each position, (positions, points, dimension)."""
+    drawings = [system.points(p) for p in positions]
+    if not drawings or drawings[0] is None:
+        raise ValueError(f"{system.name} has no drawing: it gives no points")
+    return np.array(drawings)
+
+
+def shapes_of(drawings: np.ndarray, motion: np.ndarray) -> list[list[Shape]]:
+    """The shapes of each drawing of the plane, (drawings, points, 2): bars and pins, and curves of many points. What rests in
+    all drawings of a motion is held by the ground.
+    """
+    rests = _rest(motion) if len(motion) > 1 else np.zeros(drawings.shape[1], dtype=bool)
+    return [[shape for run in _runs(points) for shape in _run(points[run], rests[run])] for points in drawings]
+
+
+def _run(points: np.ndarray, rests: np.ndarray) -> list[Shape]:
+    """Points (n, 2) that are joined."""
+    if len(points) > JOINTS:
+        return [Shape("curve", points)]
+    bars = [Shape("link", points[i:i + 2]) for i in range(len(points) - 1) if np.ptp(points[i:i + 2], axis=0).any()]
+    ends = [Shape("particle", points)] if len(points) == 1 else []
+    held = [Shape("ground", place[None]) for place in points[rests]]
+    pins = [Shape("pin", place[None]) for i, place in enumerate(points) if rests[i] or 0 < i < len(points) - 1]
+    return [*bars, *ends, *held, *pins]
+
+
+def _runs(points: np.ndarray) -> list[np.ndarray]:
+    """The numbers of the points of each line, which end where a point is NaN."""
+    known = ~np.isnan(points).any(axis=1)
+    numbers = np.flatnonzero(known)
+    return np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1) if numbers.size else []
+
+
+def _rest(drawings: np.ndarray) -> np.ndarray:
+    """Which points are in the same place in all drawings."""
+    size = (np.nanmax(drawings, axis=(0, 1)) - np.nanmin(drawings, axis=(0, 1))).max()
+    return np.ptp(drawings, axis=0).max(axis=1) <= RESTING * size
+
+
+# ---- in space ----
+
+
+def draw_in_space(ax: Axes, drawings: np.ndarray, *, moving: bool) -> Axes:
+    """The first drawing, the others faintly, and as squares what rests in all of a motion."""
+    for points in drawings[:0:-1]:
+        ax.plot(*points.T, _line_format(points), color=COLOURS[0], alpha=0.25, linewidth=1.2, markersize=2.5)
+    _line(ax, drawings[0])
+    if moving:
+        ax.plot(*drawings[0][_rest(drawings)].T, "s", color="black", markersize=7, zorder=3)
+    return with_equal_scales(ax)
+
+
+def moved_in_space(ax: Axes, drawings: np.ndarray) -> Callable[[int], Any]:
+    """A line, and what moves it to another drawing."""
+    line = _line(ax, drawings[0])
+    low, high = np.nanmin(drawings, axis=(0, 1)), np.nanmax(drawings, axis=(0, 1))
+    margin = 0.08 * (high - low).max()
+    for axis, a, b in zip("xyz", low, high, strict=True):
+        getattr(ax, f"set_{axis}lim")(a - margin, b + margin)
+    with_equal_scales(ax)
+
+    def show(frame: int) -> list[Any]:
+        line.set_data_3d(*drawings[frame].T)
+        return [line]
+
+    return show
+
+
+def with_equal_scales(ax: Axes) -> Axes:
+    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn."""
+    ax.set_aspect("equal", adjustable="box")
+    return ax
+
+
+def _line(ax: Axes, points: np.ndarray) -> Any:
+    """The mechanism as one line."""
+    (line,) = ax.plot(*points.T, _line_format(points), color=COLOURS[0], linewidth=2.5, markersize=6, solid_capstyle="round")
+    return line
+
+
+def _line_format(points: np.ndarray) -> str:
+    return "o-" if len(points) <= JOINTS else "-"
