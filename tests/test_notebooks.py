@@ -33,6 +33,7 @@ def test_notebook_runs(path):
     nbclient.NotebookClient(read(path), timeout=120, resources={"metadata": {"path": str(path.parent)}}).execute()
 
 
+@pytest.mark.skipif((ROOT / "PKG-INFO").exists(), reason="a source distribution has notebooks without their outputs")
 def test_notebook_is_committed_as_executed(path):
     cells = code_cells(read(path))
     assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))

@@ -260,7 +260,8 @@ static int correct_directly(projection *self, zd_motion *motion, int positions, 
 static int after_step(void *memory, zd_motion *motion)
 {
     projection *self = memory;
-    int positions = self->given.positions && (motion->corrects & ZD_PHI), velocities = self->given.velocities && (motion->corrects & ZD_C);
+    int positions = self->given.positions != 0 && (motion->corrects & ZD_PHI);
+    int velocities = self->given.velocities != 0 && (motion->corrects & ZD_C);
     int status = ZD_DONE;
     if (zd_is_direct(motion) && !self->plain) {
         if (!zd_constraints(&motion->system)) return ZD_DONE;
