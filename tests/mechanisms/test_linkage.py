@@ -180,6 +180,16 @@ def test_links_that_do_not_reach_are_told_with_their_loop_and_what_stays_open():
         zd.linkage(FOUR, BARS, lengths={"AB": 1.0, "BC": 0.5, "CD": 0.25})
 
 
+@pytest.mark.parametrize(("change", "sentence"), [
+    ({"XV": 200}, r"the loop of ground, crank, j, bed, through Z, Y bed, X j, V, cannot close: it stays open by 1\.05 m at 'V'"),
+    ({"WT": 200}, r"the loop of .*bed, f, .*foot.* cannot close: it stays open by \d\.\d+ m at '[TW]'"),
+    ({"YU": 1, "XU": 3}, r"the loop of ground, crank, k, c, .* cannot close: it stays open by 0\.\d+ m at 'U")])
+def test_of_several_loops_the_one_that_stays_open_is_told(change, sentence):
+    """The first: X and V are at most 0.388 + 0.15 + 0.415 m apart, and j, between them, is 2 m long."""
+    with pytest.raises(zd.CorrectionFailed, match=sentence):
+        zd.linkage(SKETCH, LINKS, lengths={**LENGTHS, **change}, scale=0.01)
+
+
 def test_what_is_massless_may_be_drawn_and_driven():
     m = zd.linkage(FOUR, BARS, mass=0.0)
     assert "can move without moving any mass" in str(m)

@@ -25,7 +25,7 @@ def test_the_ring_of_the_textbook_s_gear():
 
 @pytest.mark.parametrize(("wrong", "message"), [
     ({"sun": 0}, "sun must be between 1 and"), ({"planets": 0}, "planets must be between 1 and"),
-    ({"module": 0.0}, "module must be greater than 0"), ({"density": -1.0}, "density must be greater than 0")])
+    ({"module": 0.0}, "module must be greater than 0"), ({"density": 0.0}, "density must be greater than 0")])
 def test_wrong_gears(wrong, message):
     with pytest.raises(ValueError, match=message):
         zd.models.planetary_gear(**wrong)

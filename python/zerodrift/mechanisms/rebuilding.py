@@ -48,10 +48,10 @@ def _refused(where: str) -> Callable[[str], Any]:
 
 def mechanism(description: Any, where: str) -> Mechanism:
     """The mechanism that `describing.described` has described; `where` it stands is named in errors, with the place in it."""
-    given = _fields(_parts, description, where, skip=("zerodrift", "version"))
-    if description["version"] != VERSION:
-        raise ValueError(f"{where} is a mechanism of version {description['version']!r}, and version {VERSION} is known here")
-    return _parts(where, **given)
+    version = description.get("version", VERSION)       # first, as a later version may have other keys
+    if type(version) is not int or version != VERSION:
+        raise ValueError(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here")
+    return _parts(where, **_fields(_parts, description, where, skip=("zerodrift", "version")))
 
 
 def system(description: dict[str, Any], where: str) -> MechanismSystem:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, inertia: float = 10.0, fork_mass: float = 5.0,
             fork_inertia: float = 0.3, amplitude: float = 0.3, frequency: float = 1.5, stiffness: float = 60.0,
             damping: float = 4.0, thrust: float = 0.0, speed: float = 5.0) -> Mechanism:

@@ -8,9 +8,11 @@ import numpy as np
 
 from .. import _check, inertia
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import sympy
 
 
+@checked
 def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.pi / 2, dwell: float = np.pi / 2,
                  fall: float = np.pi / 2, speed: float = 2 * np.pi, cam_mass: float = 1.0, follower_mass: float = 0.5,
                  stiffness: float = 500.0, preload: float = 20.0, gravity: float = 9.81) -> Mechanism:
@@ -65,13 +67,13 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     if not rise + dwell + fall < 2 * np.pi:
         raise ValueError(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}")
     m = Mechanism("cam_follower", gravity=(0.0, -_check.number("gravity", gravity)))
-    cam = m.body("cam", *inertia.disc(mass=cam_mass, radius=base))
+    cam = m.body("cam", *inertia.disc(mass=_check.number("cam_mass", cam_mass, above=0), radius=base))
     follower = m.body("follower", follower_mass, at=(0, base))
     m.revolute("shaft", m.ground, cam, at=(0, 0))
     m.prismatic("guide", m.ground, follower, axis=(0, 1))
     m.cam("contact", "shaft", "guide", profile=_profile(_check.number("lift", lift, above=0), rise, dwell, fall))
     top = m.ground.point((0, 2 * base + lift))
-    if _check.number("stiffness", stiffness, least=0) > 0:
+    if stiffness > 0:
         m.spring("spring", top, follower.point((0, 0)), stiffness=stiffness, length=base + lift + preload / stiffness)
     m.motor("drive", "shaft", speed=speed)
     return m

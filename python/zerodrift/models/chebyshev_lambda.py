@@ -6,10 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Any = 0.2, gravity: Any = None) -> Mechanism:
     """The four-bar of Chebyshev's plantigrade machine: its ground is 2, coupler and rocker are 2.5 cranks long.
 
@@ -45,6 +48,7 @@ def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Any 
     >>> bool(abs(np.ptp(x) - 0.4) < 0.1), bool(np.ptp(y) < 0.01 * np.ptp(x))
     (True, True)
     """
+    crank = _check.number("crank", crank, above=0)
     m = linkage({"A": (0, 0), "B": (0, 1), "C": (2, 2.5), "D": (2, 0), "P": (4, 4)},
                 {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
                 lengths={"AB": 1, "AD": 2, "BC": 2.5, "CP": 2.5, "BP": 5, "DC": 2.5}, scale=crank, mass=mass, gravity=gravity,

@@ -6,10 +6,12 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 LEAN = np.radians(75.0)     # of the first link at the start, as the last leans the other way but for a quarter
 
 
+@checked
 def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81,
                     span: float | None = None) -> Mechanism:
     """A chain of equal slender links, pinned at both ends on one level; it is let go from an arch above the pins.

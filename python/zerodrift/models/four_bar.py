@@ -8,8 +8,10 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.0), gravity: float = 9.81,
              crank_angle: float = np.pi / 2, crank_rate: float = 1.0) -> Mechanism:
     """The paper's first example: crank, coupler and rocker under gravity, from bodies and joints.
@@ -34,8 +36,8 @@ def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.
 
     Raises
     ------
-    CorrectionFailed
-        If no four-bar has these lengths; it says by how much it stays open.
+    ValueError
+        If coupler and rocker do not meet.
 
     References
     ----------
@@ -53,6 +55,10 @@ def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.
     ground, crank, coupler, rocker = (_check.number(f"lengths[{i}]", length, above=0) for i, length in enumerate(given))
     masses = _check.vector("masses", masses, 3).tolist()
     at = crank * np.array([np.cos(crank_angle), np.sin(crank_angle)])
+    apart = np.hypot(*(at - (ground, 0)))
+    if not abs(coupler - rocker) < apart < coupler + rocker:
+        raise ValueError(f"coupler and rocker, of {coupler:g} and {rocker:g} m, do not meet: with the crank at {crank_angle:g} "
+                         f"rad they begin {apart:g} m apart; lengths are {ground:g}, {crank:g}, {coupler:g}, {rocker:g} m")
     high = np.array([ground - 0.1 * rocker, rocker])        # roughly: lengths count
     m = Mechanism("four_bar", gravity=(0.0, -_check.number("gravity", gravity)))
     links = [m.link("crank", (0, 0), at, masses[0]), m.link("coupler", at, high, masses[1], length=coupler),

@@ -6,8 +6,10 @@ import itertools
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def four_bars(loops: int = 2, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81, speed: float = 1.0) -> Mechanism:
     """N parallelograms in a row, upright, whose upper joints start along x; every upright turns as the first does.
 

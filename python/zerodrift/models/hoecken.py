@@ -9,8 +9,10 @@ import numpy as np
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, speed: float = 2 * np.pi, mass: Any = 0.2,
             gravity: Any = None) -> Mechanism:
     """A crank-rocker whose rocker and both halves of the coupler are equally long; its point ``P`` draws a line.

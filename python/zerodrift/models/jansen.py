@@ -8,6 +8,7 @@ import numpy as np
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 SKETCH = {"Z": (0, 0), "Y": (-38, -7.8), "X": (15, 0), "V": (-19, 33), "U": (-15, -40), "W": (-72, 10), "T": (-60, -30),
           "F": (-20, -85)}
@@ -16,6 +17,7 @@ LENGTHS = {"ZX": 15, "XV": 50, "XU": 61.9, "YV": 41.5, "VW": 55.8, "YW": 40.1, "
            "UF": 49}
 
 
+@checked
 def jansen(*, speed: float = -2 * np.pi, mass: Any = 1.0, scale: float = 0.01, gravity: Any = (0.0, -9.81)) -> Mechanism:
     """The leg of Jansen's walking machines: one crank, seven links, and a foot whose path is flat below.
 

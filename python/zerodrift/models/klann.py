@@ -8,6 +8,7 @@ import numpy as np
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 # The patent's numbers of its joints are beside their letters here.
 SKETCH = {"O": (1.599, 0.750), "A": (1.366, 1.366), "B": (1.009, 0.574), "M": (1.331, 0.750), "C": (0.741, 0.750),
@@ -16,6 +17,7 @@ LINKS = {"ground": "OAB", "crank": "OM", "connecting rod": "MCD", "lower rocker"
 LENGTHS = {"OM": 0.268, "MC": 0.590, "CD": 0.522, "MD": 1.105, "BC": 0.321, "AE": 0.518, "ED": 0.897, "DF": 0.897, "EF": 1.732}
 
 
+@checked
 def klann(*, speed: float = -2 * np.pi, mass: Any = 1.0, scale: float = 0.4, gravity: Any = (0.0, -9.81)) -> Mechanism:
     """The leg of Klann's walking machines: a crank, two rockers, a connecting rod and the leg, six bars of Stephenson's kind.
 

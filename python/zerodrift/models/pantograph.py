@@ -9,11 +9,13 @@ import numpy as np
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing, symbol
 
 MIDDLE = np.array([1.0, 0.6])       # of the figure, in arms from O
 
 
+@checked
 def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate: float = 2 * np.pi, mass: Any = 0.1,
                gravity: Any = None) -> Mechanism:
     """Four bars about a parallelogram, such that ``O``, the tracer ``Q`` and the pen ``P`` are in line, and O P is ratio O Q.

@@ -9,9 +9,11 @@ import numpy as np
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, amplitude: float = 1.2, rate: float = 2 * np.pi,
                 mass: Any = 0.2, gravity: Any = None) -> Mechanism:
     """A rhombus on two arms: its near corner ``Q`` goes on a circle through ``O``, and its far corner ``P`` on a line.

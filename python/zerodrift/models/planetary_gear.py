@@ -6,10 +6,12 @@ import numpy as np
 
 from .. import _check, inertia
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 RPM = 2 * np.pi / 60
 
 
+@checked
 def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module: float = 0.005, carrier_speed: float = -200 * RPM,
                    sun_speed: float = -100 * RPM, density: float = 78.5, load: float = -10.0) -> Mechanism:
     """A gear of two freedoms, of which carrier and sun are driven; the ring turns as Willis's equation has it.

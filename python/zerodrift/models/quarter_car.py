@@ -6,9 +6,11 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffness: float = 80e3, damping: float = 350.0,
                 tyre_stiffness: float = 500e3, tyre_damping: float = 15020.0, amplitude: float = 0.05, rate: float = 2 * np.pi,
                 gravity: float = 9.81) -> Mechanism:

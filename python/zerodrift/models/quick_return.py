@@ -6,8 +6,10 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 0.065, rod: float = 0.030, height: float = 0.050,
                  speed: float = -15.0, mass: float = 0.1, ram_mass: float = 0.5, gravity: float = 0.0) -> Mechanism:
     """A crank above the lever's hinge, whose pin slides in the lever; a rod from the lever's end moves a ram along x.
@@ -59,8 +61,8 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     lowest = b * np.sqrt(1 - (a / g)**2) if a < g else -b
     reach = max(abs(b - height), abs(lowest - height))
     if a == g or not reach < c:
-        raise ValueError(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line, and "
-                         f"crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m")
+        raise ValueError(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
+                         f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m")
     m = Mechanism("quick_return", gravity=(0.0, -_check.number("gravity", gravity)))
     pin = np.array([a, g])
     end = b * pin / np.hypot(*pin)

@@ -6,9 +6,11 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, amplitude: float = 0.1, rate: float = np.pi,
                  mass: float = 2.0, platform: float = 10.0, load: float = 100.0, gravity: float = 9.81) -> Mechanism:
     """A lift of so many stages, whose lower right arm's end is moved along the ground.
@@ -66,6 +68,7 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     m = Mechanism("scissor_lift", gravity=(0.0, -_check.number("gravity", gravity)))
     rises = [m.link(f"rise{i}", (0, i * h), (w, (i + 1) * h), mass) for i in range(n)]
     falls = [m.link(f"fall{i}", (0, (i + 1) * h), (w, i * h), mass) for i in range(n)]
+    platform, load = _check.number("platform", platform, least=0), _check.number("load", load, least=0)
     deck = m.body("platform", platform, platform * w**2 / 12, at=(0, n * h), com=(w / 2, 0))
     m.particle("load", load, at=deck.point((w / 2, 0)))
     m.revolute("foot", m.ground, rises[0].start)

@@ -6,8 +6,10 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float = 1.0, slider_mass: float = 1.0,
                  rod_inertia: float = 2.0, stiffness: float = 1.0, damping: float = 1.0, rest_length: float = 1.0,
                  pull: float = 1.0, angle: float = np.pi / 2) -> Mechanism:
@@ -53,7 +55,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     a, b = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
     if not b > a:
         raise ValueError(f"rod must be longer than the crank of {a:g} m, not {b:g}")
-    angle = _check.number("angle", angle)
+    rest_length = _check.number("rest_length", rest_length, least=0)
     m = Mechanism("slider_crank")
     crank_body = m.body("crank", 0.0, crank_inertia, angle=angle)
     pin = crank_body.point((a, 0))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: float = 0.072, wheel_inertia: float = 0.0013,
                half: float = 0.2, rotor_swing: float = 0.7, wheel_swing: float = 0.3, rotor_rate: float = 1.0,
                wheel_rate: float = 1.0) -> Mechanism:

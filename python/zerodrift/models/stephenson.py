@@ -8,6 +8,7 @@ import numpy as np
 
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 TURN = np.radians(20.0)     # of the coupler's side BE from BC, and of AF from AD the other way
 CE = np.sqrt(0.105**2 + 0.225**2 - 2 * 0.105 * 0.225 * np.cos(TURN))
@@ -17,6 +18,7 @@ SKETCH = {"A": (0, 0), "D": (0.135, 0), "F": (0.195 * np.cos(TURN), -0.195 * np.
 LINKS = {"ground": "ADF", "crank": "AB", "coupler": "BCE", "rocker": "DC", "link": "EG", "output": "FG"}
 
 
+@checked
 def stephenson(*, speed: float = 2 * np.pi, mass: Any = 0.2, scale: float = 1.0, gravity: Any = None) -> Mechanism:
     """A crank ``AB``, a coupler with three hinges, ``BCE``, two rockers on the ground, ``DC`` and ``FG``, and a link ``EG``.
 

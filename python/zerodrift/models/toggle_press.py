@@ -6,8 +6,10 @@ import numpy as np
 
 from .. import _check
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 
 
+@checked
 def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, distance: float = 0.352, speed: float = 2 * np.pi,
                  mass: float = 1.0, ram_mass: float = 20.0, load: float = 1000.0, gravity: float = 9.81) -> Mechanism:
     """Two equal links between the frame's head and the ram, and a crank with a rod that pushes the knee between them.

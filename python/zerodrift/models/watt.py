@@ -9,9 +9,11 @@ import numpy as np
 from .. import _check
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
+from ._arguments import checked
 from ._swing import swing
 
 
+@checked
 def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, rate: float = 2 * np.pi, mass: Any = 0.2,
          gravity: Any = None) -> Mechanism:
     """Two equal rockers, level in the middle position, and an upright coupler between them, whose middle ``P`` goes up and down.
