@@ -40,21 +40,24 @@ def floors(folder, bar):
 
 
 def steps(problems, ours):
-    """Rows: a step of rk4 with projection, and what that is of the yardstick's."""
+    """Rows: a step of rk4 with projection, and what that is of the yardstick's that has the same instructions."""
     chain = problems.four_bar()
+    best = zd.simulate(zd.systems.four_bar(), STEP, step=STEP).settings["vector"]
+    yardsticks = {"baseline": "with_polynomials", best: "of_this_machine"}
+    ours_by = {}
     with tempfile.TemporaryDirectory() as folder:
         calls = dict(floors(folder, zd.systems.four_bar()))
         for kind in ours.kinds(chain):
-            for road, direct in (("", None), (", general road", False)):
-                calls[kind + road] = functools.partial(simulated, ours.system_of(chain, kind), direct)
+            for name, settings in [*((unit, {"vector": unit}) for unit in yardsticks), ("general road", {"direct": False})]:
+                ours_by[f"{kind}, {name}"] = yardsticks.get(name)
+                calls[f"{kind}, {name}"] = functools.partial(simulated, ours.system_of(chain, kind), settings)
         times = least(30, *(functools.partial(processor_time, call, count)
                             for call in calls.values() for count in (SHORT, LONG)))
     ns = {name: 1e9 * (times[2 * i + 1] - times[2 * i]) / (LONG - SHORT) for i, name in enumerate(calls)}
     for name, value in ns.items():
         yield f"a corrected step of rk4, {name.replace('_', ' ')}", value, "ns", None
-        if name not in FLOORS:
-            limit = 1.5 if "road" not in name else None
-            yield f"to the yardstick with polynomials, {name}", value / ns["with_polynomials"], "", limit
+        if ours_by.get(name):
+            yield f"to the yardstick {ours_by[name].replace('_', ' ')}, {name}", value / ns[ours_by[name]], "", 1.5
 
 
 def processor_time(call, count):
@@ -64,10 +67,10 @@ def processor_time(call, count):
     return time.process_time() - start
 
 
-def simulated(system, direct, count):
+def simulated(system, settings, count):
     """So many steps of which the last is saved."""
     projection = zd.Projection(tol=TOLERANCE)
-    return zd.simulate(system, count * STEP, step=STEP, save_every=count, stabilization=projection, direct=direct)
+    return zd.simulate(system, count * STEP, step=STEP, save_every=count, stabilization=projection, **settings)
 
 
 def accurate(chain, module, sweeps, exact):

@@ -105,3 +105,16 @@ def test_only_leaves_that_are_there_are_gone_through():
     hessian = Hessian(graph, gradient, node)
     assert [[hessian[a, b] for b in leaves] for a in leaves] == [
         [graph.number(2) if a is b else graph.zero for b in leaves] for a in leaves]
+
+
+@pytest.mark.parametrize(("given", "expected"), [
+    (sp.sin(X[2]) * (X[0] - X[1]) * X[1] - sp.sin(X[2]) * X[0] * X[1], -sp.sin(X[2]) * X[1]**2),
+    (A * (X[0] - X[1]) * (X[0] + X[1]) - A * X[0]**2, -A * X[1]**2),
+    ((X[0] + X[1]) * X[2] - X[0] * X[2] - X[1] * X[2], sp.S.Zero),
+    ((X[0] + X[1]) * (X[0] + X[2]) * sp.sin(X[3]) + X[0], None), ((X[0] + X[1]) * X[2], None)])
+def test_sums_of_leaves_are_multiplied_out_where_that_leaves_fewer_terms(given, expected):
+    """Else, which is where nothing is expected, what was given stays."""
+    reader = Reader()
+    known = {**{x: reader.graph.leaf("p", i) for i, x in enumerate(X)}, A: reader.graph.leaf("parameter", 0)}
+    node = reader.read("given", given, known)
+    assert reader.graph.collected(node, "p") is (node if expected is None else reader.read("expected", expected, known))

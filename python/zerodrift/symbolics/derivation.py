@@ -74,7 +74,9 @@ class Derivation:
             raise ValueError("kinetic must be quadratic in the velocities: its mass matrix depends on them")
         D = self._derivative_at_constant_v()
         slopes = self._listed(self.by_position(T), self.p)
-        d = [graph.plus(D(moment), graph.minus(slope)) for moment, slope in zip(momentum, slopes, strict=True)]
+        kind = self.rate[0].content[0]      # rates of differences of angles are multiplied out: most of their products cancel
+        d = [graph.collected(graph.plus(D(moment), graph.minus(slope)), kind)
+             for moment, slope in zip(momentum, slopes, strict=True)]
         if A is None:
             return T_rr, d
         at_v = graph.substitution(dict(zip(self.rate, self.pdot, strict=True)))

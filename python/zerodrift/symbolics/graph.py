@@ -177,6 +177,22 @@ class Graph:
                 return self.sum((self.multiplied_out(self.product([*fixed, (term, 1)])), factor) for term, factor in terms)
         return node
 
+    def collected(self, node: Node, kind: str) -> Node:
+        """The node with sums of leaves of a kind multiplied out, where that leaves fewer terms, as like ones are collected."""
+        if node.kind != "sum":
+            return node
+        found = self.sum((self._spread(term, kind), factor) for term, factor in node.content)
+        return found if found.kind != "sum" or len(found.content) < len(node.content) else node
+
+    def _spread(self, term: Node, kind: str) -> Node:
+        """The product with the first sum of such leaves multiplied out, and the others in what comes of that."""
+        for base, exponent in term.content if term.kind == "product" else ():
+            are_leaves = base.kind == "sum" and all(each.kind == "leaf" and each.content[0] == kind for each, _ in base.content)
+            if exponent == 1 and are_leaves:
+                rest = [*term.content, (base, -1)]
+                return self.sum((self._spread(self.product([*rest, (leaf, 1)]), kind), factor) for leaf, factor in base.content)
+        return term
+
 
 def power(base: Number, exponent: Number) -> Number:
     """A number to an exponent, exact where it can be."""
