@@ -58,9 +58,55 @@ ZD_INLINE void zd_combine(const int positions, const int size, const int terms, 
     zd_combine_some(positions, size, size, terms, weight, h, k, y, to);
 }
 
-ZD_INLINE int zd_runge_kutta_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
+ZD_INLINE double zd_combined(int i, const int size, const int terms, const double *weight, double h, const double *k, const double *y)
 {
-    const int size = self->size = rate->size, positions = rate->direct ? rate->system->nq : 0;      /* it may have changed */
+    double sum = y[i];
+    ZD_UNROLL
+    for (int j = 0; j < terms; j++)
+        if (weight[j] != 0) sum += (h * weight[j]) * k[j * size + i];
+    return sum;
+}
+
+/* n of these entries, the first being `begin`, also to `copy` */
+ZD_INLINE void zd_combine_pairs(const int begin, const int n, const int size, const int terms, const double *weight, double h,
+                                const double *k, const double *y, double *to, double *copy)
+{
+    ZD_UNROLL
+    for (int i = 0; i + 1 < n; i += 2) {
+        double a = zd_combined(begin + i, size, terms, weight, h, k, y), b = zd_combined(begin + i + 1, size, terms, weight, h, k, y);
+        zd_store_pair(a, b, to + begin + i);
+        if (copy) zd_store_pair(a, b, copy + i);
+    }
+    if (n % 2 == 0) return;
+    to[begin + n - 1] = zd_combined(begin + n - 1, size, terms, weight, h, k, y);
+    if (copy) copy[n - 1] = to[begin + n - 1];
+}
+
+/* Of n coordinates whose rates are the n velocities, and of these by a direct function alone. */
+ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
+                                         double *y)
+{
+    const zd_system *system = rate->system;
+    double *k = self->k, *stage = self->stage;
+    int status = zd_rate_of_beginning(rate, t, y, k);
+    ZD_UNROLL
+    for (int i = 1; i < T->stages; i++) {
+        double *rates = k + i * 2 * n;
+        const double of_stage = t + T->c[i] * h;
+        if (status) return status;
+        zd_combine_pairs(0, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, NULL);
+        zd_combine_pairs(n, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, rates);
+        status = rate->direct->accelerate(system->data, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
+    }
+    if (status) return ZD_CALLBACK;
+    zd_combine_pairs(0, n, 2 * n, T->stages, T->b, h, k, y, y, NULL);
+    zd_combine_pairs(n, n, 2 * n, T->stages, T->b, h, k, y, y, NULL);
+    return ZD_DONE;
+}
+
+ZD_INLINE int zd_runge_kutta_any_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
+{
+    const int size = rate->size, positions = rate->direct ? rate->system->nq : 0;
     double *k = self->k, *stage = self->stage;
     int status = zd_rate_of_beginning(rate, t, y, k);
     ZD_UNROLL
@@ -74,6 +120,14 @@ ZD_INLINE int zd_runge_kutta_step(const zd_tableau *T, zd_runge_kutta *self, con
     zd_copy(positions, self->end, y);
     zd_copy(size - positions, self->end + positions, y + positions);
     return ZD_DONE;
+}
+
+ZD_INLINE int zd_runge_kutta_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
+{
+    self->size = rate->size;        /* it may have changed */
+    const int is_plain = rate->direct && !(rate->system->provides & ZD_A);
+    return is_plain ? ZD_SIZED(zd_runge_kutta_direct_step, rate->system->nv, T, self, rate, t, h, y)
+                    : zd_runge_kutta_any_step(T, self, rate, t, h, y);
 }
 
 /* The sum of squares of sum_j weight_j k_j in units of scale */

@@ -39,10 +39,35 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
+/* Two neighbours in one store. A processor hands on what it has just stored to loads of that or of a part of it; one of more has to wait until
+ * it is in the cache. */
+ZD_INLINE void zd_store_pair(double a, double b, double *to)
+{
+#if defined(__GNUC__) || defined(__clang__)
+    typedef double pair __attribute__((vector_size(16), aligned(8), may_alias));
+    *(pair *)to = (pair){a, b};
+#else
+    to[0] = a, to[1] = b;
+#endif
+}
+
 /* to <- a - b; to may be a or b */
 ZD_INLINE void zd_subtract(const int n, const double *a, const double *b, double *to)
 {
     for (int i = 0; i < n; i++) to[i] = a[i] - b[i];
+}
+
+/* The same for what is loaded in pairs right after */
+ZD_INLINE void zd_subtract_pairs(const int n, const double *a, const double *b, double *to)
+{
+    for (int i = 0; i + 1 < n; i += 2) zd_store_pair(a[i] - b[i], a[i + 1] - b[i + 1], to + i);
+    if (n % 2) to[n - 1] = a[n - 1] - b[n - 1];
+}
+
+ZD_INLINE void zd_copy_pairs(const int n, const double *from, double *to)
+{
+    for (int i = 0; i + 1 < n; i += 2) zd_store_pair(from[i], from[i + 1], to + i);
+    if (n % 2) to[n - 1] = from[n - 1];
 }
 
 ZD_INLINE double zd_dot(const int n, const double *a, const double *b)

@@ -21,7 +21,7 @@ static int improve(zd_motion *motion, int iteration, double *first, double *p)
     if (iteration == motion->hold.max_iterations) return ZD_NO_CONVERGENCE;
     if (iteration == 0) *first = residual;
     if (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first)) return ZD_NO_CONVERGENCE;
-    ZD_SIZED(zd_subtract, point->system->nq, p, motion->road.dp, p);    /* (25a), (26a), (27a) */
+    ZD_SIZED(zd_subtract_pairs, point->system->nq, p, motion->road.dp, p);    /* (25a), (26a), (27a) */
     zd_quaternions_normalise(point->system, p);
     return ZD_DONE;
 }
