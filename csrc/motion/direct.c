@@ -11,14 +11,13 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "motion.h"
+#include "pivots.h"
 
-static const double LARGE = 0x1p-3;         /* the first order with such pivots is taken, */
+static const double LARGE = ZD_LARGE_PIVOT; /* the first order with such pivots is taken, */
 static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in
                                              * D and ten in M */
 static const double SMALL = 0x1p-6;         /* for a step to end with: the general road counts less of a row as ill-conditioned, too */
 static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
-static const double SHRUNK = 0x1p-4;        /* within a step: what lies between its ends is then no longer known from them */
 static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
 
 const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit)
@@ -39,7 +38,7 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
     if (!direct) return;
     motion->road = (zd_road){
         .direct = direct,
-        .scale = zd_take_doubles(arena, (size_t)(direct->orders * zd_constraints(system))),
+        .scale = zd_take_doubles(arena, (size_t)(direct->orders * system->nv)),
         .pivots = zd_take_doubles(arena, (size_t)system->nv),
         .before = zd_take_doubles(arena, (size_t)system->nv),
         .pdot = zd_take_doubles(arena, (size_t)system->nq),
@@ -50,15 +49,16 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 
 static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 {
-    return motion->road.scale + (order - motion->road.direct->order) * zd_constraints(&motion->system);
+    return motion->road.scale + (order - motion->road.direct->order) * motion->system.nv;
 }
 
-/* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. */
+/* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. Pivots of D^T M D are shares
+ * already: they are weighed so that LARGE means LIGHT. */
 static void measure(const zd_motion *motion, const zd_elimination *order)
 {
     const zd_point *point = motion->point;
     double *scale = scale_of(motion, order);
-    for (int k = 0; k < order->solves; k++) scale[k] = 1;
+    for (int k = 0; k < motion->system.nv; k++) scale[k] = k < order->solves ? 1 : LARGE / LIGHT;
     for (int k = 0; k < zd_constraints(&motion->system); k++)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
 }
@@ -97,6 +97,10 @@ static void use(zd_motion *motion, const zd_elimination *order)
     if (motion->road.order == order) return;
     motion->point->known &= ~ZD_ACCELERATED;
     motion->road.order = order;
+    motion->road.continues = 0;
+    if (order) motion->road.scale_of_order = scale_of(motion, order);
+    for (int k = order ? count_pivots(motion) : motion->system.nv; k < motion->system.nv; k++)
+        motion->road.pivots[k] = motion->road.before[k] = 1;
     motion->road.lands = order && order->land && only_projects(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
     motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
@@ -133,10 +137,9 @@ static void begin(zd_motion *motion)
 static int find_order(zd_motion *motion, double enough)
 {
     zd_road *road = &motion->road;
-    const int m = zd_constraints(&motion->system);
     for (int i = 0; i < road->direct->orders; i++) {
         const zd_elimination *order = road->direct->order + i;
-        if (m && !(*scale_of(motion, order) > 0)) measure(motion, order);
+        if (!(*scale_of(motion, order) > 0)) measure(motion, order);
         use(motion, order);
         if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) continue;
         begin(motion);
@@ -163,7 +166,7 @@ int zd_direct_compare(zd_motion *motion, double moved)
     if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
     const int count = count_pivots(motion);
     for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
-        if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
+        if (!(road->pivots[k] * road->before[k] >= ZD_SHRUNK_PIVOT * road->before[k] * road->before[k])) return ZD_SINGULAR;
     road->smallest = smallest;
     road->was_taken = 1;
     return ZD_DONE;

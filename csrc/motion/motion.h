@@ -67,9 +67,11 @@ typedef struct zd_road {
     const zd_direct *direct;
     const zd_elimination *order;    /* that this step is made with; NULL: it takes the general road */
     int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
-    double *scale;          /* (orders, m): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
+    int continues;          /* whether a glance at the end of a step has found that the next may be made likewise */
+    double *scale;          /* (orders, nv): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
+    const double *scale_of_order;   /* (nv,): of these */
     double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
-    double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began */
+    double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began. Those that no order has are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */
     double *dp;             /* (nq,): of an iteration onto the constraints */
     double *allowed;        /* (mh,): of Phi, so that the projection's tolerance is kept */
@@ -153,6 +155,13 @@ void zd_direct_forget_energy(zd_motion *motion);
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);
 static inline int zd_is_direct(const zd_motion *motion) { return motion->road.order != NULL; }
+/* Whether a step begins where a glance at the one before has seen that it may be made likewise. */
+static inline int zd_direct_continues(zd_motion *motion)
+{
+    int continues = motion->road.continues && (motion->point->known & ZD_ACCELERATED);
+    motion->road.continues = 0;
+    return continues;
+}
 
 /* land.c: the projection of p and v at the end t of a step on the direct road, and the point's acceleration there, by one function, where
  * road.lands says so. Both are the point's own, or have to be copied there. */

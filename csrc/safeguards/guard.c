@@ -13,6 +13,11 @@
  * Second, it has to be short enough for the method to be stable. In an instability the fastest part of the motion outgrows all others;
  * then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is compared in every eighth step only, and in every
  * step once one was found too long. What else is looked at only then, in steps that are chosen, too, is in safeguards.c.
+ *
+ * Where a look finds everything far from its limits, the next may come twice as late, up to LOOK_SELDOM steps. The first comparison, which
+ * each step makes, tells when that is over: the left side of it is h^2 / 12 (vdot1 - vdot0), but for terms of higher order, and so
+ * (omega h)^2 / 12 of p1 - p0. From a step in which that is more than a small part, or that is faster than at any look, looks are eight
+ * steps apart again.
  */
 #include "guard.h"
 
@@ -25,11 +30,12 @@
 
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* in natural units: smaller detours come from rounding and tolerances */
-static const double LONG = 0.25;        /* in natural units: a longer step may turn a row of C noticeably */
 static const double RESOLVED = 2;       /* omega h of a motion of which steps still show something: one period is pi steps */
+static const double AMPLE = 0x1p-8;     /* of `limit`: a quarter of the largest omega h */
 enum {
     STREAK = 3,             /* steps in succession that have to be too long: in a single one p1 - p0 may happen to be zero */
     LOOK_EVERY = 8,
+    LOOK_SELDOM = 64,       /* a power of two times that, and no more than what consistency.c waits for */
 };
 
 zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
@@ -49,23 +55,12 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .astray = 0.5 * astray * astray,
         .nearby = least * least,
         .limit = resolved * resolved * resolved * resolved,
+        .pause = LOOK_EVERY,
+        .is_ample = 1,
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
         .vdot = zd_take_doubles(arena, (size_t)system->nv),
     };
-}
-
-ZD_INLINE zd_detour compare(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *inverse_unit)
-{
-    zd_detour sum = {0, 0, 0};
-    for (int i = 0; i < n; i++) {
-        double moved = (p[i] - p0[i]) * inverse_unit[i], rate = guard->rate[i] * inverse_unit[i];
-        double detour = moved - 0.5 * h * (guard->pdot[i] * inverse_unit[i] + rate);
-        sum.moved += moved * moved;
-        sum.detour += detour * detour;
-        sum.speed += rate * rate;
-    }
-    return sum;
 }
 
 /* The squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, at the nearest s of 0 ... 1 */
@@ -127,15 +122,17 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     const zd_point *point = guard->motion->point;
     double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->inverse_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
+    guard->is_ample = power <= AMPLE * guard->limit * moved;
     if (!(moved > 0)) return;
     if (power > guard->largest_fourth * moved && power < INFINITY) guard->largest_fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
-static int is_watched(const zd_guard *guard, int64_t step)
+/* The first of the steps that are looked at after this one, where one of so many is. */
+static int64_t next_of(int64_t every, int64_t step)
 {
-    return step <= LOOK_EVERY || step % LOOK_EVERY == 0 || guard->streak;
+    return (step / every + 1) * every;
 }
 
 ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
@@ -144,7 +141,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
     zd_point *point = motion->point;
     int status = zd_point_need(point, ZD_A);
     /* The next step begins with this acceleration, so that it costs nothing. */
-    if (!status && (guard->watches_step || is_watched(guard, next_step))) status = zd_motion_accelerate(motion);
+    if (!status && (guard->watches_step || next_step >= guard->next_look)) status = zd_motion_accelerate(motion);
     if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;
 }
@@ -153,10 +150,17 @@ ZD_INLINE void keep(zd_guard *guard, double speed, int64_t next_step)
 {
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
-    guard->watches_step = is_watched(guard, next_step);
+    guard->watches_step = next_step >= guard->next_look;
     if (guard->watches_step) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
     guard->speed = speed;
     guard->has_begun = 1;
+}
+
+static void look_soon(zd_guard *guard, int64_t next_step)
+{
+    const int64_t soon = next_of(LOOK_EVERY, next_step);
+    guard->pause = LOOK_EVERY;
+    if (guard->next_look > soon) guard->next_look = soon;
 }
 
 /* The most that a coordinate has moved: of many, all together move far in any step. */
@@ -174,7 +178,7 @@ int zd_guard_begin(zd_guard *guard, int64_t step)
     const zd_point *point = guard->motion->point;
     int status = evaluate_end(guard, step);
     if (status) return status;
-    keep(guard, ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, 0, point->inverse_unit_p).speed, step);
+    keep(guard, ZD_SIZED(zd_guard_find, point->system->nq, guard, guard->last->p, point->p, 0, point->inverse_unit_p).speed, step);
     return ZD_DONE;
 }
 
@@ -183,19 +187,28 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     const zd_point *point = guard->motion->point;
     int status = evaluate_end(guard, next_step);
     if (status) return status;
-    const zd_detour sum = *found = ZD_SIZED(compare, point->system->nq, guard, guard->last->p, point->p, h, point->inverse_unit_p);
-    double allowed = guard->astray * h * h * (guard->speed + sum.speed) + guard->nearby;
+    const zd_detour sum = *found = ZD_SIZED(zd_guard_find, point->system->nq, guard, guard->last->p, point->p, h, point->inverse_unit_p);
+    if (!zd_guard_is_calm(guard, &sum)) look_soon(guard, next_step);
+    const double allowed = zd_guard_allows(guard, h, &sum);
     if (!guard->checks_branch) return ZD_DONE;
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
-    if (sum.moved <= LONG * LONG || (point->rank->is_large && largest_move(guard) <= LONG)) return ZD_DONE;
+    if (sum.moved <= ZD_LONG * ZD_LONG || (point->rank->is_large && largest_move(guard) <= ZD_LONG)) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
     return status ? status : unresolved ? ZD_BRANCH : ZD_DONE;
 }
 
-int zd_guard_watch(zd_guard *guard, double moved, double h)
+int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h)
 {
-    if (guard->checks_stability) estimate_omega(guard, moved, h);
+    if (guard->checks_stability) estimate_omega(guard, found->moved, h);
+    guard->fastest = fmax(guard->fastest, found->speed);
     return zd_has_energy(&guard->motion->system) ? note_energy(guard) : ZD_DONE;
+}
+
+void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample)
+{
+    if (!is_ample || !guard->is_ample) guard->pause = LOOK_EVERY;
+    else if (guard->pause < LOOK_SELDOM && step % guard->pause == 0) guard->pause *= 2;
+    guard->next_look = step < LOOK_EVERY || guard->streak ? step + 1 : next_of(guard->pause, step);
 }
 
 void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step)

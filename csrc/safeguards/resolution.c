@@ -19,11 +19,12 @@
 
 #include "../linalg/small.h"
 
-static const double FORGET = 1.0 / 128;     /* of the sums at each look; most looks are eight steps apart */
+static const double FORGET = 1.0 / 128;     /* of the sums at each look, or of every eight steps between two that are further apart */
 static const double SHARE = 1e-3;           /* of the path: steps with a smaller error are short enough */
 static const double UNRESOLVED = 0.03;      /* in natural units: the user is told of an error as large as this */
 static const double HALF_TURN = 3.141592653589793;
 static const double NOTED = 1e-3;           /* in natural units: the statistics do not have smaller ones */
+static const double AMPLE = 0x1p-4;         /* of these: what is smaller may be looked at less often */
 
 /* The error of a step by what Hermite's formula misses, which is better than some methods and worse than others. */
 static double error_by_defect(int order)
@@ -75,6 +76,17 @@ ZD_INLINE double locate(const zd_resolution *self, int i, double led)
     return self->by_velocity ? self->place[i] + led : point->p[i] * point->inverse_unit[i];
 }
 
+/* Whether an error counts, if it is compared with so much of the bounds */
+ZD_INLINE int counts(double error, double path, double share)
+{
+    return error > share * NOTED && error > share * SHARE * path;
+}
+
+static double forgotten(double steps)
+{
+    return steps > 8 ? steps / 8 * FORGET : FORGET;
+}
+
 static void note(zd_motion *motion, int i, double error)
 {
     zd_statistics *statistics = &motion->statistics;
@@ -89,29 +101,35 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
     const zd_point *point = self->motion->point;
     const double *inverse_unit = point->inverse_unit;
     const int first = self->step == 0;
+    const double forget = forgotten(steps);
+    int near = 0;
     for (int i = 0; i < n; i++) {
         double led = steps * h / 2 * (self->last->v[i] + point->v[i]) * inverse_unit[i], at = locate(self, i, led);
-        self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - FORGET * self->error[i];
-        self->path[i] += fabs(led) - FORGET * self->path[i];
+        self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - forget * self->error[i];
+        self->path[i] += fabs(led) - forget * self->path[i];
         if (self->by_velocity) self->place[i] = at;
         self->lowest[i] = first || at < self->lowest[i] ? at : self->lowest[i];
         self->highest[i] = first || at > self->highest[i] ? at : self->highest[i];
         double range = self->highest[i] - self->lowest[i], error = self->error[i] < range ? self->error[i] : range;
-        if (error > NOTED && error > SHARE * self->path[i]) note(self->motion, i, error);
+        near |= counts(self->error[i], self->path[i], AMPLE);
+        if (counts(error, self->path[i], 1)) note(self->motion, i, error);
     }
+    self->is_ample = !near;
 }
 
 /* An attitude cannot be off by more than half a turn. */
 static void add_up_turns(zd_resolution *self, double h, double steps)
 {
+    const double forget = forgotten(steps);
     for (int k = 0; k < self->motion->system.quaternions; k++) {
         const int i = self->motion->system.nv + k;
         double missed, turned;
         zd_turning_compare(&self->turning, k, h, &missed, &turned);
-        self->error[i] += steps * error_by_defect(self->order) * missed - FORGET * self->error[i];
-        self->path[i] += steps * turned - FORGET * self->path[i];
+        self->error[i] += steps * error_by_defect(self->order) * missed - forget * self->error[i];
+        self->path[i] += steps * turned - forget * self->path[i];
         double error = fmin(self->error[i], HALF_TURN);
-        if (error > NOTED && error > SHARE * self->path[i]) note(self->motion, i, error);
+        self->is_ample &= !counts(error, self->path[i], AMPLE);
+        if (counts(error, self->path[i], 1)) note(self->motion, i, error);
     }
 }
 

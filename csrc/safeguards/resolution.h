@@ -15,6 +15,7 @@ typedef struct zd_resolution {  /* (nv + quaternions,): what the steps miss of e
     double *place, *lowest, *highest;   /* (nv,): where it is; the range in which it has moved */
     zd_turning turning;     /* of the quaternions */
     int64_t step;              /* the last step that was looked at */
+    int is_ample;           /* whether all that was missed until then is far from what is noted */
 } zd_resolution;
 
 /* Where a step begins are vdot0 and pdot0, and where it ends is pdot1. */

@@ -21,16 +21,17 @@ int zd_safeguards_begin(zd_safeguards *self, int64_t step)
 }
 
 /* What is looked at now and then only: stability, energy, each part by itself, and the system's own consistency. */
-static int look_closely(zd_safeguards *self, double moved, double h, int64_t step)
+static int look_closely(zd_safeguards *self, const zd_detour *found, double h, int64_t step)
 {
-    int status = zd_guard_watch(&self->guard, moved, h);
+    int status = zd_guard_watch(&self->guard, found, h);
     if (!status && self->guard.checks_stability) status = zd_resolution_look(&self->resolution, h, step);
+    zd_guard_pause(&self->guard, step, !self->guard.checks_stability || self->resolution.is_ample);
     return status ? status : zd_consistency_look(&self->consistency, step);
 }
 
-static int look(zd_safeguards *self, double moved, double h, int64_t step, int parts)
+static int look(zd_safeguards *self, const zd_detour *found, double h, int64_t step, int parts)
 {
-    if (!parts) return look_closely(self, moved, h, step);
+    if (!parts) return look_closely(self, found, h, step);
     return self->guard.checks_stability ? zd_resolution_look_at_turns(&self->resolution, h, step, parts) : ZD_DONE;
 }
 
@@ -42,7 +43,7 @@ int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int pa
     if (!status) status = zd_is_direct(self->guard.motion) ? zd_direct_compare(self->guard.motion, found.moved)
                                                            : zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
-    if (self->guard.watches_step) status = look(self, found.moved, h, next_step - 1, parts);
+    if (self->guard.watches_step) status = look(self, &found, h, next_step - 1, parts);
     zd_guard_keep(&self->guard, found.speed, next_step);
     return status;
 }

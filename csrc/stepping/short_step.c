@@ -2,6 +2,7 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "../safeguards/glance.h"
 
 /* Zero times what is not finite is not a number; the sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *y)
@@ -26,7 +27,7 @@ ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
     motion->rate.vdot = motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
     int status = stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
     motion->rate.vdot = NULL;
-    return status ? status : is_finite(n, stepper->y) ? ZD_DONE : ZD_NOT_FINITE;
+    return status;      /* what is not finite is found as the step lands */
 }
 
 int zd_short_integrate(zd_course *course, double h)
@@ -39,20 +40,21 @@ int zd_short_integrate(zd_course *course, double h)
     return ZD_SIZED(integrate, point->system->nv, stepper, h);
 }
 
-ZD_INLINE int land(const int n, zd_stepper *stepper, double t1)
+ZD_INLINE int land(const int n, zd_course *course, double t1)
 {
-    zd_point *point = stepper->motion->point;
+    zd_stepper *stepper = course->stepper;
+    zd_point *point = course->motion->point;
+    const double h = stepper->last.h;
     point->t = stepper->t = t1;
-    int status = zd_direct_land(stepper->motion, t1, stepper->y, stepper->y + n);
-    zd_copy(n, stepper->y, point->p);
-    zd_copy(n, stepper->y + n, point->v);
-    return status ? status : is_finite(n, stepper->y) ? ZD_DONE : ZD_NOT_FINITE;
+    int status = zd_direct_land(course->motion, t1, stepper->y, stepper->y + n);
+    zd_copy_pairs(n, stepper->y, point->p);
+    zd_copy_pairs(n, stepper->y + n, point->v);
+    if (status) return status;
+    if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1)) return ZD_DONE;
+    return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;
 }
 
 int zd_short_land(zd_course *course, double t1)
 {
-    zd_stepper *stepper = course->stepper;
-    const double h = stepper->last.h;
-    int status = ZD_SIZED(land, course->motion->system.nv, stepper, t1);
-    return status ? status : zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts);
+    return ZD_SIZED(land, course->motion->system.nv, course, t1);
 }
