@@ -123,6 +123,10 @@ class Trace:
                                for p, slope in zip(self.p, self.slopes, strict=True)])
         return place.pick(values)
 
+    def unit_of(self, name: Any) -> str:
+        """The unit of a measure of positions."""
+        return self.system._measuring.measures[self._find(name).number].unit
+
     def _find(self, name: Any) -> Any:
         """Where a measure of positions is found."""
         name, watching = name_of(name, "name"), self.system._watching

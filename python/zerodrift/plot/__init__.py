@@ -7,9 +7,10 @@ and no global setting of matplotlib is touched.
 from .drawing import animate, mechanism, path
 from .plot import energy, energy_violation, error, motion, stability_map, violation, work_precision
 from .style import COLOURS, panels
+from .traces import positions, trace
 
 __all__ = ["COLOURS", "animate", "energy", "energy_violation", "error", "mechanism", "motion", "panels", "path",
-           "stability_map", "violation", "work_precision"]
+           "positions", "stability_map", "trace", "violation", "work_precision"]
 
 
 def __dir__() -> list[str]:

@@ -89,9 +89,9 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     positions += [] if sol is None else [sol.p[row] for row in rows]
     moments, points = _moments(system, positions, sol, names=names, path=path, forces=forces)
     if moments is None:
-        return draw_in_space(_drawing_axes(ax, 3), points, moving=sol is not None and p is None)
-    extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
-    picture = Picture(_drawing_axes(ax, 2), moments, extras)
+        return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
+    extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+    picture = Picture(drawing_axes(ax, 2), moments, extras)
     picture.faintly(range(1, len(moments)))
     picture.show(0)
     return picture.ax
@@ -127,8 +127,8 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     >>> ax = zd.plot.path(sol, "F")
     """
     _check.instance("sol", sol, Solution, A_SOLUTION)
-    found = _paths(sol, points)
-    ax = _drawing_axes(ax, 2)
+    found = paths_of(sol, points)
+    ax = drawing_axes(ax, 2)
     for places in found:
         draw_path(ax, places, 1.0, **style)
     return with_equal_scales(ax)
@@ -177,10 +177,10 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
     moments, points = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
-    ax = _drawing_axes(ax, 3 if moments is None else 2)
+    ax = drawing_axes(ax, 3 if moments is None else 2)
     if moments is None:
         return _film(ax, moved_in_space(ax, points), times, fps)
-    extras = Extras(names, _paths(sol, path), _arrows(sol, forces, rows), force_scale)
+    extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
 
@@ -220,7 +220,7 @@ def _spread(sol: Solution, count: int) -> np.ndarray:
     return np.linspace(0, len(sol.t) - 1, count + 1).round().astype(int)
 
 
-def _paths(sol: Solution | None, points: Any) -> list[np.ndarray]:
+def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
     """The places (k, 2) of points at all rows."""
     several = points if isinstance(points, list | tuple) else [points]
     found = []
@@ -269,7 +269,7 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
     return shapes_of(points, motion), None
 
 
-def _drawing_axes(ax: Axes | None, dimension: int) -> Axes:
+def drawing_axes(ax: Axes | None, dimension: int) -> Axes:
     ax = None if ax is None else given_axes(ax)
     if ax is None:
         ax = plt.figure(layout="constrained").add_subplot(projection="3d" if dimension == 3 else None)

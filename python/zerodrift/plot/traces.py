@@ -1,0 +1,137 @@
+"""Pictures of traces: measures by the one that was traced, and a mechanism in several of its positions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from .. import _check
+from .._gateway import Variable
+from ..kinematics.traced import Trace
+from ..mechanisms.measures import name_of
+from . import style as _style
+from .drawing import drawing_axes, paths_of
+from .mechanism import Extras, Picture
+
+A_TRACE = "a Trace, as zd.trace returns it"
+OTHERS = 8              # positions besides the first
+DEGREES = {"rad": "°"}
+
+
+def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = False, **style: Any) -> Axes:
+    """Draw measures over the measure that was traced; dead points that were passed are circles.
+
+    Parameters
+    ----------
+    traced : Trace
+        What `zerodrift.trace` returned.
+    names : str or measure, or a sequence of them
+        Scalar measures of positions.
+    ax : Axes, optional
+        Left out: a new figure.
+    degrees : bool
+        Whether angles are drawn in degrees.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    KeyError
+        If there is no such measure of positions.
+    ValueError
+        If one of them has components: `zerodrift.plot.positions` draws paths.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.models.chebyshev_lambda()
+    >>> ax = zd.plot.trace(zd.trace(m, "crank.angle"), ["rocker.angle", zd.transmission_angle(m, "C")], degrees=True)
+    >>> ax.get_xlabel()
+    'crank.angle [°]'
+    """
+    _check.instance("traced", traced, Trace, A_TRACE)
+    _check.instance("degrees", degrees, bool, "True or False")
+    units, ax = [], _style.axes(ax)
+    several = [names] if isinstance(names, str) or not isinstance(names, Sequence) else list(names)
+    for name in several:
+        variable = Variable(name_of(name, "each of names"), traced.unit_of(name))
+        values = traced[name]
+        if values.ndim != 1:
+            raise ValueError(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths")
+        (line,) = ax.plot(_shown(traced.values, traced.unit, degrees), _shown(values, variable.unit, degrees),
+                          **{"label": variable.name} | style)
+        dead = [point.before for point in traced.dead_points]
+        ax.plot(_shown(np.array([point.value for point in traced.dead_points]), traced.unit, degrees),
+                _shown(values[dead], variable.unit, degrees), "o", color=line.get_color(), markerfacecolor="white")
+        units.append(_unit(variable.unit, degrees))
+    label = f"{name_of(several[0], 'names')} [{units[0]}]" if len(several) == 1 else f"[{', '.join(dict.fromkeys(units))}]"
+    _style.finished(ax, label, legend=len(several) > 1)
+    ax.set_xlabel(f"{traced.measure} [{_unit(traced.unit, degrees)}]")
+    return ax
+
+
+def positions(traced: Trace, at: Any = None, ax: Axes | None = None, *, names: bool = False, path: Any = ()) -> Axes:
+    """Draw a mechanism in several traced positions: the first as it is, the others faintly, with the paths of points.
+
+    Parameters
+    ----------
+    traced : Trace
+        What `zerodrift.trace` returned.
+    at : array_like of int, optional
+        Numbers of the positions; left out: the first, and eight others along the way.
+    ax : Axes, optional
+        Left out: a new figure.
+    names : bool
+        Whether to write the names of the parts.
+    path : str, point or measure, or a sequence of them
+        Points whose paths through all traced positions are drawn.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    IndexError
+        If there are not so many positions.
+    KeyError
+        If there is no such point.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> turn = zd.trace(zd.models.jansen(), "crank.angle")
+    >>> ax = zd.plot.positions(turn, path="F")
+    """
+    _check.instance("traced", traced, Trace, A_TRACE)
+    chosen = np.linspace(0, len(traced), OTHERS + 1, endpoint=False).astype(int) if at is None else _places(at, len(traced))
+    picture = Picture(drawing_axes(ax, 2), traced.system._sketches([traced.p[place] for place in chosen]),
+                      Extras(_check.instance("names", names, bool, "True or False"), paths_of(traced, path)))
+    picture.faintly(range(1, len(chosen)))
+    picture.show(0)
+    return picture.ax
+
+
+def _places(at: Any, count: int) -> np.ndarray:
+    """Numbers of positions."""
+    places = np.atleast_1d(_check.real("at must hold", at))
+    if places.dtype.kind not in "iu" or places.ndim != 1 or not places.size:
+        raise TypeError(f"at must be numbers of positions, not {_check.shown(at)}")
+    if places.min() < -count or places.max() >= count:
+        raise IndexError(f"at must be numbers of {count} positions, not {_check.shown(at)}")
+    return places
+
+
+def _unit(unit: str, degrees: bool) -> str:
+    return DEGREES.get(unit, unit) if degrees else unit
+
+
+def _shown(values: np.ndarray, unit: str, degrees: bool) -> np.ndarray:
+    return np.degrees(values) if degrees and unit in DEGREES else values
