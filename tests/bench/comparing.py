@@ -5,6 +5,7 @@ and after one call to warm up, in processor time: all use one thread, and what e
 that take long. The least of interleaved rounds counts.
 """
 
+import contextlib
 import csv
 import importlib
 import itertools
@@ -48,9 +49,11 @@ def installed(names, prefix="with_"):
     for peer in names:
         try:
             there[peer] = importlib.import_module(f"{prefix}{peer}")
-            print(f"{PEERS[peer]} {metadata.version(DISTRIBUTIONS.get(peer, peer))}")
         except ImportError as error:
             print(f"{PEERS[peer]} is absent: {error}")
+    for peer in there:
+        with contextlib.suppress(metadata.PackageNotFoundError):       # as of a source tree
+            print(f"{PEERS[peer]} {metadata.version(DISTRIBUTIONS.get(peer, peer))}")
     return there
 
 

@@ -114,6 +114,14 @@ def swing(n):
     return Drawing(f"swing of {n} four-bars", bodies, joints, [], {}, 9.81, 4.0, 80)
 
 
+def chain(n):
+    """A chain of n equal links, let go straight at sixty degrees."""
+    link = 0.1 * np.array([np.sin(np.pi / 3), -np.cos(np.pi / 3)])
+    bodies = [rod(f"link{i}", i * link, (i + 1) * link, 0.1) for i in range(n)]
+    joints = [Revolute(f"link{i - 1}" if i else GROUND, f"link{i}", i * link) for i in range(n)]
+    return Drawing(f"chain of {n}", bodies, joints, [], {}, 9.81, 1.0, 20)
+
+
 def andrews():
     """Andrews' squeezing mechanism. Source: W. Schiehlen (ed.), Multibody Systems Handbook, Springer 1990."""
     beta, theta, gamma, phi, delta, omega, epsilon = (
@@ -152,3 +160,23 @@ def _meeting(a, r, b, s):
     d = np.hypot(*along)
     x = (d**2 + r**2 - s**2) / (2 * d)
     return a + (x * along + np.sqrt(r**2 - x**2) * np.array([-along[1], along[0]])) / d
+
+
+def tree(drawing):
+    """Children of each body, breadth first: (name, joint, where its frame is); and the other joints, with the second's frame."""
+    at, children, waiting = {None: np.zeros(2)}, {}, list(drawing.joints)
+    centers = {body.name: body.center for body in drawing.bodies}
+    level = [None]
+    while level:
+        below = []
+        for joint in list(waiting):
+            first = getattr(joint, "first", None)
+            for parent, child in ((first, joint.second), (joint.second, first)):
+                if parent in level and child not in at:
+                    at[child] = joint.at if isinstance(joint, Revolute) else centers[child]
+                    children.setdefault(parent, []).append((child, joint, at[child]))
+                    below.append(child)
+                    waiting.remove(joint)
+                    break
+        level = below
+    return children, [(joint, at[joint.second]) for joint in waiting]

@@ -8,7 +8,7 @@ import time
 
 import mujoco
 import numpy as np
-from drawings import Revolute
+from drawings import Revolute, tree
 
 STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256, 512)     # between outputs
 METHODS = (("implicitfast", 2, 128), ("RK4", 2, 512), ("RK4", 10, 512))     # integrator, time constant, most steps
@@ -48,7 +48,7 @@ def solve(drawing, setting):
 
 def described(drawing, integrator, step, constant):
     """The model's text: every body's frame stands at its joint in the tree, parallel to the drawing's at the start."""
-    children, closing = _tree(drawing)
+    children, closing = tree(drawing)
     solver = f'solref="{constant!r} 1" solimp="0.9999 0.9999 0.001"'
     closed = "".join(f'<connect body1="{joint.second}" {f"body2={chr(34)}{joint.first}{chr(34)}" if joint.first else ""} '
                      f'anchor="{_text(joint.at - at)}" {solver}/>' for joint, at in closing)
@@ -81,26 +81,6 @@ def described(drawing, integrator, step, constant):
       <equality>{closed}</equality>
       <tendon>{tendons}</tendon>
     </mujoco>"""
-
-
-def _tree(drawing):
-    """Children of each body, breadth first: (name, joint, where its frame is); and the other joints, with the second's frame."""
-    at, children, waiting = {None: np.zeros(2)}, {}, list(drawing.joints)
-    centers = {body.name: body.center for body in drawing.bodies}
-    level = [None]
-    while level:
-        below = []
-        for joint in list(waiting):
-            first = getattr(joint, "first", None)
-            for parent, child in ((first, joint.second), (joint.second, first)):
-                if parent in level and child not in at:
-                    at[child] = joint.at if isinstance(joint, Revolute) else centers[child]
-                    children.setdefault(parent, []).append((child, joint, at[child]))
-                    below.append(child)
-                    waiting.remove(joint)
-                    break
-        level = below
-    return children, [(joint, at[joint.second]) for joint in waiting]
 
 
 def _text(point):

@@ -1,6 +1,5 @@
 """zerodrift: `zd.Mechanism`, its tables interpreted, in joint and in absolute coordinates."""
 
-import functools
 import itertools
 import time
 
@@ -13,12 +12,11 @@ STEPS = (1, 2, 4, 8, 16, 32, 64)        # between outputs
 CERTIFIED = 1e-9                        # error asked of the reference, at most
 
 
-@functools.cache
-def mechanism(drawing_name):
-    """Made once."""
-    from drawings import all_of_them
+_systems = {}       # by drawing and coordinates: each is made once
 
-    drawing = next(drawing for drawing in all_of_them() if drawing.name == drawing_name)
+
+def mechanism(drawing):
+    """From bodies and joints."""
     m = zd.Mechanism(drawing.name, gravity=(0, -drawing.gravity))
     bodies = {body.name: m.body(body.name, body.mass, body.inertia, at=body.center) for body in drawing.bodies} | {None: m.ground}
     for i, joint in enumerate(drawing.joints):
@@ -34,10 +32,12 @@ def mechanism(drawing_name):
     return m
 
 
-@functools.cache
-def system_of(drawing_name, coordinates):
-    """Made once."""
-    return mechanism(drawing_name).system(coordinates)
+def system_of(drawing, coordinates):
+    """Made once; coordinates None: the cheaper ones."""
+    key = drawing.name, coordinates
+    if key not in _systems:
+        _systems[key] = mechanism(drawing).system(coordinates)
+    return _systems[key]
 
 
 def sweeps(drawing):
@@ -51,10 +51,17 @@ def sweeps(drawing):
     return found
 
 
+def growth_sweeps():
+    """Those in the coordinates that are taken where nothing is said, for many bodies."""
+    return {"zerodrift, rk4": [(None, "schur", "rk4", k, None) for k in STEPS],
+            "zerodrift, dop853": [(None, "schur", "dop853", k, None) for k in STEPS],
+            "zerodrift, dop853, chosen steps": [(None, "schur", "dop853", None, tol) for tol in TOLERANCES]}
+
+
 def solve(drawing, setting):
     """What the bodies moved and turned, (k, n, 3), and seconds of `simulate` and of reading that."""
     coordinates, formulation, integrator, steps, tolerance = setting
-    system = system_of(drawing.name, coordinates)
+    system = system_of(drawing, coordinates)
     fine = ({"step": drawing.t_end / drawing.count / steps, "save_every": steps} if steps
             else {"rtol": tolerance, "atol": tolerance, "t_eval": drawing.outputs})
     start = time.process_time()
@@ -66,6 +73,10 @@ def solve(drawing, setting):
 def motion(drawing, solution):
     """What the bodies moved and turned, (k, n, 3)."""
     moved = np.empty((len(solution.t), len(drawing.bodies), 3))
+    if solution.system.layout == "absolute":        # whose coordinates these are: mass centre and angle of each body
+        moved[:] = solution.p.reshape(moved.shape)
+        moved[:, :, :2] -= drawing.centers
+        return moved
     for i, body in enumerate(drawing.bodies):
         moved[:, i, :2] = solution[f"{body.name}.position"] - body.center
         moved[:, i, 2] = solution[f"{body.name}.angle"]
@@ -74,5 +85,5 @@ def motion(drawing, solution):
 
 def reference(drawing):
     """The motion with a certified error, and that error."""
-    found = zd.reference(system_of(drawing.name, "joint"), drawing.t_end, error=CERTIFIED, t_eval=drawing.outputs)
+    found = zd.reference(system_of(drawing, "joint"), drawing.t_end, error=CERTIFIED, t_eval=drawing.outputs)
     return motion(drawing, found.solution), found.error
