@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,9 +53,16 @@ def lines(starts: np.ndarray, ends: np.ndarray, **look: Any) -> Mark:
 def area(corners: Any, **look: Any) -> Mark:
     """Within corners (n, 2)."""
     corners = np.asarray(corners, dtype=float)
-    codes = np.full(len(corners) + 1, Path.LINETO, dtype=Path.code_type)
+    return Mark(Path(np.concatenate([corners, corners[:1]]), _closed(len(corners))), **{"face": WHITE, **look})
+
+
+@functools.lru_cache(maxsize=256)
+def _closed(corners: int) -> np.ndarray:
+    """How matplotlib is told of an outline that is closed."""
+    codes = np.full(corners + 1, Path.LINETO, dtype=Path.code_type)
     codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
-    return Mark(Path(np.vstack([corners, corners[:1]]), codes), **{"face": WHITE, **look})
+    codes.flags.writeable = False
+    return codes
 
 
 def between(outer: np.ndarray, inner: np.ndarray, **look: Any) -> Mark:
@@ -66,9 +74,17 @@ def between(outer: np.ndarray, inner: np.ndarray, **look: Any) -> Mark:
 
 def arc(centre: np.ndarray, radius: float, start: float = 0.0, angle: float = 2 * np.pi, corners: int = ROUND) -> np.ndarray:
     """Points of a circle, (n, 2), from one angle on; all around where no angle is given."""
+    return centre + radius * _unit_arc(float(start), float(angle), corners)
+
+
+@functools.lru_cache(maxsize=256)       # most are all around, or half around
+def _unit_arc(start: float, angle: float, corners: int) -> np.ndarray:
+    """The same of a circle of radius one about the origin."""
     count = max(3, int(np.ceil(corners * abs(angle) / (2 * np.pi)))) + 1
     angles = start + np.linspace(0, angle, count)
-    return centre + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    points = np.column_stack([np.cos(angles), np.sin(angles)])
+    points.flags.writeable = False      # as others are handed them, too
+    return points
 
 
 def circle(centre: np.ndarray, radius: float, corners: int = ROUND, **look: Any) -> Mark:
@@ -125,6 +141,10 @@ def rounded(points: np.ndarray, radius: float) -> np.ndarray:
     corners = hull(points)
     if len(corners) == 1:
         return arc(corners[0], radius)[:-1]
+    if len(corners) == 2:       # as most are
+        along = unit(corners[1] - corners[0])
+        end = radius * _unit_arc(-np.pi / 2, np.pi, ROUND) @ np.array([along, across(along)])
+        return np.concatenate([corners[0] - end, corners[1] + end])
     sides = np.roll(corners, -1, axis=0) - corners
     outward = np.arctan2(-sides[:, 0], sides[:, 1])
     turns = np.mod(outward - np.roll(outward, 1), 2 * np.pi)

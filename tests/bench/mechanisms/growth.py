@@ -30,6 +30,7 @@ NUMBERS = (2, 5, 10, 20, 40, 100, 200)
 ERRORS = (1e-3, 1e-6)
 LIMIT = 20.0            # s: of one run
 ROUNDS, SHORT = 5, 1.0
+FEW, MANY, WHILE = 10, 1000, 0.2     # steps, and seconds
 DENSE = 40              # four-bars, up to which dense solvers are tried
 A_STEP = {              # the setting of each method of which a step is timed, with k steps between outputs
     "zerodrift": {"zerodrift, rk4": lambda k: (None, "schur", "rk4", k, None)},
@@ -58,16 +59,15 @@ def exact(drawing):
     return moved
 
 
-def seconds_of_a_step(module, drawing, setting_of, step, steps):
-    """The least of some rounds."""
-    short = drawing._replace(t_end=step * steps, count=1)
-    best = math.inf
-    for round_ in range(ROUNDS):
-        seconds = module.solve(short, setting_of(steps))[1]
-        best = min(best, seconds / steps)
-        if seconds > SHORT and round_:
-            break
-    return best
+def seconds_of_a_step(module, drawing, setting_of, step):
+    """The least of some rounds, of so many steps that one takes a while."""
+    def seconds(steps):
+        return module.solve(drawing._replace(t_end=step * steps, count=1), setting_of(steps))[1] / steps
+
+    seconds(FEW)
+    once = seconds(FEW)
+    steps = min(MANY, int(WHILE / once))
+    return min([once, *(seconds(steps) for _ in range(ROUNDS))]) if steps > FEW else once
 
 
 def time_to(module, drawing, moved, settings):
@@ -103,11 +103,10 @@ def measured(peers, numbers):
     from drawings import chain, swing
 
     for n in numbers:
-        steps = 400 if n <= 20 else 100 if n <= 40 else 30
         for name, module in peers.items():
             for method, setting_of in A_STEP[name].items():
-                yield "step of four-bars", method, n, seconds_of_a_step(module, swing(n), setting_of, 1e-3, steps)
-                yield "step of a chain", method, n, seconds_of_a_step(module, chain(n), setting_of, 1e-4, steps)
+                yield "step of four-bars", method, n, seconds_of_a_step(module, swing(n), setting_of, 1e-3)
+                yield "step of a chain", method, n, seconds_of_a_step(module, chain(n), setting_of, 1e-4)
         drawing = swing(n)._replace(t_end=1.0, count=20)
         moved = exact(drawing)
         for name, module in peers.items():
