@@ -61,6 +61,7 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     m.knife_edge("front", front, along=(1, 0))
     m.torsion_spring("arms", "head", stiffness=stiffness, damping=damping)
     m.motor("slalom", "head", torque=stiffness * swing(amplitude, frequency))
-    m.force("thrust", rear, along=(1, 0), value=thrust, frame=frame)
+    if thrust:
+        m.force("thrust", rear, along=(1, 0), value=thrust, frame=frame)
     m.start({"frame.velocity.x": _check.number("speed", speed)})
     return m
