@@ -430,6 +430,23 @@ def test_small_pictures_have_larger_pins_and_thinner_lines():
     assert small.line < 0.7 * large.line
 
 
+def test_what_travels_far_is_drawn_by_its_own_size():
+    m = zd.Mechanism("cart")
+    cart = m.link("cart", (0, 0), (0.5, 0), mass=1.0)
+    m.start({"cart.velocity.x": 10.0})
+    sol = zd.simulate(m, 1.0, step=0.1)
+    (bar,) = outlines(zd.plot.mechanism(sol), "link")
+    assert np.ptp(bar[:, 1]) < 0.2 * cart.length
+
+
+def test_hinges_at_one_place_share_a_label():
+    m = zd.Mechanism("fan", gravity=(0, -9.81))
+    for i in range(3):
+        m.revolute(f"J{i}", m.ground, m.link(f"link{i}", (0, 0), (1, i - 1), mass=1.0).start)
+    written = [text.get_text() for text in zd.plot.mechanism(m, names=True).texts]
+    assert sorted(written) == ["J0, J1, J2", "link0", "link1", "link2"]
+
+
 def test_nothing_to_draw_is_drawn_too():
     assert Picture(plt.subplots()[1], [[]]).size > 0
     assert Picture(plt.subplots()[1], [[Shape("particle", np.zeros((1, 2)))]]).show(0)

@@ -16,6 +16,7 @@ from .glyphs import BAR
 from .marks import LOAD, WHITE, across, arrow, hull, unit
 
 PATH = "#00664B"            # of paths of points
+THINNEST = 0.8              # points: a path's line
 LONGEST = 0.22              # of the picture: the longest arrow
 SHORTEST = 0.02             # of the longest arrow; shorter ones are not drawn
 KEY = 0.12                  # of the picture: the arrow that says the scale is at least a half of this
@@ -43,7 +44,8 @@ def halo(width: float) -> list[Any]:
 
 def draw_path(ax: Axes, places: np.ndarray, width: float, **style: Any) -> Any:
     """The path (n, 2) of a point, dashed, so that it is one without colour, too."""
-    look = {"color": PATH, "linewidth": 1.4 * width, "linestyle": (0, (5, 1.6)), "zorder": 3.2, "label": "_path"} | style
+    look = {"color": PATH, "linewidth": max(1.4 * width, THINNEST), "linestyle": (0, (5, 1.6)), "zorder": 3.2, "label": "_path"}
+    look |= style
     return ax.plot(*np.asarray(places).T, **look)[0]
 
 
@@ -59,14 +61,21 @@ class Names:
         self._texts: dict[tuple[str, str], tuple[Text, np.ndarray]] = {}
         named = set(known)
         font = float(np.clip(FONT * points, SMALLEST, LARGEST))
+        at: dict[tuple[float, ...], Text] = {}
         for shape in shapes:
             if shape.kind in NAMED and shape.name and shape.name not in named:
                 named.add(shape.name)
+                place = tuple(np.round(shape.points[0] / (0.1 * size)))
+                if NAMED[shape.kind] == "pin" and place in at:      # hinges of several bodies at one place
+                    at[place].set_text(f"{at[place].get_text()}, {shape.name}")
+                    continue
                 offset = self._offset(shape, shapes)
                 text = ax.text(0, 0, shape.name, fontsize=font, zorder=6, path_effects=halo(0.25 * font), label="_name",
                                ha=_aligned(offset[0], "left", "right"), va=_aligned(offset[1], "bottom", "top"),
                                clip_on=False)
                 self._texts[shape.kind, shape.name] = text, offset
+                if NAMED[shape.kind] == "pin":
+                    at[place] = text
 
     def show(self, shapes: Sequence[Shape]) -> list[Text]:
         """Those of another moment."""

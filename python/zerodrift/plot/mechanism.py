@@ -20,7 +20,8 @@ from .marks import SMOOTH, Mark, arc, hull
 
 SMALL = 0.017       # of the picture: the radius of a pin
 LEAST = 1.7         # points: no pin is smaller, however small the picture
-SLENDER = 0.2       # of the short bars, the quarter of all: no pin is larger
+SLENDER = 0.13      # of the short bars, the quarter of all: no pin is larger
+OWN = 0.035         # of the mechanism without its path: no pin is larger
 MARGIN = 3.0        # sizes, around all that is drawn
 NARROW = 0.4        # of the picture's longer side: no picture is narrower
 LINE = 0.22         # points in a picture's line for each point in a pin's radius
@@ -70,8 +71,9 @@ class Picture:
         extent = float((high - low).max()) or 1.0
         per_point = 1.3 * float(((high - low) / np.maximum(points_of(self.ax), 1.0)).max()) or extent / 300
         bars = [float(np.hypot(*np.ptp(shape.points, axis=0))) for shape in self._moments[0] if shape.kind == "link"]
-        wished = max(SMALL * extent, LEAST * per_point)
-        self.size = min(wished, SLENDER * float(np.quantile(bars, 0.25))) if bars else wished
+        own = np.ptp(np.vstack([_extent(shape) for shape in self._moments[0]] or [places]), axis=0).max() or extent
+        most = [OWN * float(own), *([SLENDER * float(np.quantile(bars, 0.25))] if bars else [])]
+        self.size = min(max(SMALL * extent, LEAST * per_point), *most)
         self.line = float(np.clip(LINE * self.size / per_point, THIN, THICK))
         return extent, per_point
 
@@ -98,7 +100,7 @@ class Picture:
         for shape in self._moments[moment]:
             marks.setdefault(shape.kind, []).extend(GLYPHS[shape.kind].draw(shape, self.size))
         for kind, those in marks.items():
-            self._collection(kind).set(**self._look(those))
+            self._look(self._collection(kind), those)
         more = self._arrows.show(moment) if self._arrows else []
         return [*self._drawn.values(), *more, *(self._names.show(self._moments[moment]) if self._names else [])]
 
@@ -109,10 +111,13 @@ class Picture:
             self._drawn[kind] = self.ax.add_collection(collection, autolim=False)
         return self._drawn[kind]
 
-    def _look(self, marks: list[Mark]) -> dict[str, Any]:
-        return {"paths": [each.path for each in marks], "facecolor": [each.face for each in marks],
-                "edgecolor": [each.edge for each in marks], "linewidth": [self.line * each.width for each in marks],
-                "linestyle": [each.dashes for each in marks]}
+    def _look(self, collection: PathCollection, marks: list[Mark]) -> None:
+        """Makes a collection show marks."""
+        collection.set_paths([each.path for each in marks])
+        collection.set_facecolor([each.face for each in marks])
+        collection.set_edgecolor([each.edge for each in marks])
+        collection.set_linewidth([self.line * each.width for each in marks])
+        collection.set_linestyle([each.dashes for each in marks])
 
 
 def points_of(ax: Axes) -> np.ndarray:
