@@ -98,8 +98,10 @@ def expected(network, e):
     bound = condition(e.M, C)
     if independent.all():
         return vdot, multipliers, bound
-    is_definite = np.linalg.eigvalsh(e.M).min() > 1e-6
+    masses = np.linalg.eigvalsh(e.M)
+    is_definite = masses[0] > 1e-12 * masses[-1]
     effect = np.sqrt(np.einsum("ki,ki->k", e.C, np.linalg.solve(e.M, e.C.T).T if is_definite else e.C))
+    bound = max(bound, effect.max() / effect.min())     # these are weights of the multipliers
     return vdot, np.linalg.lstsq((e.C / effect[:, None]).T, C.T @ multipliers, rcond=1e-9)[0] / effect, bound
 
 

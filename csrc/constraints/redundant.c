@@ -10,6 +10,7 @@
  */
 #include "redundant.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -24,6 +25,7 @@ static const double AGREES = 0x1p-20;   /* of the terms of (6), and of the large
 
 typedef struct search {
     zd_store store;
+    zd_layout whole;        /* with no body taken as several */
     zd_weighted *weighted;
     double *U;              /* stored as M is: squares of the natural units */
     double *x, *change;     /* (nv,) */
@@ -139,12 +141,27 @@ static int note(search *self, zd_point *point)
     return tell_redundant(self, point);
 }
 
+/* Where it is what welds join that follows from rows, in bodies that are taken as several, these are taken as one. */
+static int set_aside(search *self, const zd_point *point)
+{
+    int of_welds = 1;
+    self->whole = *point->layout;
+    self->whole.most_touchers = INT_MAX;
+    for (int are_whole = 0; are_whole < 2 && of_welds; are_whole++) {
+        self->weighted = zd_weighted_create(&self->store, are_whole ? &self->whole : point->layout);
+        if (!self->weighted) return ZD_NO_MEMORY;
+        of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, LITTLE, self->aside);
+        if (of_welds < 0) return ZD_NO_MEMORY;
+    }
+    return ZD_DONE;
+}
+
 static int find(search *self, zd_point *point)
 {
     unsigned seed = 1;
     set_metric(point, self->U);
-    (void)zd_weighted_leave_out(self->weighted, point->terms.C, self->U, LITTLE, self->aside);
-    int any = 0;
+    int any = 0, status = set_aside(self, point);
+    if (status) return status;
     for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
     if (!any) return ZD_DONE;
     for (int i = 0; i < point->system->nv; i++) {
@@ -159,8 +176,8 @@ int zd_redundant_find(zd_point *point)
 {
     zd_store store = {NULL};
     search *self = zd_store_take(&store, take, point->system);
-    if (self) self->weighted = zd_weighted_create(&store, point->layout);
-    const int status = self && self->weighted ? find(self, point) : ZD_NO_MEMORY;
+    const int status = self ? find(self, point) : ZD_NO_MEMORY;
+    if (self) zd_store_release(&self->store);
     zd_store_release(&store);
     return status;
 }

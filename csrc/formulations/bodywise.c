@@ -6,19 +6,22 @@
  * a part that is the smaller the larger W is, and each time the equations are those without W, so that W costs no digits. The matrix is
  * definite where C leaves free nothing that has no mass, whether or not M is, and whether or not rows of C follow from others. Of multipliers
  * that are not determined these are the smallest, sum lambda_k^2 / W_k = min, as they are W times what is in the range of C: with 1 / W_k
- * proportional to C_k M^-1 C_k^T, those of least effect, see constraints/rank.c.
+ * proportional to C_k M^-1 C_k^T, those of least effect, see constraints/rank.c. As such weights may leave a part of s for many times, where M
+ * has a light direction within a block, x is found with weights by its diagonal.
  */
 #include "bodywise.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
 enum { MAX_ITERATIONS = 40 };
 static const double WEIGHT = 0x1p25;            /* of a row in units of what its bodies have as mass in it */
+static const double BALANCED = 0x1p-36;         /* of the terms of the equations: the reactions are found */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
 
 static void *take(zd_arena *arena, const void *of)
@@ -27,6 +30,7 @@ static void *take(zd_arena *arena, const void *of)
     const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_bodywise self = {
         .weight = zd_take_doubles(arena, m),
+        .least_weight = zd_take_doubles(arena, m),
         .inverse = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .unbalanced = zd_take_doubles(arena, n),
         .step = zd_take_doubles(arena, n),
@@ -36,13 +40,25 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+/* Whether M is diagonal, and so the effect of a row that which its diagonal has. */
+static int is_diagonal(const zd_layout *layout)
+{
+    int is = 1;
+    for (int b = 0; b < layout->blocks; b++) is &= layout->is_diagonal[b];
+    return is;
+}
+
 zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
 {
+    const zd_rank *rank = point->rank;
+    const int are_determined = rank->most_rows == rank->m && rank->m <= rank->n, has_other = !are_determined && !is_diagonal(point->layout);
     zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout, NULL);
-    zd_bodywise *self = bodies ? zd_store_take(store, take, point->system) : NULL;
+    zd_bodies *other = has_other ? zd_bodies_create(store, point->system, point->layout, NULL) : NULL;
+    zd_bodywise *self = bodies && (other || !has_other) ? zd_store_take(store, take, point->system) : NULL;
     if (!self) return NULL;
     self->layout = point->layout;
     self->bodies = bodies;
+    self->for_least = other;
     return self;
 }
 
@@ -65,31 +81,62 @@ static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_in
     return sum;
 }
 
-static void set_weights(zd_bodywise *self, const zd_point *point)
+/* The same with the diagonal of M in its place: in no direction is W much less than M then. What has no mass is taken to have all. */
+static double effect_by_diagonal(const zd_point *point, const zd_row_of_C *row, double mass)
 {
-    const int n = point->system->nv, has_inverse = zd_mass_factor(point, self->inverse) == n;
-    double mass = 0;
-    for (int i = 0; i < n; i++) mass = fmax(mass, zd_entry_of_M(point, i, i));
-    for (int k = 0; k < zd_constraints(point->system); k++) {
-        const zd_row_of_C row = zd_point_row(point, k);
-        const double square = effect(self, &row, has_inverse, mass > 0 ? mass : 1);
-        self->weight[k] = square > 0 ? WEIGHT / square : 0;
+    double sum = 0;
+    for (int j = 0; j < row->count; j++) {
+        const double own = zd_entry_of_M(point, row->column[j], row->column[j]);
+        sum += row->x[j] * row->x[j] / (own > ZD_LEAST_PIVOT * mass ? own : mass);
     }
+    return sum;
+}
+
+static double largest_mass(const zd_point *point)
+{
+    double mass = 0;
+    for (int i = 0; i < point->system->nv; i++) mass = fmax(mass, zd_entry_of_M(point, i, i));
+    return mass > 0 ? mass : 1;
+}
+
+/* (M + C^T W C) at the point, factored; as zd_bodies_factor(). */
+static int factor(const zd_bodywise *self, zd_bodies *bodies, const double *weight)
+{
+    zd_blocks_clear(bodies->blocks);
+    zd_bodies_add_mass(bodies, self->point->terms.M);
+    zd_bodies_add_rows(bodies, self->C, weight);
+    return zd_bodies_factor(bodies);
 }
 
 int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
 {
-    int status = zd_point_need(point, ZD_M | ZD_C);
-    if (status) return status;
+    const double mass = largest_mass(point);
     self->point = point;
     self->C = point->terms.C;
-    set_weights(self, point);
-    zd_blocks_clear(self->bodies->blocks);
-    zd_bodies_add_mass(self->bodies, point->terms.M);
-    zd_bodies_add_rows(self->bodies, self->C, self->weight);
-    const int failed = zd_bodies_factor(self->bodies);
+    self->is_least_known = 0;
+    for (int k = 0; k < zd_constraints(point->system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        const double square = effect_by_diagonal(point, &row, mass);
+        self->weight[k] = square > 0 ? WEIGHT / square : 0;
+    }
+    const int failed = factor(self, self->bodies, self->weight);
     if (failed >= 0) point->failed_index = failed;
     return failed < 0 ? ZD_DONE : ZD_NOT_DEFINITE;
+}
+
+/* Whether there are such factors. */
+static int need_least(zd_bodywise *self)
+{
+    const zd_point *point = self->point;
+    if (!self->for_least || self->is_least_known) return self->for_least != NULL;
+    const int has_inverse = zd_mass_factor(point, self->inverse) == point->system->nv;
+    const double mass = largest_mass(point);
+    for (int k = 0; k < zd_constraints(point->system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        const double square = effect(self, &row, has_inverse, mass);
+        self->least_weight[k] = square > 0 ? WEIGHT / square : 0;
+    }
+    return self->is_least_known = factor(self, self->for_least, self->least_weight) < 0;
 }
 
 /* ---- solution ---- */
@@ -135,32 +182,33 @@ static double find_rest(zd_bodywise *self, const double *rhs, const double *x)
 }
 
 /* step <- (M + C^T W C)^-1 (unbalanced + C^T W rest), lambda <- lambda + W (C step - rest); rest NULL: zero */
-static void improve(zd_bodywise *self, const double *rest)
+static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *rest)
 {
     const int m = zd_constraints(self->point->system);
     for (int k = 0; rest && k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += self->weight[k] * rest[k] * row.x[j];
+        for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += weight[k] * rest[k] * row.x[j];
     }
-    zd_bodies_solve(self->bodies, self->unbalanced, self->step);
+    zd_bodies_solve(bodies, self->unbalanced, self->step);
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        self->lambda[k] += self->weight[k] * (zd_row_times(&row, self->step) - (rest ? rest[k] : 0));       /* (8) */
+        self->lambda[k] += weight[k] * (zd_row_times(&row, self->step) - (rest ? rest[k] : 0));       /* (8) */
     }
 }
 
 /* Where C x = rhs, the multipliers are found once more, from C^T lambda = force - M x alone: W times what rounding leaves of rhs - C x is not
- * in them then, nor what that has beside the range of C. */
-static void find_multipliers(zd_bodywise *self, const double *force, const double *x)
+ * in them then, nor what that has beside the range of C. Returns how much is left of it. */
+static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *force, const double *x)
 {
-    double before = INFINITY;
+    double before = INFINITY, left = INFINITY;
     memset(self->lambda, 0, (size_t)zd_constraints(self->point->system) * sizeof *self->lambda);
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        const double left = find_unbalanced(self, force, x);
-        if (!(left > ROUNDING) || !(left < 0.5 * before)) break;
+        left = find_unbalanced(self, force, x);
+        if (!(left > ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
         before = left;
-        improve(self, NULL);
+        improve(self, bodies, weight, NULL);
     }
+    return left;
 }
 
 void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs, double *x, double *lambda)
@@ -173,10 +221,11 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
         const double left = fmax(find_unbalanced(self, force, x), find_rest(self, rhs, x));
         if (!(left > ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
         before = left;
-        improve(self, self->rest);
+        improve(self, self->bodies, self->weight, self->rest);
         for (int j = 0; j < n; j++) x[j] += self->step[j];
     }
     if (!lambda) return;
-    find_multipliers(self, force, x);
+    const int is_least = need_least(self) && find_multipliers(self, self->for_least, self->least_weight, force, x) < BALANCED;
+    if (!is_least) (void)find_multipliers(self, self->bodies, self->weight, force, x);
     memcpy(lambda, self->lambda, (size_t)m * sizeof *lambda);
 }

@@ -9,7 +9,10 @@ typedef struct zd_bodywise {
     const zd_layout *layout;
     zd_bodies *bodies;      /* M + C^T W C */
     double *weight;         /* (m,): W */
-    double *inverse;        /* stored as M is: M^-1 by its factors, for the weights */
+    zd_bodies *for_least;   /* the same with other weights, for multipliers of least effect; NULL where these are determined, or W serves */
+    double *least_weight;   /* (m,) */
+    int is_least_known;     /* whether it has been factored where the others were */
+    double *inverse;        /* stored as M is: M^-1 by its factors, for these weights */
     double *unbalanced, *step;  /* (n,), (n,) */
     double *rest, *lambda;  /* (m,), (m,) */
     const double *C;        /* of the point where it was factored */

@@ -17,6 +17,7 @@ typedef struct zd_layout {
     int *touched_at, *touched;  /* (groups + 1,), (touched_at[groups],): the blocks that each group touches, increasing */
     int *toucher_at;        /* (blocks + 1,): where in the next two the groups that touch a block begin */
     int *toucher, *toucher_offset;      /* these groups, increasing, and where in their rows the entries for that block begin */
+    int most_touchers;      /* of a block that S(W) takes as one: see weighted.c */
     int *column_at, *column;    /* (groups + 1,), (column_at[groups],): the velocities that the entries of its rows belong to */
 } zd_layout;
 

@@ -11,10 +11,7 @@
 
 #include "../linalg/small.h"
 
-enum {
-    MOST_TOUCHERS = 12,     /* of a body that is taken as one */
-    TOUCHERS_OF_COPY = 4,
-};
+enum { TOUCHERS_OF_COPY = 4 };
 
 /* ---- symbolic ---- */
 
@@ -24,13 +21,13 @@ static int touchers_of(const zd_layout *layout, int b) { return layout->toucher_
 static int copies_of(const zd_layout *layout, int b)
 {
     const int touchers = touchers_of(layout, b);
-    return touchers <= MOST_TOUCHERS ? 1 : (touchers + TOUCHERS_OF_COPY - 1) / TOUCHERS_OF_COPY;
+    return touchers <= layout->most_touchers ? 1 : (touchers + TOUCHERS_OF_COPY - 1) / TOUCHERS_OF_COPY;
 }
 static int velocities_of(const zd_layout *layout, int b) { return layout->velocity_at[b + 1] - layout->velocity_at[b]; }
 
 /* How much there is of what; a clique is a body or a copy of one. */
 typedef struct counts {
-    int rows, cliques, members, pairs, largest, largest_block;
+    int rows, cliques, members, most_members, pairs, largest, largest_block;
 } counts;
 
 /* What touches copy i of a body: joints from `first` on, and up to two welds. */
@@ -63,6 +60,7 @@ static counts count_all(const zd_layout *layout)
         for (int i = 0; i < copies; i++) {
             const int members = members_of(part_of(layout, b, i));
             all.members += members;
+            all.most_members = members > all.most_members ? members : all.most_members;
             all.pairs += members * (members + 1) / 2;
         }
     }
@@ -139,12 +137,12 @@ static void list_pairs(zd_weighted *self, const int *piece, const int *member, i
         }
 }
 
-/* Pieces of the joints come first, those of welds stand behind all of them. */
-static void fill(zd_weighted *self, const zd_pattern *pattern)
+/* Pieces of the joints come first, those of welds stand behind all of them. `piece` has room for those of a clique. */
+static void fill(zd_weighted *self, const zd_pattern *pattern, int *piece)
 {
     const zd_layout *layout = self->layout;
     const int joints = layout->toucher_at[layout->blocks];
-    int weld = joints, clique = 0, piece[MOST_TOUCHERS + 2];
+    int weld = joints, clique = 0;
     for (int b = 0; b < layout->blocks; b++)
         for (int i = 0; i < copies_of(layout, b); i++, clique++) {
             const part it = part_of(layout, b, i);
@@ -174,6 +172,7 @@ static void *take(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     const int joints = it->layout->toucher_at[it->layout->blocks], welds = it->all.rows - it->layout->groups, largest = it->all.largest;
+    int *piece = take_ints(arena, it->all.most_members);
     zd_weighted self = {
         .layout = it->layout,
         .blocks = zd_blocks_take(arena, &it->ordering),
@@ -188,7 +187,7 @@ static void *take(zd_arena *arena, const void *of)
     if (!welds) self.largest = 0;
     if (arena->base) {
         for (int g = 0; g < it->layout->groups; g++) self.row[g] = self.blocks->at[self.blocks->place[g]];
-        fill(&self, &it->pattern);
+        fill(&self, &it->pattern, piece);
     }
     self.strips = zd_strips_take(arena, it->layout, self.row);
     return zd_take_filled(arena, &self, sizeof self);
@@ -305,17 +304,19 @@ zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products
     return zd_blocks_factor(self->blocks, NULL, 0);
 }
 
-zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
+int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
 {
     const zd_layout *layout = self->layout;
     unsigned char *in_order = zd_allocate((size_t)self->blocks->rows);
-    if (!in_order) return (zd_pivots){0, 0, 0, 1};
+    int of_welds = 0;
+    if (!in_order) return -1;
     fill_S(self, C, W);
-    const zd_pivots pivots = zd_blocks_factor(self->blocks, in_order, least);
+    (void)zd_blocks_factor(self->blocks, in_order, least);
+    for (int i = 0; i < self->blocks->rows; i++) of_welds += in_order[i];
     for (int g = 0; g < layout->groups; g++)
-        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) left_out[k] = in_order[i];
+        for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) of_welds -= left_out[k] = in_order[i];
     zd_release(in_order);
-    return pivots;
+    return of_welds;
 }
 
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y)

@@ -46,8 +46,9 @@ const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_syst
 zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W);
 zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W);
 /* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
- * once those eliminated before are taken out. */
-zd_pivots zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
+ * once those eliminated before are taken out. Returns how many rows of welds are left out in the place of such, or -1 where there is no
+ * memory. */
+int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
 /* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, where welds have no right side; rhs (m,) NULL: zero. */
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y);
 static inline void zd_weighted_solve(const zd_weighted *self, double *y) { zd_blocks_solve(self->blocks, y); }

@@ -91,6 +91,19 @@ def test_redundant_rows_among_many_are_left_out_and_share_their_reactions(formul
 
 
 @needs_compiler
+def test_redundant_rows_are_found_on_a_body_of_many_joints():
+    """It is taken as several that are welded: what follows from the others may then be rows of welds."""
+    rods = fan(60)
+    rods.pins.insert(30, (0, 30, *rods.pins[30][2:]))
+    rods.pins.insert(3, rods.pins[2])
+    one, other = (zd.simulate(rods.system(packed=packed), 0.004, formulation="independent", **STEP) for packed in (True, False))
+    assert one.stats["rank"] == other.stats["rank"] == 2 * len(rods.pins) - 4
+    assert len(one.stats["redundant"]) == 4
+    assert_close(one.p, other.p, 1e-10, scale=1.0, what="p")
+    assert_close(one.multipliers, other.multipliers, 1e-9, what="multipliers")
+
+
+@needs_compiler
 def test_rows_that_only_follow_from_others_where_a_large_structure_begins_are_not_taken_for_redundant(formulation):
     flat = four_bars(14, angle=0.0)
     with pytest.raises(zd.Bifurcation, match=r"row \d+ follows from the others\); among so many rows no branch"):

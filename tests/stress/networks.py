@@ -58,10 +58,10 @@ class Comparison:
     def table(self, first, end):
         columns = [*self.formulations, UNTOLD]
         lines = [f"# {end - first} random networks of bodies against dense equations", "",
-                 f"Seeds {first} to {end - 1}, written by `tests/stress/networks.py`, zerodrift {zd.__version__}, {time.perf_counter() - self.began:.0f} s. "
-                 "Accelerations and multipliers, these of least effect where rows",
-                 f"are redundant, agree where they differ by less than {MOST_ROUNDINGS:g} roundings times the condition of (8), "
-                 "two steps where they differ by 1e-9.", "",
+                 f"Seeds {first} to {end - 1}, written by `tests/stress/networks.py`, zerodrift {zd.__version__}, "
+                 f"{time.perf_counter() - self.began:.0f} s. Accelerations and multipliers, these of least effect",
+                 f"where rows are redundant, agree where they differ by less than {MOST_ROUNDINGS:g} roundings times the "
+                 "condition, two steps where they differ by 1e-9.", "",
                  f"| | {' | '.join(columns)} |", "|---|" + "---|" * len(columns)]
         lines += [f"| {kind} | {' | '.join(str(self.counts[kind, each]) for each in columns)} |" for kind in [*KINDS, "motion"]]
         largest = " | ".join(f"{self.largest.get(each, 0):.2g}" for each in self.formulations)
