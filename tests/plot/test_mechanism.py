@@ -353,9 +353,11 @@ def test_rails_are_as_long_as_the_motion_needs():
     m.motor("drive", slide, displacement=lambda t: 0.3 * np.sin(t))
     sol = zd.simulate(m, 6.3, step=0.01)
     for p in sol.p[[0, 100, 300]]:
-        moments = sol.system._sketches([p, *sol.p[::10]])
-        (rail,) = (shape for shape in moments[0] if shape.kind == "rail")
+        (shapes,) = sol.system._sketches([p], sol.p[::10])
+        (rail,) = (shape for shape in shapes if shape.kind == "rail")
         assert np.sort(rail.points[:2, 0]) == pytest.approx([-0.3, 0.3], abs=0.01)
+    surface = outlines(zd.plot.mechanism(sol, t=1.0), "rail")[0]
+    assert surface[:, 0].min() < -0.3 < 0.3 < surface[:, 0].max()
 
 
 # ---- pictures and films ----

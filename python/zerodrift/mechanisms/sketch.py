@@ -152,9 +152,13 @@ def is_pinned(joint: Joint) -> bool:
     return bool(gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
 
 
-def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray]) -> list[list[Shape]]:
-    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 3); rails are as long as all need."""
+def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray],
+             motion: Iterable[np.ndarray] = ()) -> list[list[Shape]]:
+    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 3). Rails and grooves are as long as
+    these moments and those of a motion need.
+    """
     sketch = Sketch(drawing, numbers)
     posed = [Posed(sketch.parts, poses) for poses in moments]
-    ranges = sketch.ranges(posed)
+    others = [Posed(sketch.parts, poses) for poses in motion] if sketch.guided else []
+    ranges = sketch.ranges([*posed, *others])
     return [sketch.shapes(each, ranges) for each in posed]

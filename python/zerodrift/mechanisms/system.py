@@ -218,9 +218,9 @@ class MechanismSystem(BaseSystem):
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return outline(self._drawing, self._numbers, poses)
 
-    def _sketches(self, positions: Sequence[np.ndarray]) -> list[list[Shape]]:
-        poses = (self._first_core.poses(np.ascontiguousarray(p))[0] for p in positions)
-        return sketches(self._drawing, self._numbers, poses)
+    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]]:
+        moments, others = ((self._first_core.poses(np.ascontiguousarray(p))[0] for p in those) for those in (positions, motion))
+        return sketches(self._drawing, self._numbers, moments, others)
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, parts = chosen(self._drawing, names), Parts(self._drawing, self._numbers)

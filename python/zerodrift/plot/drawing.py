@@ -22,6 +22,7 @@ from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_eq
 from .style import given_axes
 
 GHOSTS = 8      # faint positions of a motion
+WHOLE = 100     # positions that show how far sliders get
 NARROW = 130.0  # points: axes that are narrower show no coordinates
 QUIET = "#6E6E6E"
 
@@ -256,7 +257,8 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
              **asked: Any) -> tuple[list[list[Shape]] | None, np.ndarray | None]:
     """The shapes of each position; where there are none, as in space, its points."""
     if isinstance(system, BaseSystem):
-        known = system._sketches([_check.vector("p", p, system.nq) for p in positions])
+        motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
+        known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
             return known, None
     for name, value in asked.items():

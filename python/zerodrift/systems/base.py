@@ -219,8 +219,10 @@ class BaseSystem:
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return None
 
-    def _sketches(self, positions: Sequence[np.ndarray]) -> list[list[Shape]] | None:
-        """What there is to draw at each of some positions where more is known than points and lines; None: that is all."""
+    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
+        """What there is to draw at each of some positions, which may be of a motion, where more is known than points and
+        lines; None: that is all.
+        """
         return None
 
     def _shapes(self, p: np.ndarray) -> list[Shape] | None:
