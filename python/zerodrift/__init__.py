@@ -43,22 +43,22 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart", "InconsistentSystem",
-    "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution", "StabilityWarning",
-    "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator",
-    "ZerodriftError", "acceleration", "assemble", "check", "corrections", "formulations", "from_mechanics", "get_include",
-    "inertia", "integrators", "linkage", "load", "models", "native", "numba_signature", "plot", "project", "reach",
-    "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune",
-    "work_precision",
+    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart",
+    "InconsistentSystem", "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution",
+    "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
+    "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "ensemble",
+    "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load", "models",
+    "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",
+    "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
-    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
-    "System": "systems.callables", "check": "studies.check", "from_mechanics": "symbolics.mechanics",
-    "get_include": "systems.native", "linkage": "mechanisms.linkage", "load": "files", "native": "systems.native",
-    "numba_signature": "systems.native", "reach": "kinematics.trace", "record_size": "runs.record_size",
-    "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "trace": "kinematics.trace", "transmission_angle": "kinematics.transmission", "tune": "studies.tune",
-    "work_precision": "studies.work_precision",
+    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism",
+    "Projection": "runs.rows", "System": "systems.callables", "check": "studies.check", "ensemble": "ensembles.ensemble",
+    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
+    "linkage": "mechanisms.linkage", "load": "files", "native": "systems.native", "numba_signature": "systems.native",
+    "reach": "kinematics.trace", "record_size": "runs.record_size", "reference": "studies.reference",
+    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "trace": "kinematics.trace",
+    "transmission_angle": "kinematics.transmission", "tune": "studies.tune", "work_precision": "studies.work_precision",
 }
 
 

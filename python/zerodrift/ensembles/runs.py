@@ -1,0 +1,195 @@
+"""Which runs an ensemble consists of: parameters, starts, and systems of each run."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..mechanisms.measures import name_of
+from ..mechanisms.system import MechanismSystem
+from ..runs.operations import assemble
+from ..systems.base import BaseSystem, core_of, system_of
+
+
+class Grid(Mapping):
+    """The product of several parameters' values; `grid` makes it. A mapping from each name to its value in every run.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        How many values each parameter has; runs are in the order of ``numpy.ndindex(shape)``.
+    """
+
+    def __init__(self, values: Mapping[str, np.ndarray]) -> None:
+        self.shape = tuple(len(each) for each in values.values())
+        places = np.indices(self.shape).reshape(len(self.shape), -1)
+        self._columns = {name: each[place] for (name, each), place in zip(values.items(), places, strict=True)}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+    def __iter__(self) -> Any:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __repr__(self) -> str:
+        return f"<grid of {' x '.join(f'{count} {name}' for name, count in zip(self, self.shape, strict=True))}>"
+
+
+def grid(values: Mapping[str, Any] | None = None, /, **named: Any) -> Grid:
+    """All combinations of parameters' values, for `zerodrift.ensemble`.
+
+    Parameters
+    ----------
+    values : dict of str to array_like (k,), optional
+        Values by name, for names that Python does not take as keywords.
+    **named
+        Values by name. What has more axes, the values of a parameter of several entries, has them behind the first.
+
+    Returns
+    -------
+    Grid
+
+    Raises
+    ------
+    ValueError, TypeError
+        If there are no values, or one name is given twice.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> zd.grid({"crank.mass": [1.0, 2.0]}, damping=[0.1, 0.2, 0.3])
+    <grid of 2 crank.mass x 3 damping>
+    """
+    if values is not None and not isinstance(values, Mapping):
+        raise TypeError(f"values must be a dict of values by name, not {_check.shown(values)}")
+    for name in named:
+        if name in (values or {}):
+            raise TypeError(f"{name!r} is given twice")
+    columns = {name: _column(name, each) for name, each in {**(values or {}), **named}.items()}
+    if not columns or any(each.ndim == 0 or not len(each) for each in columns.values()):
+        raise ValueError("a grid needs parameters, and at least one value of each, in an array or a list")
+    return Grid(columns)
+
+
+def _column(name: str, value: Any) -> np.ndarray:
+    return _check.real(f"parameter {name!r} must hold", value)
+
+
+class Runs:
+    """The runs of an ensemble.
+
+    Parameters
+    ----------
+    made : system, Mechanism or callable
+    parameters : dict, sequence of dicts, or None
+    p0, v0 : array_like, optional
+    start : dict, optional
+    """
+
+    def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
+        self._hold, self._assembles, self.shape = hold, assembles, getattr(parameters, "shape", None)
+        self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
+        self.parameters, counts = _columns("parameters", parameters)
+        start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
+                                                                    for each, value in _dict("start", start).items()})
+        states = {name: array for name, given in (("p0", p0), ("v0", v0))
+                  if given is not None and (array := _state(name, given)) is not None}
+        counts |= more | {name: len(array) for name, array in states.items() if array.ndim == 2}
+        self.count = _common(counts)
+        self._start, self._states = start, states
+        self.parameters = {name: self._all(each) for name, each in self.parameters.items()}
+        self.shape = self.shape or (self.count,)
+        if isinstance(self.made, BaseSystem):
+            core_of(self.made)
+            for name in self.parameters:
+                _check.choice("parameter", name, self.made.parameters)
+
+    def _all(self, column: tuple[np.ndarray, bool]) -> np.ndarray:
+        array, varies = column
+        return array if varies else np.broadcast_to(array, (self.count, *array.shape))
+
+    def parameters_of(self, run: int) -> dict[str, Any]:
+        """Of one run, as its system takes them."""
+        return {name: each[run].item() if each.ndim == 1 else np.array(each[run]) for name, each in self.parameters.items()}
+
+    def system(self, run: int) -> BaseSystem:
+        """The system of one run."""
+        parameters = self.parameters_of(run)
+        if not isinstance(self.made, BaseSystem):
+            system = system_of(self.made(**parameters))
+            core_of(system)
+            return system
+        return self.made.with_parameters(parameters) if parameters else self.made
+
+    def start(self, run: int, system: BaseSystem) -> tuple[Any, Any]:
+        """P and v at its start; None: the system's own, which a mechanism assembles."""
+        if self._start:
+            held = {name: array[run] if varies else array for name, (array, varies) in self._start.items()}
+            return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()})
+        p, v = (None if (array := self._states.get(name)) is None else array[run] if array.ndim == 2 else array
+                for name in ("p0", "v0"))
+        if isinstance(system, MechanismSystem) and p is None and v is None:
+            return None, None
+        p, v = (system.p0 if p is None else p), (system.v0 if v is None else v)
+        if not (self._assembles and self.parameters and system.m) or p is None:
+            return p, v
+        return assemble(system, p, v, self._hold)
+
+
+def _dict(name: str, given: Any) -> Mapping:
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{name} must be a dict of values by name, not {_check.shown(given)}")
+    return given
+
+
+def _columns(what: str, given: Any) -> tuple[dict[str, tuple[np.ndarray, bool]], dict[str, int]]:
+    """Values by name and whether they vary from run to run; and how many runs each asks for that does."""
+    if given is None:
+        return {}, {}
+    if isinstance(given, Sequence) and not isinstance(given, str):
+        return _rows(what, given)
+    columns = {}
+    for name, value in _dict(what, given).items():
+        array = _check.real(f"{what}[{name!r}] must hold", value)
+        columns[name] = array, array.ndim > 0
+    return columns, {f"{what}[{name!r}]": len(array) for name, (array, varies) in columns.items() if varies}
+
+
+def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]], dict[str, int]]:
+    """The same of a list of dicts, one for each run."""
+    rows = [_dict(f"{what}[{i}]", each) for i, each in enumerate(given)]
+    if not rows:
+        raise ValueError(f"{what} must have at least one run")
+    for i, row in enumerate(rows):
+        if differing := set(row) ^ set(rows[0]):
+            raise ValueError(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}")
+    columns = {name: (_check.real(f"{what} {name!r} must hold", [row[name] for row in rows]), True) for name in rows[0]}
+    return columns, {what: len(rows)}
+
+
+def _state(name: str, given: Any) -> np.ndarray:
+    array = np.array(_check.real(f"{name} must hold", given), dtype=float)
+    if array.ndim not in (1, 2):
+        raise ValueError(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}")
+    return array
+
+
+def _common(counts: dict[str, int]) -> int:
+    """How many runs there are."""
+    if not counts:
+        return 1
+    first = next(iter(counts))
+    for name, count in itertools.islice(counts.items(), 1, None):
+        if count != counts[first]:
+            raise ValueError(f"{first} has {counts[first]} values and {name} has {count}: one for each run is needed, or one "
+                             "for all; zd.grid(...) takes the product")
+    if not counts[first]:
+        raise ValueError(f"{first} has no values, so there are no runs")
+    return counts[first]
