@@ -19,7 +19,7 @@ from .elimination import Order, Solve, Unwritten
 from .lowering import Lowering
 
 MOST = 4                # orders, as the interface has it
-SAMPLES = 48
+SAMPLES = 384
 ITERATIONS = 12         # of Newton's method
 CLOSED = 1e-9           # in parts of its row: a violation that is none
 LARGE = {1: 0.5, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
