@@ -43,7 +43,8 @@ const zd_term_row *zd_term_at(int row);                         /* NULL: there a
 zd_shape zd_term_shape(const zd_system *system, int row);       /* as the equations have it */
 size_t zd_term_size(const zd_system *system, int row);          /* how many doubles evaluate() writes */
 
-/* Multiplications in C W C^T of a declared structure, in its factors and in a solve with them; 0: none is declared, -1: there is no memory. */
+/* Multiplications in C W C^T of a declared structure, in its factors and in a solve with them, those in blocks without a kernel of their size
+ * weighed by their time; 0: none is declared, -1: there is no memory. */
 double zd_structure_count(const zd_system *system);
 
 /* The first of the wanted terms that has an entry which is not finite, as its bit; 0: there is none. */

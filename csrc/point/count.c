@@ -1,8 +1,11 @@
 /* What a structure costs: the multiplications in S(W) = C W C^T of (13) and (27), in its factors, and in a solve with them. They are counted
- * from the order that a run eliminates in, with fill, so that mechanisms can take the coordinates that cost less.
+ * from the order that a run eliminates in, with fill, so that mechanisms can take the coordinates that cost less. Where blocks have no kernel
+ * of their size, as those of bodies with many joints do not, they take some three times as long, and count as so many.
  */
 #include "../zerodrift.h"
 #include "weighted.h"
+
+static const double WITHOUT_KERNEL = 3;     /* measured: tests/bench/bench_coordinates.py */
 
 /* A W B^T: the blocks of two groups and a body. */
 static double count_pairs(const zd_weighted *self)
@@ -12,7 +15,7 @@ static double count_pairs(const zd_weighted *self)
         const zd_pair *pair = self->pair + i;
         const int kernel = pair->kernel, n = kernel ? kernel / 10 : self->piece[pair->a].n;
         const int rows = kernel ? kernel % 10 : self->piece[pair->a].rows, others = kernel ? rows : self->piece[pair->b].rows;
-        count += (double)rows * n * others;
+        count += (kernel ? 1 : WITHOUT_KERNEL) * rows * n * others;
     }
     return count;
 }
@@ -26,7 +29,7 @@ static double count_factors(const zd_blocks *blocks)
     for (int k = 0; k < blocks->count; k++) {
         int below = 0;
         for (int i = blocks->begin[k]; i < blocks->begin[k + 1]; i++) below += blocks->at[blocks->row[i] + 1] - blocks->at[blocks->row[i]];
-        count += count_column(blocks->at[k + 1] - blocks->at[k], below);
+        count += (blocks->kernel[k] ? 1 : WITHOUT_KERNEL) * count_column(blocks->at[k + 1] - blocks->at[k], below);
     }
     return count;
 }

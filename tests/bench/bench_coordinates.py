@@ -6,6 +6,7 @@ interleaved rounds.
 """
 
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -18,25 +19,27 @@ from large_mechanisms import binary_tree, chain, four_bars, star
 from measuring import RESULTS, least
 from zerodrift.mechanisms import cost
 
-ROUNDS, SECONDS, STEP = 5, 0.02, 1e-4
+ROUNDS, SECONDS, STEP, FEW = 7, 0.02, 1e-5, 4
 CASES = [(make, n) for make, sizes in ((chain, (1, 3, 6, 10, 16, 24, 32, 48, 80)), (four_bars, (1, 2, 3, 4, 6, 10, 16)),
                                        (star, (4, 8, 16, 32, 64, 128)), (binary_tree, (3, 4, 5, 6))) for n in sizes]
 
 
 def seconds_of(system, steps):
-    """A callable that gives the core's seconds of a step; p, v are found once."""
+    """A callable that gives the processor's seconds of a step, without what a call takes besides; p, v are found once."""
     p, v = system.p0, system.v0
 
-    def seconds():
-        run = zd.simulate(system, steps * STEP, p, v, step=STEP, save_every=steps, on_failure="return")
-        return run.stats["seconds"] / run.stats["steps"]
-    return seconds
+    def seconds_of_run(steps):
+        start = time.process_time()
+        zd.simulate(system, steps * STEP, p, v, step=STEP, save_every=steps)
+        return time.process_time() - start
+
+    return lambda: (seconds_of_run(steps + FEW) - seconds_of_run(FEW)) / steps
 
 
 def measured(mechanism):
     """Seconds of a step in joint and in absolute coordinates."""
     systems = [mechanism.system(layout) for layout in ("joint", "absolute")]
-    steps = [max(4, int(SECONDS / seconds_of(system, 8)())) for system in systems]
+    steps = [max(8, int(SECONDS / least(3, seconds_of(system, 20))[0])) for system in systems]
     return least(ROUNDS, *(seconds_of(system, count) for system, count in zip(systems, steps, strict=True)))
 
 
@@ -52,7 +55,7 @@ def main():
         tables, times = mechanism.system("joint")._tables, measured(mechanism)
         counted = cost.cost(tables, exact=True)
         parts["joint"].append(cost.parts_of_joint(tables))
-        parts["absolute"].append((1.0, *cost.parts_of_absolute(tables, exact=True)))
+        parts["absolute"].append(cost.parts_of_absolute(tables))
         taken, faster = counted.cheaper, "joint" if times[0] < times[1] else "absolute"
         lost = max(times[taken == "absolute"] / min(times), 1.0)
         rows.append((make.__name__, n, len(mechanism.bodies), *(f"{1e6 * time:.3g}" for time in times),

@@ -5,12 +5,12 @@ many of them as take its time. A step is a corrected one of "rk4" in "schur", wh
 coordinates n, and m rows that close loops:
 
     joint       5 (n^3/6 + n^2 m + n m^2/2 + m^3/6 + 2 (n^2 + n m + m^2)) + b B + d D + r R
-    absolute    a + f B + g (rows of all joints) + s 5 S
+    absolute    a + s 5 S
 
 D is the sum of the bodies' depths in the tree, and R that of the depths of both bodies of each row that closes a loop, as these
 are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in
-the order in which a run eliminates. Weights are those that tests/bench/bench_coordinates.py measured on chains, rows of
-four-bars, stars and trees of 1 to 129 bodies.
+the order in which a run eliminates; all else that a step does for each body and joint grows with them. Weights are those that
+tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies.
 """
 
 from __future__ import annotations
@@ -22,10 +22,9 @@ import numpy as np
 from .tables import Tables
 
 FACTORIZATIONS = 5
-JOINT = 1.0, 550.0, 140.0, 920.0        # 1, b, d, r
-LEAST_OF_ABSOLUTE = 3000.0               # a
-ABSOLUTE = 1500.0, 110.0, 4.0           # f, g, s
-NANOSECONDS = 0.35      # of an operation, there
+JOINT = 1.0, 700.0, 40.0, 650.0     # 1, b, d, r
+ABSOLUTE = 8000.0, 3.2              # a, s
+NANOSECONDS = 0.38      # of an operation, there
 DEARER = 3.0            # so many times the operations are worth a sentence, and
 WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
 
@@ -60,18 +59,15 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
     joint = float(np.dot(JOINT, parts_of_joint(tables)))
     if not _has_mass(tables):
         return Cost(joint, np.inf)
-    least = LEAST_OF_ABSOLUTE + float(np.dot(ABSOLUTE, parts_of_absolute(tables)))
-    if joint <= least and not exact:
-        return Cost(joint, least)
-    parts = parts_of_absolute(tables, exact=True)
-    return Cost(joint, LEAST_OF_ABSOLUTE + float(np.dot(ABSOLUTE, parts)) if parts[-1] else np.inf)
+    if joint <= ABSOLUTE[0] and not exact:
+        return Cost(joint, ABSOLUTE[0])
+    parts = parts_of_absolute(tables)
+    return Cost(joint, float(np.dot(ABSOLUTE, parts)) if parts[-1] else np.inf)
 
 
-def parts_of_absolute(tables: Tables, exact: bool = False) -> tuple[float, ...]:
-    """B, the rows of all joints, and 5 S where that is counted."""
-    rows = sum(len(joint.row.rows) for joint in tables.joints) + len(tables.relations)
-    count = tables.absolute().core().structure_count() if exact else 0.0
-    return float(len(tables.parts)), float(rows), FACTORIZATIONS * count
+def parts_of_absolute(tables: Tables) -> tuple[float, ...]:
+    """One, and 5 S."""
+    return 1.0, FACTORIZATIONS * tables.absolute().core().structure_count()
 
 
 def parts_of_joint(tables: Tables) -> tuple[float, ...]:

@@ -8,7 +8,7 @@ Run it with ``python tests/bench/mechanisms/growth.py``; it writes ``growth.csv`
   its implicitfast is of order one, with one evaluation a step where RK4 has four. Exudyn's steps are of order two.
 * **An error**: rows of four-bars that hang and are let go at sixty degrees, for a second. All hangers turn alike, so the motion
   is that of one pendulum, which is known to 1e-12 for every N. Time is that of the coarsest setting of a sweep that reaches the
-  error at all of 20 outputs in all places and angles; none where none does within 20 s.
+  error at all of 20 outputs in all places and angles; none where none does within 10 s.
 
 Times are those of the processor. The exponent is the slope of log time over log N from N = 10 on.
 """
@@ -28,7 +28,7 @@ from comparing import RESULTS, installed, write  # noqa: E402
 PEERS = ("zerodrift", "mujoco", "exudyn", "pinocchio")
 NUMBERS = (2, 5, 10, 20, 40, 100, 200)
 ERRORS = (1e-3, 1e-6)
-LIMIT = 20.0            # s: of one run
+LIMIT = 10.0            # s: of one run
 ROUNDS, SHORT = 5, 1.0
 FEW, MANY, WHILE = 10, 1000, 0.2     # steps, and seconds
 DENSE = 40              # four-bars, up to which dense solvers are tried
