@@ -39,7 +39,8 @@ class Rods:
         groups = [(2, [b] if a == GROUND else [a, b]) for a, b, *_ in self.pins]
         structure = zd.Structure(blocks=[3] * n, groups=groups, mass="constant diagonal") if packed else None
         return zd.native(
-            bodies_library(), 3 * n, symbol="packed" if packed else "dense", structure=structure, constraints=2 * len(self.pins),
+            bodies_library(), 3 * n, symbol="packed" if packed else "dense", structure=structure,
+            constraints=2 * len(self.pins), scratch=3 * n,
             terms=["M", "f", "Phi", "C", "xi", "V", *["Phi_t"] * (speed != 0)], units=["m", "m", "rad"] * n,
             parameters={f"q{i}": float(x) for i, x in enumerate(numbers)}, **({"p0": self.p0} | options))
 

@@ -80,7 +80,7 @@ static void packed_times(const zd_point *point, const double *x, double *y)
 int zd_point_need_times_C(zd_point *point)
 {
     const zd_operations *own = point->system->operations;
-    if (!own || !own->times_C) return zd_point_need(point, ZD_C);
+    if (!own || !own->add_weighted) return zd_point_need(point, ZD_C);
     return point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
 }
 

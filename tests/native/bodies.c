@@ -6,6 +6,7 @@
  */
 #include <math.h>
 #include <string.h>
+#include <zerodrift/sines.h>
 #include <zerodrift/system.h>
 
 const int zd_interface_version = ZD_INTERFACE_VERSION;
@@ -21,10 +22,17 @@ static pin pin_at(const double *q, int rods, int k)
     return (pin){(int)of[0], (int)of[1], {of[2], of[3], of[4], of[5]}};
 }
 
-/* Where a point (x, y) of a rod is, from the rod's centre */
-static void arm(const double *p, int rod, const double *point, double *to)
+/* The angles of all rods, their sines and their cosines, which are kept in the scratch while p stays. */
+static void turn(int rods, const double *p, double *turned)
 {
-    double c = cos(p[3 * rod + 2]), s = sin(p[3 * rod + 2]);
+    for (int b = 0; b < rods; b++) turned[b] = p[3 * b + 2];
+    zd_sines(rods, turned, turned + rods, turned + 2 * rods);
+}
+
+/* Where a point (x, y) of a rod is, from the rod's centre */
+static void arm(const double *turned, int rods, int rod, const double *point, double *to)
+{
+    double s = turned[rods + rod], c = turned[2 * rods + rod];
     to[0] = c * point[0] - s * point[1];
     to[1] = s * point[0] + c * point[1];
 }
@@ -38,7 +46,7 @@ static void write_rows(double *C, int width, double sign, const double *r)
     C[width + 2] = sign * r[0];
 }
 
-static void write_C(const double *q, int dense, const double *p, double *C)
+static void write_C(const double *q, int dense, const double *turned, double *C)
 {
     int rods = (int)q[0], pins = (int)q[1], n = 3 * rods;
     if (dense) memset(C, 0, (size_t)(2 * pins * n) * sizeof *C);
@@ -46,10 +54,10 @@ static void write_C(const double *q, int dense, const double *p, double *C)
         pin at = pin_at(q, rods, k);
         int width = dense ? n : at.a < 0 ? 3 : 6;
         double r[2];
-        arm(p, at.b, at.at + 2, r);
+        arm(turned, rods, at.b, at.at + 2, r);
         write_rows(C + (dense ? 3 * at.b : width - 3), width, 1, r);
         if (at.a >= 0) {
-            arm(p, at.a, at.at, r);
+            arm(turned, rods, at.a, at.at, r);
             write_rows(C + (dense ? 3 * at.a : 0), width, -1, r);
         }
         C += 2 * width;
@@ -65,12 +73,13 @@ static void write_M(const double *q, int dense, double *M)
 }
 
 /* Phi and xi of one pin */
-static void write_pin(const double *q, int k, double t, const double *p, const double *v, double *Phi, double *xi)
+static void write_pin(const double *q, int k, double t, const double *turned, const double *p, const double *v, double *Phi, double *xi)
 {
-    pin at = pin_at(q, (int)q[0], k);
+    int rods = (int)q[0];
+    pin at = pin_at(q, rods, k);
     double r[2], s[2] = {at.at[0] + (k ? 0 : q[3] * t), at.at[1]};
-    arm(p, at.b, at.at + 2, r);
-    if (at.a >= 0) arm(p, at.a, at.at, s);
+    arm(turned, rods, at.b, at.at + 2, r);
+    if (at.a >= 0) arm(turned, rods, at.a, at.at, s);
     for (int i = 0; i < 2; i++) {
         double wa = at.a < 0 ? 0 : v[3 * at.a + 2], wb = v[3 * at.b + 2];
         Phi[i] = p[3 * at.b + i] + r[i] - s[i] - (at.a < 0 ? 0 : p[3 * at.a + i]);
@@ -81,17 +90,18 @@ static void write_pin(const double *q, int k, double t, const double *p, const d
 static int evaluate(int dense, const double *q, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     int rods = (int)q[0], pins = (int)q[1];
+    if (want & ZD_MOVED) turn(rods, p, out->scratch);
     if (want & ZD_M) write_M(q, dense, out->M);
-    if (want & ZD_C) write_C(q, dense, p, out->C);
+    if (want & ZD_C) write_C(q, dense, out->scratch, out->C);
     if (want & ZD_POTENTIAL) *out->V = 0;
     for (int b = 0; b < rods; b++) {
         double mass = q[4 + 2 * b];
         if (want & ZD_FORCE) out->f[3 * b] = out->f[3 * b + 2] = 0, out->f[3 * b + 1] = -mass * q[2];
         if (want & ZD_POTENTIAL) *out->V += mass * q[2] * p[3 * b + 1];
     }
-    for (int k = 0; k < pins; k++) {
+    for (int k = 0; k < pins && (want & (ZD_PHI | ZD_XI | ZD_PHI_T)); k++) {
         double Phi[2], xi[2];
-        write_pin(q, k, t, p, v, Phi, xi);
+        write_pin(q, k, t, out->scratch, p, v, Phi, xi);
         for (int i = 0; i < 2; i++) {
             if (want & ZD_PHI) out->Phi[2 * k + i] = Phi[i];
             if (want & ZD_XI) out->xi[2 * k + i] = xi[i];
@@ -168,7 +178,7 @@ static const zd_operations operations = {.times_C = times_C, .times_M = times_M}
 const zd_kind zd_kind_two_rods_with_products = {
     .card = {.name = "two_rods_with_products", .summary = "Two rods.", .equations = ""},
     .system = {
-        .nq = 6, .nv = 6, .mh = 4,
+        .nq = 6, .nv = 6, .mh = 4, .scratch = 6,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
         .evaluate = packed,
         .structure = &structure,
@@ -182,7 +192,7 @@ const zd_kind zd_kind_two_rods_with_products = {
 const zd_kind zd_kind_two_rods = {
     .card = {.name = "two_rods", .summary = "Two rods.", .equations = ""},
     .system = {
-        .nq = 6, .nv = 6, .mh = 4,
+        .nq = 6, .nv = 6, .mh = 4, .scratch = 6,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
         .evaluate = packed,
         .structure = &structure,

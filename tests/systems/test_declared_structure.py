@@ -128,7 +128,7 @@ def test_native_systems_with_structure_are_changed_and_pickled():
 
 @needs_compiler
 def test_a_native_function_that_does_not_write_as_its_structure_says_is_refused():
-    options = {"symbol": "dense", "terms": ["M", "f", "Phi", "C", "xi"], "constraints": 4, "p0": chain(2).p0,
+    options = {"symbol": "dense", "terms": ["M", "f", "Phi", "C", "xi"], "constraints": 4, "scratch": 6, "p0": chain(2).p0,
                "parameters": chain(2).system().parameters, "structure": PAIR}
     with pytest.raises(ValueError, match=r"it writes beyond M, which is of shape \(6,\)"):
         zd.native(bodies_library(), 6, **options)

@@ -141,7 +141,8 @@ typedef struct zd_structure {
 
 /* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. They follow a call with
  * ZD_MOVED at the same (t, p), from whose scratch they may take what they need. Where both of the last two are there, and all of M is diagonal by
- * structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare. */
+ * structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare: so these and times_C must not
+ * read it. */
 typedef struct zd_operations {
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
