@@ -77,6 +77,10 @@ int zd_rows_are_long(const zd_point *point)
         const zd_row_of_C row = zd_point_row(point, k);
         const double *c = row.x;
         const int n = row.count;
+        if (row.column) {               /* packed: a few entries */
+            are_long &= zd_dot(n, c, c) > ILL * self->start_square[k];
+            continue;
+        }
         double squares[4] = {0, 0, 0, 0};
         int i = 0;
         for (; i + 4 <= n; i += 4)

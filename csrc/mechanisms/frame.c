@@ -12,14 +12,14 @@ static double *next(double *scratch, int *used, int count, size_t bytes)
 static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
 {
     int used = 0, bodies = self->tree.bodies + 1, longest = self->longest;
+    to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
+    to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
+    to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
     to->pose = (zd_pose *)next(scratch, &used, bodies, sizeof(zd_pose));
     to->twist = (zd_twist *)next(scratch, &used, bodies, sizeof(zd_twist));
     to->wrench = (zd_wrench *)next(scratch, &used, bodies, sizeof(zd_wrench));
     to->composite = (zd_composite *)next(scratch, &used, bodies, sizeof(zd_composite));
     to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
-    to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
-    to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));
-    to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
     to->sines = next(scratch, &used, 3 * bodies, sizeof(double));
     to->is_placed = next(scratch, &used, 1, sizeof(double));
     to->row = next(scratch, &used, self->tree.nv, sizeof(double));

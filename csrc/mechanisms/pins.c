@@ -58,9 +58,8 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
     }
 }
 
-const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const zd_frame *frame, const double *x)
+const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const double *x, double *to)
 {
-    double *to = frame->spread;
     to[0] = to[1] = to[2] = 0;
     if (self->have_angles) memcpy(to + 3, x, (size_t)tree->nv * sizeof *x);
     for (int i = 1; !self->have_angles && i <= tree->bodies; i++) {
@@ -119,8 +118,8 @@ static void write_C(const zd_pins *self, const zd_frame *frame, double *C)
 void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
                    const zd_terms *out)
 {
-    if (want & ZD_PHI) write_Phi(self, frame, zd_pins_spread(self, &mechanism->tree, frame, p), out->Phi);
-    if (want & ZD_XI) write_xi(self, frame, zd_pins_spread(self, &mechanism->tree, frame, v), out->xi);
+    if (want & ZD_PHI) write_Phi(self, frame, zd_pins_spread(self, &mechanism->tree, p, frame->spread), out->Phi);
+    if (want & ZD_XI) write_xi(self, frame, zd_pins_spread(self, &mechanism->tree, v, frame->spread), out->xi);
     if (want & ZD_C) write_C(self, frame, out->C);
     for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->pin[k].row] = out->Phi_t[self->pin[k].row + 1] = 0;
 }

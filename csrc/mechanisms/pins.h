@@ -33,7 +33,7 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
 void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
                    const zd_terms *out);
 
-/* x (nv,), with three entries for each body, and those of the ground before them, in memory of the frame. */
-const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const zd_frame *frame, const double *x);
+/* to <- x (nv,), with three entries for each body, and those of the ground before them. */
+const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const double *x, double *to);
 
 #endif

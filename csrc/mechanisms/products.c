@@ -3,34 +3,38 @@
 
 #include "structure.h"
 
+/* The ways to the points of all pins stand first in the scratch, and behind them is room for a vector. */
+static const zd_vector *arms_in(const double *scratch) { return (const zd_vector *)scratch; }
+static double *room_in(double *scratch, const zd_pins *self) { return scratch + 4 * self->count; }
+
 static void times_C(const void *data, const zd_terms *terms, const double *x, double *y)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
-    const zd_frame frame = zd_frame_of(mechanism, terms->scratch);
-    const double *of = zd_pins_spread(self, &mechanism->tree, &frame, x);
-    for (int k = 0; k < self->count; k++) {
+    const zd_vector *arm = arms_in(terms->scratch);
+    const double *of = zd_pins_spread(self, &mechanism->tree, x, room_in(terms->scratch, self));
+    for (int k = 0; k < self->count; k++, arm += 2) {
         const double *a = of + 3 * self->pin[k].first, *b = of + 3 * self->pin[k].second;
-        const zd_vector u = frame.arm[2 * k], w = frame.arm[2 * k + 1];
-        y[2 * k] = b[0] - b[2] * w.y - (a[0] - a[2] * u.y);
-        y[2 * k + 1] = b[1] + b[2] * w.x - (a[1] + a[2] * u.x);
+        y[2 * k] = b[0] - b[2] * arm[1].y - (a[0] - a[2] * arm[0].y);
+        y[2 * k + 1] = b[1] + b[2] * arm[1].x - (a[1] + a[2] * arm[0].x);
     }
 }
 
-static int turns(const zd_pins *self, const zd_link *link) { return self->have_angles || link->hang == ZD_HANGS_FREE; }
+static int has_angle(const zd_pins *self, const zd_link *link) { return self->have_angles || link->hang == ZD_HANGS_FREE; }
 
 /* Body by body, so that nothing is added up in memory. */
 static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *y, double *x)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
-    const zd_vector *arm = zd_frame_of(mechanism, terms->scratch).arm;
-    for (int i = 1; i <= mechanism->tree.bodies; i++) {
+    const zd_vector *arm = arms_in(terms->scratch);
+    const int *end_at = self->end_at, *ends = self->end;
+    for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
         const zd_link *link = mechanism->tree.link + i;
         const double *w = W + link->coordinate;
         double *own = x + link->coordinate, forward = 0, upward = 0, torque = 0;
-        for (int k = self->end_at[i]; k < self->end_at[i + 1]; k++) {
-            const int end = self->end[k], row = end & ~1;
+        for (const int last = end_at[i + 1]; k < last; k++) {
+            const int end = ends[k], row = end & ~1;
             const double sign = 2 * (end & 1) - 1, y0 = sign * y[row], y1 = sign * y[row + 1];
             forward += y0;
             upward += y1;
@@ -38,33 +42,35 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
         }
         own[0] -= w[0] * forward;
         own[1] -= w[1] * upward;
-        if (turns(self, link)) own[2] -= w[2] * torque;
+        if (has_angle(self, link)) own[2] -= w[2] * torque;
     }
 }
 
-/* sign (I w + w_angle n n'^T) of two pins of a body, with n = k x arm of each */
+/* to <- to + sign (I w + n u^T), n = k x a and u = k x b; turned: the transpose */
+ZD_INLINE void add_product(double *to, int turned, double sign, const double *w, zd_vector a, zd_vector b)
+{
+    const double xx = sign * (w[0] + b.y * a.y), xy = sign * (b.y * a.x), yx = sign * (b.x * a.y), yy = sign * (w[1] + b.x * a.x);
+    to[0] += xx;
+    to[1 + turned] -= xy;
+    to[2 - turned] -= yx;
+    to[3] += yy;
+}
+
 static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *S)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
-    const zd_vector *arm = zd_frame_of(mechanism, terms->scratch).arm;
-    for (int i = 1; i <= mechanism->tree.bodies; i++) {
+    const zd_vector *arm = arms_in(terms->scratch);
+    const int *end_at = self->end_at, *ends = self->end;
+    for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
         const zd_link *link = mechanism->tree.link + i;
-        const double *w = W + link->coordinate, of_angle = turns(self, link) ? w[2] : 0;
-        const int first = self->end_at[i], last = self->end_at[i + 1];
-        for (int k = first; k < last; k++) {
-            const int end = self->end[k];
-            const zd_vector u = zd_times(of_angle, arm[end]);
-            for (int j = first; j <= k; j++) {
-                const int other = self->end[j], turned = *at & 1;
-                const double sign = (end ^ other) & 1 ? -1 : 1;
-                const zd_vector n = arm[other];
-                double *to = S + (*at++ >> 1);
-                to[0] += sign * (w[0] + u.y * n.y);
-                to[1 + turned] -= sign * (u.y * n.x);
-                to[2 - turned] -= sign * (u.x * n.y);
-                to[3] += sign * (w[1] + u.x * n.x);
-            }
+        const double w[] = {W[link->coordinate], W[link->coordinate + 1], has_angle(self, link) ? W[link->coordinate + 2] : 0};
+        for (const int first = k, last = end_at[i + 1]; k < last; k++) {
+            const int end = ends[k];
+            const zd_vector u = zd_times(w[2], arm[end]);
+            for (int j = first; j < k; j++, at++)
+                add_product(S + (*at >> 1), *at & 1, 1 - 2 * ((end ^ ends[j]) & 1), w, arm[ends[j]], u);
+            add_product(S + (*at++ >> 1), 0, 1, w, arm[end], u);
         }
     }
 }
