@@ -1,14 +1,25 @@
 #include "motion.h"
 
-int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
+static int correct(zd_motion *motion, int64_t step, int forced, int constraints_hold)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
+        if (constraints_hold && active->row->hold) continue;
         int status = active->row->after_step(active->self, motion);
         if (status) return status;
     }
     return ZD_DONE;
+}
+
+int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, 0);
+}
+
+int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, 1);
 }
 
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step)

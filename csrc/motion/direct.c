@@ -84,11 +84,11 @@ static int count_pivots(const zd_motion *motion)
     return motion->road.order->solves + motion->system.nv - zd_constraints(&motion->system);
 }
 
-/* Whether nothing but the projection is done as a step ends. */
-static int only_projects(const zd_motion *motion)
+/* Whether a step ends with the projection, after which the energy may be corrected, and nothing else is integrated or added. */
+static int ends_with_projection(const zd_motion *motion)
 {
     const zd_hold *hold = &motion->hold;
-    return motion->corrections == 1 && hold->positions && hold->velocities && hold->in_mass_metric && motion->corrects == (ZD_PHI | ZD_C)
+    return !motion->is_stabilized && hold->positions && hold->velocities && hold->in_mass_metric && motion->corrects == (ZD_PHI | ZD_C)
         && motion->rate.size == motion->formulation_size;
 }
 
@@ -101,7 +101,7 @@ static void use(zd_motion *motion, const zd_elimination *order)
     if (order) motion->road.scale_of_order = scale_of(motion, order);
     for (int k = order ? count_pivots(motion) : motion->system.nv; k < motion->system.nv; k++)
         motion->road.pivots[k] = motion->road.before[k] = 1;
-    motion->road.lands = order && order->land && only_projects(motion);
+    motion->road.lands = order && order->land && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
     motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
     motion->rate.direct = motion->is_stabilized || motion->rate.size > motion->formulation_size ? NULL : order;
@@ -112,7 +112,7 @@ void zd_direct_leave(zd_motion *motion)
     use(motion, NULL);
 }
 
-static void remember_energy(zd_motion *motion)
+void zd_direct_remember_energy(zd_motion *motion)
 {
     motion->road.energy_skipped = motion->statistics.energy_skipped;
     motion->road.energy_corrected = motion->statistics.energy_corrected;
@@ -130,7 +130,7 @@ void zd_direct_forget_energy(zd_motion *motion)
 static void begin(zd_motion *motion)
 {
     ZD_SIZED(zd_copy, count_pivots(motion), motion->road.pivots, motion->road.before);
-    remember_energy(motion);
+    zd_direct_remember_energy(motion);
 }
 
 /* The first order whose pivots are so large at the point, if there is one. */

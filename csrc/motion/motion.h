@@ -149,7 +149,8 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Which road a step takes that begins at the point. */
 void zd_direct_choose(zd_motion *motion);
 void zd_direct_leave(zd_motion *motion);
-/* What the energy correction has counted in a step goes with it. */
+/* What the energy correction has counted in a step goes with it: as it stands where the step begins. */
+void zd_direct_remember_energy(zd_motion *motion);
 void zd_direct_forget_energy(zd_motion *motion);
 /* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
  * ZD_SINGULAR, and the step has to be made on the general road. */
@@ -160,6 +161,7 @@ static inline int zd_direct_continues(zd_motion *motion)
 {
     int continues = motion->road.continues && (motion->point->known & ZD_ACCELERATED);
     motion->road.continues = 0;
+    if (continues && motion->corrections > 1) zd_direct_remember_energy(motion);
     return continues;
 }
 
@@ -180,6 +182,8 @@ static inline void zd_count_position_iterations(zd_motion *motion, int iteration
 
 /* correct.c: those that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
+/* The same without the one that holds the constraints, after that. */
+int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced);
 /* Whether all of them are due in this step. */
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step);
 /* Whether a step is one of every so many. One of every 1 is not worth a division, the slowest of instructions. */

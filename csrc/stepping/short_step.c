@@ -40,6 +40,16 @@ int zd_short_integrate(zd_course *course, double h)
     return ZD_SIZED(integrate, point->system->nv, stepper, h);
 }
 
+/* Of the point, which the acceleration is known at, too, afterwards. */
+ZD_INLINE int correct_rest(const int n, zd_course *course)
+{
+    zd_motion *motion = course->motion;
+    int status = zd_motion_correct_rest(motion, course->step, course->stepper->t == course->end || course->parts);
+    if (status) return status;
+    zd_copy_pairs(n, motion->point->v, course->stepper->y + n);
+    return zd_motion_accelerate(motion);
+}
+
 ZD_INLINE int land(const int n, zd_course *course, double t1)
 {
     zd_stepper *stepper = course->stepper;
@@ -49,6 +59,7 @@ ZD_INLINE int land(const int n, zd_course *course, double t1)
     int status = zd_direct_land(course->motion, t1, stepper->y, stepper->y + n);
     zd_copy_pairs(n, stepper->y, point->p);
     zd_copy_pairs(n, stepper->y + n, point->v);
+    if (!status && course->motion->corrections > 1) status = correct_rest(n, course);
     if (status) return status;
     if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1)) return ZD_DONE;
     return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;

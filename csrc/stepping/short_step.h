@@ -1,4 +1,5 @@
-/* Steps on the direct road at the ends of which nothing but the projection is made: they go from the state to the state without detours. */
+/* Steps on the direct road at the ends of which only the projection is made, and the energy may be corrected: they go from the state to the
+ * state without detours. */
 #ifndef ZD_SHORT_STEP_H
 #define ZD_SHORT_STEP_H
 
