@@ -11,7 +11,7 @@ import zerodrift as zd
 def test_lift_and_force(angles):
     rise, dwell, fall = (angles.get(name, np.pi / 2) for name in ("rise", "dwell", "fall"))
     sol = zd.simulate(zd.models.cam_follower(**angles), 1.0, step=0.005)
-    assert known_motions.cam_follower(sol, **angles) < 1e-12
+    assert known_motions.cam_follower(sol, **angles) < 1e-11
     lift, bend = known_motions.cam_lift(2 * np.pi * sol.t, 0.0254, rise, dwell, fall)
     force = 0.5 * (9.81 + (2 * np.pi)**2 * bend) + 20.0 + 500.0 * lift
     np.testing.assert_allclose(sol["contact.force"], force, rtol=1e-8)

@@ -10,7 +10,7 @@ import zerodrift as zd
 @pytest.mark.parametrize(("ground", "coupler"), [(2.5, 3.25), (2.2, 2.8)])
 def test_the_path_is_that_of_a_right_angle(ground, coupler):
     sol = zd.simulate(zd.models.hoecken(ground=ground, coupler=coupler), 1.0, step=0.005)
-    assert known_motions.hoecken(sol, ground=ground, coupler=coupler) < 1e-12
+    assert known_motions.hoecken(sol, ground=ground, coupler=coupler) < 1e-11
     assert np.ptp(sol["crank.angle"]) > 6.2
 
 

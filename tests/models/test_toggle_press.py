@@ -9,7 +9,7 @@ import zerodrift as zd
 
 def test_the_ram_is_where_the_law_of_cosines_has_it():
     sol = zd.simulate(zd.models.toggle_press(), 1.0, step=0.002)
-    assert known_motions.toggle_press(sol) < 1e-12
+    assert known_motions.toggle_press(sol) < 1e-11
     assert sol["K.position"][:, 0].min() < 0.003      # the knee comes near to being straight
 
 
