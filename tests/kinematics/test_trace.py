@@ -9,6 +9,7 @@ import sympy as sp
 import zerodrift as zd
 from tolerances import EPS
 from zerodrift.errors import InconsistentStart, SingularSystem
+from zerodrift.kinematics import walk
 
 CLOSED = 1e-12      # SOLVED times the conditions of the mechanisms here, some ten; a thousandth from a dead point a hundred
 
@@ -101,6 +102,23 @@ def test_a_crank_of_grashofs_kind_turns():
     assert apart(turn["rocker.angle"], expected[:, 1]) < CLOSED
     far = zd.trace(m, "crank.angle", [turn.values[0], 40.0, -40.0])
     assert apart(far["coupler.angle"], np.array([angles(*lengths, value, 1)[0] for value in far.values])) < CLOSED
+
+
+def test_random_four_bars():
+    """Where coupler and rocker are in one line, folded or stretched, a crank turns back; whichever bar is shortest."""
+    rng, kinds = np.random.default_rng(1), set()
+    for lengths in rng.uniform(0.2, 2.0, (8, 4)):
+        a, b, c, d = lengths
+        if lengths.max() > lengths.sum() / 2 - 0.01:
+            continue
+        low, high = ((a * a + d * d - span**2) / (2 * a * d) for span in (b + c, abs(b - c)))     # of the crank's cosine
+        reach = zd.reach(linkage(*lengths), "crank.angle")
+        kinds.add(kind := (low > -1, high < 1))
+        assert reach.turns_fully == (kind == (False, False))
+        expected = [cosine for cosine in (low, high) if -1 < cosine < 1]
+        found = np.sort(np.cos([point.value for point in reach.dead_points]))
+        assert np.abs(found - np.sort(expected * 2 if len(expected) == 1 else expected)).max(initial=0.0) < CLOSED
+    assert len(kinds) > 2
 
 
 def test_dead_centres_of_a_slider_crank():
@@ -281,7 +299,9 @@ def test_what_is_no_mechanism():
         zd.trace(zd.systems.four_bar(), "alpha1")
 
 
-def test_what_has_no_end():
+def test_what_has_no_end(monkeypatch):
+    monkeypatch.setattr(walk, "MOST", 100)
+    monkeypatch.setattr(walk, "FARTHEST", 100)
     m = zd.Mechanism("rail")
     m.prismatic("slide", m.ground, m.body("cart", 1.0), axis=(1, 0), at=(0, 0))
     assert zd.trace(m, "slide.displacement", [0.0, 7.0])["cart.position.x"] == pytest.approx([0.0, 7.0], abs=1e-14)
