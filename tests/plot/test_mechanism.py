@@ -383,6 +383,13 @@ def test_given_axes_are_drawn_into(sol):
     assert film._fig is film_axes.figure
 
 
+def test_what_is_added_to_a_picture_is_seen():
+    ax = zd.plot.mechanism(valve())
+    ax.plot([0, 1], [0, 2])
+    assert ax.get_xlim()[1] >= 1.0
+    assert ax.get_ylim()[1] >= 2.0
+
+
 def test_a_picture_holds_all_its_moments(sol):
     film = zd.plot.animate(sol, fps=4)
     film.to_jshtml()

@@ -42,6 +42,13 @@ def halo(width: float) -> list[Any]:
     return [withStroke(linewidth=width, foreground=WHITE)]
 
 
+def hold(ax: Axes, *places: Any) -> None:
+    """Makes axes hold places (2,), without a margin; what is drawn into them later makes them larger, as it does anywhere."""
+    ax.margins(0)
+    ax.update_datalim(places)
+    ax.autoscale_view()
+
+
 def draw_path(ax: Axes, places: np.ndarray, width: float, **style: Any) -> Any:
     """The path (n, 2) of a point, dashed, so that it is one without colour, too."""
     look = {"color": PATH, "linewidth": max(1.4 * width, THINNEST), "linestyle": (0, (5, 1.6)), "zorder": 3.2, "label": "_path"}
@@ -176,7 +183,7 @@ class Arrows:
     def say_scale(self, ax: Axes) -> None:
         """An arrow of a round number of newtons, in the lower left corner, under all else."""
         low, bottom = ax.get_xlim()[0], ax.get_ylim()[0]
-        ax.set_ylim(bottom - 5 * self.size, None)
+        hold(ax, (low, bottom - 5 * self.size))
         tail = np.array([low + 2.5 * self.size, bottom - 2 * self.size])
         tip = tail + np.array([self.said / self.scale, 0.0])
         ax.add_collection(PathCollection([arrow(tail, tip, self.size).path], facecolor=LOAD, edgecolor="none", zorder=4.0,

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
 
 from ..systems.shapes import Shape
-from .annotations import Arrow, Arrows, Names, draw_path
+from .annotations import Arrow, Arrows, Names, draw_path, hold
 from .glyphs import GLYPHS
 from .marks import SMOOTH, Mark, arc, hull
 
@@ -82,8 +82,7 @@ class Picture:
         ends = [places, *(each.path.vertices for shape in self._moments[0] for each in GLYPHS[shape.kind].draw(shape, self.size))]
         low, high = np.min([each.min(axis=0) for each in ends], axis=0), np.max([each.max(axis=0) for each in ends], axis=0)
         middle, half = (low + high) / 2, np.maximum((high - low) / 2, NARROW / 2 * extent) + MARGIN * self.size
-        self.ax.set_xlim(middle[0] - half[0], middle[0] + half[0])
-        self.ax.set_ylim(middle[1] - half[1], middle[1] + half[1])
+        hold(self.ax, middle - half, middle + half)
         self.ax.set_aspect("equal", adjustable="box")
 
     def faintly(self, moments: Sequence[int]) -> None:
