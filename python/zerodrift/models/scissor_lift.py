@@ -56,7 +56,7 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     >>> import zerodrift as zd
     >>> sol = zd.simulate(zd.models.scissor_lift(4), 2.0, step=0.01)
     >>> height = 4 * np.sqrt(1 - sol["roller.position.x"]**2)
-    >>> bool(abs(sol["platform.position.y"] - height).max() < 1e-11)
+    >>> bool(abs(sol["platform.position.y"] - height).max() < 1e-10)
     True
     """
     n, L = _check.count("stages", stages, least=1), _check.number("arm", arm, above=0)
