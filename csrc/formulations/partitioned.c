@@ -38,10 +38,17 @@ static int need_speeds(zd_partitioned *self, zd_point *point)
     return !self->of_v ? ZD_NO_MEMORY : status;
 }
 
+/* Where little is left of a column, v = D u loses digits: see stepping/variables.c. */
+static void note_condition(const zd_partition *of, const zd_point *point)
+{
+    point->rank->was_ill_conditioned |= !(of->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED);
+}
+
 int zd_partitioned_settle(zd_partitioned *self, zd_point *point)
 {
     int status = need_speeds(self, point);
     if (!status && !(point->known & ZD_COMPLEMENTED)) status = zd_partition_factor(self->of_v, point);
+    if (!status || status == ZD_SINGULAR) note_condition(self->of_v, point);
     if (status) return status;
     point->known |= ZD_COMPLEMENTED;
     const double *Phi_t = point->terms.Phi_t;
@@ -127,6 +134,7 @@ static int improve(void *context)
     zd_partitioned *self = it->self;
     zd_point *point = it->point;
     int status = zd_partition_factor(self->of_p, point);
+    if (!status || status == ZD_SINGULAR) note_condition(self->of_p, point);
     if (status) return status;
     memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
     for (int k = 0; k < point->system->mh; k++) self->rhs[k] = -point->terms.Phi[k];

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-extern const zd_formulation zd_augmented_dense;
+extern const zd_formulation zd_augmented, zd_augmented_dense;
 
 static int is_held(const zd_hold *hold)
 {
@@ -23,7 +23,8 @@ zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integ
 {
     int loses = motion->formulation->settle && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&motion->hold)) return (zd_variables){NULL, NULL, 0};
-    return (zd_variables){&zd_augmented_dense, NULL, zd_augmented_dense.state_size(independent)};
+    const zd_formulation *used = zd_takes_many_rows(motion->formulation, &motion->system) ? &zd_augmented : &zd_augmented_dense;
+    return (zd_variables){used, NULL, used->state_size(independent)};
 }
 
 /* In place of the others; of the state, what is integrated along. */
@@ -41,9 +42,10 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
     zd_motion_attach(motion, stepper->y);
 }
 
-static void *take_solver(zd_arena *arena, const void *independent)
+static void *take_solver(zd_arena *arena, const void *of)
 {
-    return zd_augmented_dense.take(arena, independent, NULL);
+    const zd_stepper *stepper = of;
+    return stepper->dependent.formulation->take(arena, &stepper->independent, NULL);
 }
 
 int zd_variables_use_dependent(zd_stepper *stepper)
@@ -51,7 +53,7 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
     zd_variables *dependent = &stepper->dependent;
-    if (!dependent->solver) dependent->solver = zd_store_take(&motion->store, take_solver, &stepper->independent);
+    if (!dependent->solver) dependent->solver = zd_store_take(&motion->store, take_solver, stepper);
     if (!dependent->solver) return ZD_NO_MEMORY;
     motion->statistics.repartitions++;
     stepper->t = last->t;

@@ -8,8 +8,10 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
+from native_systems import needs_compiler
 from reference_files import ROUND_OFF, definition, end, falls_at_order_four, number, table
 from rotating_bodies import about_a_point, held_at_a_point, rolling_disc
+from structured import four_bars as rods_of_four_bars
 from support import assert_close
 
 # ---- knife edge ----
@@ -202,6 +204,21 @@ def test_a_row_of_four_bars_by_fixed_steps(method, step, allowed, formulation):
     assert error < allowed
     changed = sol.stats["repartitions"]
     assert 0 < changed < sol.stats["steps"] / 10 if formulation in ("mixed", "independent") else changed == 0
+
+
+@needs_compiler
+@pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")       # of small pivots, which come with the digits that are lost
+@pytest.mark.parametrize("road", ["schur", "mixed", "independent"])
+def test_a_row_of_forty_four_bars_among_bodies(road):
+    """Through the first position in which all rods lie flat; each takes two digits of those that are left."""
+    reference, rods = table("A02_fourbar_N40"), rods_of_four_bars(40, angle=np.pi / 2)
+    speeds = np.zeros(3 * len(rods.masses))
+    speeds[2::6], speeds[0::6], speeds[3::6] = -1.0, 0.5, 1.0       # what stands turns, and takes what lies on it along
+    sol = zd.simulate(rods.system(), 1.0, None, speeds, step=1e-3, save_every=50, formulation=road)
+    tip = np.stack([np.cos(sol.p[:, 2]), np.sin(sol.p[:, 2])], axis=1)
+    place = np.stack([reference["B0x"], reference["B0y"]], axis=1)[:len(tip)]
+    assert_close(sol.t, reference["t"][:len(tip)], 1e-12)
+    assert np.abs(tip - place).max() < 1e-8
 
 
 # ---- heavy top ----

@@ -12,14 +12,13 @@ from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
 from ..systems.base import core_of
 from .rows import integrators, name_of
-from .solution import Solution
+from .solution import SMALLEST_PIVOT, Solution
 
 # Both limits are parts of the largest kinetic energy. Among the runs that were measured, none whose error of the energy balance
 # (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without harm, as
 # long as no single one of them has to take out more than the second limit.
 LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION = 0.005, 0.02
 ENERGY_ROUNDING = 1e-10     # of all the energy there is; smaller errors are rounding and say nothing about the steps
-SMALLEST_PIVOT = 1e-8       # half of the digits are lost in what is solved with a smaller one
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
 CATEGORIES = (AccuracyWarning, CorrectionWarning, StabilityWarning)

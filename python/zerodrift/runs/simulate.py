@@ -119,9 +119,10 @@ def simulate(
         within 1e-7 of its size of a bifurcation, or within 1e-4 where it moves nearly straight, is taken through it in the same
         way. Where no branch lies along the velocity, the formulations "mixed" and "independent" stop, and the others take the
         least acceleration. Constraints that are redundant in every position are no bifurcation, and need no choice. Among the
-        rows of a declared structure with more than 40 of them, or more than 300 velocities, bifurcations are not looked for:
-        rows that are dependent at the start are taken to be redundant, and where one is nearly so later, a warning says when
-        and which.
+        rows of a declared structure with more than 40 of them, or more than 300 velocities, bifurcations are not looked for,
+        neither at the end of a step nor within it, and "continue" is as "stop": a run goes on through one as its numbers lead
+        it, and loses digits. Two things are told of them. A start at one is refused with that error. Later, where no row is
+        redundant and the mass matrix is definite, a warning and ``repr`` of the solution say where least was left of a row.
     direct : None or False
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
         constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent

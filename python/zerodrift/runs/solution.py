@@ -18,6 +18,8 @@ from .settings import core_settings, corrections_of
 if TYPE_CHECKING:
     from pathlib import Path
 
+SMALLEST_PIVOT = 1e-8       # half of the digits are lost in what is solved with a smaller one
+MOST_NAMED = 8              # rows in a line
 PART = 2**26        # bytes of a column that are looked at together
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 
@@ -167,10 +169,15 @@ class Solution:
             lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
                          f"max |Psi| = {_largest(self.velocity_violation)}")
         if stats.get("redundant"):
-            names = ", ".join(self.system.constraints[row].name for row in stats["redundant"])
-            lines.append(f"  redundant  {names}: rank {stats['rank']} of {self.system.m}")
+            names = [self.system.constraints[row].name for row in stats["redundant"][:MOST_NAMED]]
+            if (more := len(stats["redundant"]) - len(names)) > 0:
+                names.append(f"{more} others")
+            lines.append(f"  redundant  {', '.join(names)}: rank {stats['rank']} of {self.system.m}")
         if stats.get("rank_drops"):
             lines.append(f"  singular   the rank dropped in {stats['rank_drops']} steps")
+        if 0 < stats.get("smallest_pivot", 0) < SMALLEST_PIVOT:
+            lines.append(f"  digits     lost near a bifurcation: {stats['smallest_pivot']:.1g} was left of "
+                         f"{self.system.constraints[stats['smallest_pivot_row']].name} at t = {stats['smallest_pivot_time']:.6g}")
         if self.energy_violation is not None:
             lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
         return "\n".join(lines)
