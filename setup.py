@@ -16,7 +16,7 @@ class BuildPy(build_py):
 
 
 class SourceDistribution(sdist):
-    """Leaves out what notebooks have printed and drawn, which is five times as large as all the rest; to run them brings it back."""
+    """Leaves out what notebooks have printed and drawn, which is larger than all the rest; to run them brings it back."""
 
     def make_release_tree(self, base_dir, files):
         super().make_release_tree(base_dir, files)
