@@ -14,7 +14,7 @@ from support import FORMULATIONS, ROOT
 
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs the tools of GNU")
 ALLOCATING = ("malloc", "calloc", "realloc", "aligned_alloc")
-INPUTS = 500        # of the fuzzer; .ci/sanitize hands in 50,000, under sanitizers
+INPUTS = 50_000     # of the fuzzer; .ci/sanitize hands in as many, under sanitizers
 
 
 @needs_compiler

@@ -5,8 +5,9 @@
 
 double zd_run_progress(const zd_run *run)
 {
-    double span = run->course.end - run->settings.t0;
-    return span > 0 ? (run->stepper.t - run->settings.t0) / span : 1;
+    const double span = run->course.end - run->settings.t0;
+    const double t = run->output.is_open ? run->output.after.t : run->stepper.t;    /* the step is made, though rows within it are not */
+    return span > 0 ? (t - run->settings.t0) / span : 1;
 }
 
 const char *zd_run_message(const zd_run *run) { return run->outcome.message; }
