@@ -21,7 +21,7 @@
 
 enum {
     MAX_REFINEMENTS = 40,
-    MANY_TOUCHERS = 12,     /* a body with more joints is eliminated last: it would couple all that hang on it */
+    MANY_JOINTS = 12,       /* a body with more joints is eliminated last: it would couple all that hang on it */
 };
 static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* of a column's square: what may be little */
 static const double WORSE = 0x1p-4;             /* of the pivots' reference: chosen anew */
@@ -75,7 +75,7 @@ static void find_order(const zd_layout *layout, const int *reached, int *order)
     int next = 0;
     for (int are_last = 0; are_last < 2; are_last++)
         for (int i = layout->blocks - 1; i >= 0; i--) {
-            const int b = reached[i], has_many = layout->toucher_at[b + 1] - layout->toucher_at[b] > MANY_TOUCHERS;
+            const int b = reached[i], has_many = layout->toucher_at[b + 1] - layout->toucher_at[b] > MANY_JOINTS;
             if (has_many == are_last) order[next++] = b;
         }
 }

@@ -10,6 +10,7 @@ from matplotlib.colors import to_rgb
 from scipy.spatial import ConvexHull
 
 import zerodrift as zd
+from drawn import centres, collection, is_among, outlines, sorts
 from zerodrift.mechanisms.joints import JOINTS
 from zerodrift.mechanisms.made_forces import ELEMENTS
 from zerodrift.plot import annotations, marks
@@ -26,47 +27,6 @@ LOOKS = {"revolute": {"pin"}, "weld": {"weld"}, "rod": {"rod"}, "rolling": {"roa
          **{kind: looks | {"pin"} if kind == "slot" else looks for kind, looks in ON_MOVING_BODIES.items()},
          "spring": {"spring", "damper"}, "bushing": {"bushing"}, "force": {"load"}, "torque": {"moment"},
          "torsion_spring": {"bushing"}}     # that of a row is between two points, and of no joint
-
-
-def sorts():
-    """All that has a glyph."""
-    m = zd.Mechanism("sorts", gravity=(0, -9.81))
-    arm = m.link("arm", (0, 0), (1, 0.3), mass=1.0)
-    plate = m.body("plate", 1.0, 0.1, at=(3, 0))
-    box, piston = m.body("box", 1.0, 0.1, at=(1.2, 0.4)), m.body("piston", 1.0, 0.1, at=(2, 1), angle=0.5)
-    bob, bead = m.particle("bob", 1.0, at=(0.6, -0.6)), m.particle("bead", 0.1, at=(0.8, 0.24))
-    sleigh, fin = m.body("sleigh", 1, 0.1, at=(-1, 1)), m.body("fin", 0.2, 0.01, at=(3.3, 0.4))
-    wheel, ram = m.body("wheel", 1.0, 0.1, at=(-2, 0.5)), m.body("ram", 0.3, 0.01, at=(2.3, 1.3))
-    rotors = [m.body(f"rotor{i}", 1.0, 0.1, at=(i, 2)) for i in range(2)]
-    arm.point((0.3, 0.1), name="tracer")
-    hinge = m.revolute("hinge", m.ground, arm.start)
-    corner = m.revolute("corner", m.ground, plate.point((0, 0)))
-    m.weld("seam", plate, fin, at=(3.2, 0.3))
-    m.bushing("mount", arm, box, at=(1, 0.3), stiffness=100, torsion=10)
-    m.rod("rod", arm.point((0.5, 0)), bob)
-    m.slot("groove", arm, bead, axis=(1, 0.3))
-    rail = m.prismatic("rail", m.ground, piston, axis=(1, 1))
-    m.prismatic("telescope", piston, ram, axis=(1, 1))
-    m.knife_edge("blade", sleigh, along=(1, 1))
-    m.rolling("road", m.ground, wheel, radius=0.5)
-    pins = [m.revolute(f"pin{i}", m.ground, rotor.point((0, 0))) for i, rotor in enumerate(rotors)]
-    m.gear("mesh", *pins, ratio=-3.0)
-    m.spring("coil", m.ground.point((2, -1)), plate.point((0.4, 0.2)), stiffness=20.0)
-    m.spring("band", piston.point((0, 0.1)), plate.point((0.4, -0.2)), stiffness=20.0, damping=1.0)
-    m.torsion_spring("clock", hinge, stiffness=1.0)
-    m.actuator("jack", m.ground.point((2, 3)), piston.point((0, 0)), force=1.0)
-    m.motor("turn", corner, torque=-0.1)
-    m.motor("push", rail, force=1.0)
-    m.force("wind", sleigh, along=(0, 1), value=-1.0)
-    m.torque("twist", sleigh, value=1.0)
-    m.coupler("cage", {pins[0].angle: 1.0, pins[1].angle: 1.0, _third(m).angle: 1.0})
-    m.particle("nut", 0.1, at=arm.end)
-    m.start({"pin0.speed": 2.0, "wheel.angular_velocity": -1.0})
-    return m
-
-
-def _third(m):
-    return m.revolute("pin2", m.ground, m.body("rotor2", 1.0, 0.1, at=(4, 2)).point((0, 0)))
 
 
 def planetary():
@@ -106,31 +66,6 @@ def valve():
 @pytest.fixture(scope="module")
 def sol():
     return zd.simulate(sorts(), 0.3, step=0.01)
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
-def collection(ax, kind):
-    """What draws all parts of a kind."""
-    (found,) = [each for each in ax.collections if each.get_label() == f"_{kind}"]
-    return found
-
-
-def outlines(ax, kind):
-    return [path.vertices for path in collection(ax, kind).get_paths()]
-
-
-def centres(ax, kind):
-    """The middles of what is drawn of a kind, (n, 2)."""
-    return np.array([(points.min(axis=0) + points.max(axis=0)) / 2 for points in outlines(ax, kind)])
-
-
-def is_among(place, places, within=1e-9):
-    return np.hypot(*(np.asarray(places) - place).T).min() < within
 
 
 def kinds(system, name):
@@ -459,159 +394,6 @@ def test_hinges_at_one_place_share_a_label():
 def test_nothing_to_draw_is_drawn_too():
     assert Picture(plt.subplots()[1], [[]]).size > 0
     assert Picture(plt.subplots()[1], [[Shape("particle", np.zeros((1, 2)))]]).show(0)
-
-
-# ---- names, paths, forces, other positions ----
-
-
-@pytest.fixture(scope="module")
-def loaded():
-    """All that forces can be asked of, in a four-bar."""
-    m = zd.Mechanism("loaded", gravity=(0, -9.81))
-    crank = m.link("crank", (0, 0), (0, 0.3), mass=1.5)
-    coupler = m.link("coupler", (0, 0.3), (0.95, 0.6), mass=5.0, length=1.0)
-    rocker = m.link("rocker", (0.95, 0.6), (1, 0), mass=3.0, length=0.6)
-    m.revolute("A", m.ground, crank.start)
-    m.revolute("B", crank.end, coupler.start)
-    m.revolute("C", coupler.end, rocker.start)
-    m.revolute("D", rocker.end, m.ground.point((1, 0)))
-    coupler.point((0.5, 0.35), name="P")
-    wheel = m.body("wheel", 1.0, 0.02, at=(1.5, 0.2))
-    m.rolling("road", m.ground, wheel, radius=0.2)
-    m.spring("coil", coupler.center, wheel.point((0, 0)), stiffness=60.0, damping=2.0)
-    m.actuator("jack", m.ground.point((0.4, -0.3)), coupler.start, force=7.0)
-    m.bushing("rubber", rocker, wheel, at=(1.2, 0.3), stiffness=30.0)
-    m.force("wind", coupler, along=(0.6, 0.8), value=-4.0)
-    return zd.simulate(m, 0.4, step=0.005)
-
-
-def shown_forces(ax):
-    """The tails and vectors in N of the arrows, from what is drawn alone: by the arrow that says the scale."""
-    (words,) = [text for text in ax.texts if text.get_label() == "_scale"]
-    (key,) = outlines(ax, "scale")
-    value, unit = words.get_text().split()
-    per_metre = float(value) * {"mN": 1e-3, "N": 1.0, "kN": 1e3}[unit] / np.ptp(key[:, 0])
-    names = [text.get_text() for text in ax.texts if text.get_label() == "_force" and text.get_visible()]
-    ends = [((points[0] + points[-2]) / 2, points[3]) for points in outlines(ax, "forces")]
-    return {name: (tail, (tip - tail) * per_metre) for name, (tail, tip) in zip(names, ends, strict=True)}
-
-
-@pytest.mark.parametrize("row", [20, 80])
-def test_arrows_are_forces_to_the_scale_that_is_said(loaded, row):
-    found = shown_forces(zd.plot.mechanism(loaded, t=loaded.t[row], forces=True))
-    sizes = {name: np.hypot(*loaded[f"{name}.force"][row]) for name in ("A", "B", "C", "D", "road", "rubber")} | {"wind": 4.0}
-    assert set(found) == {name for name, size in sizes.items() if size > 0.02 * max(sizes.values())}
-    for name in set(found) - {"wind"}:
-        np.testing.assert_allclose(found[name][1], loaded[f"{name}.force"][row], rtol=1e-9)
-    for name in "ABCD":
-        np.testing.assert_allclose(found[name][0], loaded[f"{name}.position"][row], atol=1e-12)
-    np.testing.assert_allclose(found["wind"][1], (-2.4, -3.2), rtol=1e-9)
-    np.testing.assert_allclose(found["wind"][0], loaded["coupler.center.position"][row], atol=1e-12)
-    np.testing.assert_allclose(found["road"][0], loaded["wheel.position"][row] - [0, 0.2], atol=1e-9)
-
-
-def test_springs_pull_and_cylinders_push_along_themselves(loaded):
-    found = shown_forces(zd.plot.mechanism(loaded, t=loaded.t[40], forces=["coil", "jack"]))
-    middle, wheel, foot, head = (loaded[f"{name}.position"][40] if name else np.array([0.4, -0.3])
-                                 for name in ("coupler.center", "wheel", "", "coupler.start"))
-    pull, push = (middle - wheel) / np.hypot(*(middle - wheel)), (head - foot) / np.hypot(*(head - foot))
-    np.testing.assert_allclose(found["coil"][1], loaded["coil.force"][40] * pull, rtol=1e-6)
-    np.testing.assert_allclose(found["jack"][1], 7.0 * push, rtol=1e-6)
-
-
-def test_a_scale_can_be_given_and_is_said_by_a_round_number(loaded):
-    for scale in (100.0, 1e5):
-        ax = zd.plot.mechanism(loaded, forces="C", force_scale=scale, t=0.0)
-        (key,) = outlines(ax, "scale")
-        (words,) = [text.get_text() for text in ax.texts if text.get_label() == "_scale"]
-        value, unit = words.split()
-        assert np.ptp(key[:, 0]) * scale == pytest.approx(float(value) * (1e3 if unit == "kN" else 1.0))
-        assert value[0] in "125"
-
-
-def test_a_load_that_is_to_scale_is_no_symbol_any_more(loaded):
-    assert len(outlines(zd.plot.mechanism(loaded, t=0.0), "load")) == 1
-    assert not [each for each in zd.plot.mechanism(loaded, t=0.0, forces="wind").collections if each.get_label() == "_load"]
-
-
-@pytest.mark.parametrize("path", ["P", "P.position", "coupler.end", ["P", "C"]])
-def test_paths_are_those_of_the_points(loaded, path):
-    lines = [line for line in zd.plot.mechanism(loaded, path=path).lines if line.get_label() == "_path"]
-    names = {"P": ["P"], "P.position": ["P"], "coupler.end": ["C"]}.get(path, path) if isinstance(path, str) else path
-    for line, name in zip(lines, names, strict=True):
-        np.testing.assert_allclose(line.get_xydata(), loaded[f"{name}.position"], atol=1e-9)
-    alone = zd.plot.path(loaded, path)
-    assert len(alone.lines) == len(lines)
-    assert alone.get_aspect() == 1.0
-
-
-def test_names_are_written_once_each():
-    ax = zd.plot.mechanism(sorts(), names=True)
-    written = [text.get_text() for text in ax.texts if text.get_label() == "_name"]
-    assert len(written) == len(set(written))
-    assert {"arm", "hinge", "bob", "tracer", "coil", "band", "rod", "jack", "turn", "push", "rail", "seam"} <= set(written)
-
-
-@pytest.mark.parametrize(("ghosts", "count"), [(None, 8), (0, 0), (3, 3), ([0.1, 0.2], 2), (np.array([0.0]), 1)])
-def test_other_positions_are_faint(loaded, ghosts, count):
-    ax = zd.plot.mechanism(loaded, ghosts=ghosts)
-    faint = [each for each in ax.collections if each.get_label() == "_ghosts"]
-    assert sum(len(each.get_segments()) for each in faint) == 5 * count       # four bodies and the wheel's rim
-    if isinstance(ghosts, list):
-        start = loaded["crank.end.position"][20]
-        assert is_among(start, np.vstack(faint[0].get_segments()))
-
-
-def test_a_time_is_that_of_the_nearest_row(loaded):
-    ax = zd.plot.mechanism(loaded, t=0.2012)
-    assert is_among(loaded["C.position"][40], centres(ax, "pin"))
-    assert not [each for each in ax.collections if each.get_label() == "_ghosts"]
-
-
-def test_films_show_forces_names_and_paths_of_their_last_frame(loaded, tmp_path):
-    film = zd.plot.animate(loaded, fps=5, names=True, path="P", forces=["A", "C"])
-    film.save(tmp_path / "film.gif", writer="pillow", dpi=30)
-    assert (tmp_path / "film.gif").read_bytes()[:4] == b"GIF8"
-    ax = film._fig.axes[0]
-    found = shown_forces(ax)
-    for name in "AC":
-        np.testing.assert_allclose(found[name][1], loaded[f"{name}.force"][-1], rtol=1e-9)
-    (crank,) = [text for text in ax.texts if text.get_text() == "crank"]
-    middle = (loaded["crank.start.position"][-1] + loaded["crank.end.position"][-1]) / 2
-    assert np.hypot(*(crank.get_position() - middle)) < 0.2
-
-
-@pytest.mark.parametrize(("given", "error", "says"), [
-    ({"forces": "E"}, ValueError, "each of forces must be one of 'A', 'B', 'C', 'D', .*, not 'E'"),
-    ({"path": "Q"}, KeyError, "Q.position"),
-    ({"path": 3}, TypeError, "each of path must be a point or its name, such as 'F' or rod.end, not 3"),
-    ({"ghosts": -1}, ValueError, "ghosts must be between 0 and "),
-    ({"ghosts": [9.0]}, ValueError, "ghosts must be between 0 and 0.4"),
-    ({"t": np.nan}, ValueError, "t must be finite"),
-    ({"t": 0.1, "p": "end"}, ValueError, "t= needs a row of the solution: give t=, and leave p out"),
-    ({"forces": True, "p": "end"}, ValueError, "forces= needs a row of the solution"),
-    ({"force_scale": 0.0, "forces": True}, ValueError, "force_scale must be greater than 0")])
-def test_what_cannot_be_drawn_is_said(loaded, given, error, says):
-    given = given | ({"p": loaded.p[-1]} if "p" in given else {})
-    with pytest.raises(error, match=says):
-        zd.plot.mechanism(loaded, **given)
-
-
-@pytest.mark.parametrize("given", [{"path": "F"}, {"forces": True}, {"t": 0.1}, {"ghosts": 3}])
-def test_what_needs_a_motion_says_so(given):
-    with pytest.raises(ValueError, match=f"{next(iter(given))}= needs a solution, as zd.simulate returns"):
-        zd.plot.mechanism(sorts(), **given)
-
-
-@pytest.mark.parametrize("given", [{"names": True}, {"forces": True}])
-def test_what_needs_bodies_and_joints_says_so(given):
-    with pytest.raises(ValueError, match=f"{next(iter(given))}= needs a mechanism of bodies and joints, and "):
-        zd.plot.animate(zd.simulate(zd.systems.pendulum(), 0.1, step=0.01), **given)
-
-
-@pytest.mark.parametrize(("value", "rounded"), [(0.73, 0.5), (1.0, 1.0), (4.9, 2.0), (999.0, 500.0), (0.0, 1.0)])
-def test_round_numbers(value, rounded):
-    assert annotations.round_number(value) == pytest.approx(rounded)
 
 
 # ---- without colour ----

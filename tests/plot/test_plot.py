@@ -15,12 +15,6 @@ from matplotlib import pyplot as plt
 from matplotlib.path import Path
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module", params=zd.systems.__all__)
 def sol(request):
     return zd.simulate(getattr(zd.systems, request.param)(), 1.0, step=0.01)

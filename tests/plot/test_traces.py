@@ -10,12 +10,6 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def bar():
     """A four-bar whose crank does not turn, through both dead points and back."""

@@ -50,8 +50,8 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
 
     References
     ----------
-    R. L. Norton, Design of Machinery, chapter on cam design: the double-dwell cam with a lift of one inch, four quarters of a
-    turn, and one turn in a second.
+    R. L. Norton, Design of Machinery, chapter on cam design, for cams of two dwells by polynomials. A lift of one inch, quarters
+    of a turn and one turn in a second are round numbers in its manner.
 
     Examples
     --------

@@ -41,8 +41,7 @@ def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module:
 
     References
     ----------
-    R. Willis, Principles of Mechanism, 1841; R. L. Norton, Design of Machinery, chapter on gear trains, where the ring of this
-    gear turns at -250 rpm.
+    R. Willis, Principles of Mechanism, 1841. Teeth and speeds are round numbers; by his equation the ring turns at -250 rpm.
 
     Examples
     --------

@@ -43,7 +43,7 @@ def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: floa
     References
     ----------
     J. Ostrowski, A. Lewis, R. Murray, J. Burdick, Nonholonomic mechanics and locomotion: the snakeboard example, Proceedings of
-    the IEEE International Conference on Robotics and Automation, 1994.
+    the IEEE International Conference on Robotics and Automation, 1994. Masses and sizes here are those of a small board.
 
     Examples
     --------
