@@ -24,6 +24,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"python -m zerodrift: cannot write to {options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
+    except ImportError as error:
+        print(f"python -m zerodrift: {error}", file=sys.stderr)
+        return 1
     return 0
 
 
@@ -36,7 +39,9 @@ def _reproduce(folder: Path) -> None:
 
 def _gallery(folder: Path) -> None:
     from . import gallery
+    from .models._swing import sympy as expressions
 
+    expressions()       # before the first film is made, as some models cannot do without
     page = gallery.write(folder)
     print(f"{len(gallery.exhibits())} models in motion (animated PNG) and the page that shows them, {page.resolve()}")
 

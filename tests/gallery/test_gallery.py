@@ -2,6 +2,7 @@
 
 import io
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -71,6 +72,13 @@ def test_the_command_writes_films_and_a_page(tmp_path, monkeypatch, capsys):
     (tmp_path / "file").write_text("in the way")
     assert main(["gallery", "--out", str(tmp_path / "file")]) == 1
     assert f"cannot write to {tmp_path / 'file'}" in capsys.readouterr().err
+
+
+def test_without_sympy_the_command_says_what_to_install(tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    assert main(["gallery", "--out", str(tmp_path / "films")]) == 1
+    assert capsys.readouterr().err.endswith("are expressions of SymPy: pip install 'zerodrift[symbolic]'\n")
+    assert not (tmp_path / "films").exists()
 
 
 def test_a_model_that_is_in_no_table_is_shown_by_its_docstring_and_its_motor():

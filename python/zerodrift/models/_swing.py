@@ -13,7 +13,8 @@ def sympy() -> Any:
     try:
         return importlib.import_module("sympy")
     except ImportError as error:
-        raise ImportError("this model's drive is an expression of SymPy: pip install 'zerodrift[symbolic]'") from error
+        raise ImportError("drives and profiles of some models are expressions of SymPy: "
+                          "pip install 'zerodrift[symbolic]'") from error
 
 
 def symbol(name: str) -> Any:
