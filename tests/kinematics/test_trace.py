@@ -300,8 +300,8 @@ def test_what_is_no_mechanism():
 
 
 def test_what_has_no_end(monkeypatch):
-    monkeypatch.setattr(walk, "MOST", 100)
-    monkeypatch.setattr(walk, "FARTHEST", 100)
+    monkeypatch.setattr(walk, "LARGEST_COUNT", 100)
+    monkeypatch.setattr(walk, "LARGEST_COUNT_TO_A_VALUE", 100)
     m = zd.Mechanism("rail")
     m.prismatic("slide", m.ground, m.body("cart", 1.0), axis=(1, 0), at=(0, 0))
     assert zd.trace(m, "slide.displacement", [0.0, 7.0])["cart.position.x"] == pytest.approx([0.0, 7.0], abs=1e-14)

@@ -17,18 +17,18 @@ import numpy as np
 from .._gateway.geometry import Geometry
 from ..errors import CorrectionFailed
 
-FIRST = 0.02            # the first step, in rad or parts of the mechanism's length
-LONGEST = 0.25          # a step at most
-SHORTEST = 1e-8         # a step at least: where shorter ones are needed, there is no curve any more
-TURN = 0.15             # rad: how far the tangent shall turn in a step
-SHARPEST = 0.4          # rad: how far it may
-OFF = 0.2               # of a step: how far the predictor may be off
-NEAR = 1e-7             # a Newton step after which nothing but rounding is left, as the next one would be its square
-FLAT = 1e-12            # of the measure's row: a slope along the curve that counts as none
-OPEN = 1e-12            # of a row in units of its size: what counts as closed
+FIRST_STEP = 0.02               # in rad or parts of the mechanism's length
+LONGEST_STEP = 0.25
+SHORTEST_STEP = 1e-8            # where shorter ones are needed, there is no curve any more
+WANTED_TURN = 0.15              # of the tangent in a step, in rad
+LARGEST_TURN = 0.4              # of the tangent in a step, in rad: one of more is made again, shorter
+LARGEST_PREDICTOR_ERROR = 0.2   # of a step
+LARGEST_LAST_CORRECTION = 1e-7  # of Newton's method: the next would be its square, which is rounding
+ZERO_SLOPE = 1e-12              # of the measure's row: a smaller slope along the curve counts as none
+LARGEST_RESIDUAL = 1e-12        # of a row in units of its size: what counts as closed
 ITERATIONS = 12
-ASIDE = 1e-3            # of a singular point: from so far away it is interpolated, with an error of the fourth power
-SURE = 1e5              # of the inverse of Newton's matrix: a larger size says that it is nearly singular
+INTERPOLATION_DISTANCE = 1e-3   # to both sides of a singular point, which is interpolated with an error of the fourth power
+LARGEST_INVERSE = 1e5           # of Newton's matrix: beyond, it is nearly singular
 EPS = 2.0**-52
 
 
@@ -99,7 +99,7 @@ class Curve:
                 return None
             if not np.isfinite(step).all() or (moved := np.abs(step).max()) > 1.0:
                 return None
-            if moved < 1e-15 or (np.abs(residual).max(initial=0.0) <= OPEN and moved < NEAR):
+            if moved < 1e-15 or (np.abs(residual).max(initial=0.0) <= LARGEST_RESIDUAL and moved < LARGEST_LAST_CORRECTION):
                 tangent = tangent / np.linalg.norm(tangent)
                 return Knot(x + step, tangent, value + float(row @ step), self._slope(row, tangent))
             x = x + step
@@ -108,7 +108,7 @@ class Curve:
     @staticmethod
     def _slope(row: np.ndarray, tangent: np.ndarray) -> float:
         slope = float(row @ tangent)
-        return slope if abs(slope) > FLAT * np.linalg.norm(row) else 0.0
+        return slope if abs(slope) > ZERO_SLOPE * np.linalg.norm(row) else 0.0
 
     def segments(self, knot: Knot) -> Iterator[Segment]:
         """The curve from a knot on, in pieces in which the measure goes one way; it has no end.
@@ -118,26 +118,27 @@ class Curve:
         CorrectionFailed
             Where the curve cannot be followed.
         """
-        step, before, arc = FIRST, None, 0.0
+        step, before, arc = FIRST_STEP, None, 0.0
         while True:
             bend = (knot.tangent - before.tangent) / (2 * arc) if before else 0.0
             found = self._step(knot, step, bend)
             if found is None:
                 step /= 2
-                if step < SHORTEST:
+                if step < SHORTEST_STEP:
                     raise CorrectionFailed(f"the positions cannot be followed beyond {knot.value:.10g}: the constraints do not "
                                            "determine them there")
                 continue
             turned = _angle(knot.tangent, found.tangent)
             before, arc = knot, _arc(knot, found)
             yield from self._pieces(knot, found)
-            knot, step = found, min(LONGEST, step * min(2.0, TURN / max(turned, 1e-9)))
+            knot, step = found, min(LONGEST_STEP, step * min(2.0, WANTED_TURN / max(turned, 1e-9)))
 
     def _step(self, knot: Knot, step: float, bend: np.ndarray | float) -> Knot | None:
         """The knot at about that distance along the curve; None where the step is too long to be sure of it."""
         guess = knot.x + step * knot.tangent + step**2 * bend
         found = self.knot(guess, knot.tangent)
-        if found is None or _angle(knot.tangent, found.tangent) > SHARPEST or np.linalg.norm(found.x - guess) > OFF * step:
+        if (found is None or _angle(knot.tangent, found.tangent) > LARGEST_TURN
+                or np.linalg.norm(found.x - guess) > LARGEST_PREDICTOR_ERROR * step):
             return None
         return found
 
@@ -164,7 +165,7 @@ class Curve:
 
     def _beside(self, segment: Segment, arc: float) -> Knot:
         """At a bifurcation, where more rows depend on each other, Newton's matrix is singular: between points on both sides."""
-        first, last = (self._at(segment, arc + aside) for aside in (-ASIDE, ASIDE))
+        first, last = (self._at(segment, arc + aside) for aside in (-INTERPOLATION_DISTANCE, INTERPOLATION_DISTANCE))
         if first is None or last is None:
             raise CorrectionFailed(f"the positions cannot be followed beyond {segment.first.value:.10g}: the constraints do not "
                                    "determine them there")
@@ -187,7 +188,8 @@ class Curve:
             high, above = arc, found.slope
         return found._replace(slope=0.0)
 
-    def positions(self, segments: list[Segment], values: np.ndarray, aside: float = ASIDE) -> tuple[np.ndarray, np.ndarray]:
+    def positions(self, segments: list[Segment], values: np.ndarray,
+                  aside: float = INTERPOLATION_DISTANCE) -> tuple[np.ndarray, np.ndarray]:
         """Where the measure has given values, each in its piece: x (k, n), and dx by the measure (k, n); that is infinite at dead
         points.
         """
@@ -209,7 +211,7 @@ class Curve:
             x[active] += solved[moving, :, 0]
         self._take_dead_points(segments, values, best, slopes, error, inverse)
         by_dead = np.array([0.0 in (segment.first.slope, segment.last.slope) for segment in segments])      # singular, but known
-        for i in np.flatnonzero(((inverse > SURE) & ~by_dead) | (error > OPEN)):
+        for i in np.flatnonzero(((inverse > LARGEST_INVERSE) & ~by_dead) | (error > LARGEST_RESIDUAL)):
             best[i], slopes[i] = self._between_values(segments[i], values[i], aside)
         return best, slopes
 

@@ -19,7 +19,7 @@ from ..mechanisms.start import targets
 from ..mechanisms.starting import Starting, size_of
 from ..mechanisms.system import MechanismSystem
 from ..mechanisms.tables import Tables
-from .curve import FLAT, Curve, Knot
+from .curve import ZERO_SLOPE, Curve, Knot
 
 DEPENDENT = 1e-9        # of the largest singular value: what counts as dependent
 SMALLEST = 1e-3         # of the largest row: what counts as the size of a smaller one
@@ -164,7 +164,7 @@ class Motion:
         if knot is None:
             raise SingularSystem(f"{self._drawing.name} is in a position in which its constraints do not determine how it moves: "
                                  "start it a little aside")
-        if np.linalg.norm(row) < FLAT or abs(knot.slope) < 1e-9 * np.linalg.norm(row):
+        if np.linalg.norm(row) < ZERO_SLOPE or abs(knot.slope) < 1e-9 * np.linalg.norm(row):
             return knot._replace(slope=0.0)
         return knot if knot.slope > 0 else knot.reversed()
 

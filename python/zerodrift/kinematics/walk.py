@@ -11,8 +11,8 @@ import numpy as np
 from .curve import Curve, Knot, Segment, touches
 from .motion import Motion
 
-MOST = 1_000            # pieces: a curve that has neither turned nor closed by then, a hundred turns, has no end
-FARTHEST = 5_000        # pieces: no value is farther from the start
+LARGEST_COUNT = 1_000               # pieces: a curve that has neither turned nor closed by then, a hundred turns, has no end
+LARGEST_COUNT_TO_A_VALUE = 5_000    # pieces: no value is farther from the start
 
 
 class Met(NamedTuple):
@@ -46,7 +46,7 @@ def check_start(motion: Motion) -> None:
 def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> list[Segment]:
     """The pieces from a knot to a value, at least one of them; a dead point before that is an error."""
     pieces: list[Segment] = []
-    for segment in itertools.islice(motion.curve.segments(knot), FARTHEST):
+    for segment in itertools.islice(motion.curve.segments(knot), LARGEST_COUNT_TO_A_VALUE):
         if pieces and segment.sense != pieces[0].sense:
             break
         pieces.append(segment)
@@ -106,7 +106,7 @@ def _ends_at(segment: Segment, value: float) -> bool:
 
 def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment], place: int, values: np.ndarray) -> Segment:
     """The first piece behind the next dead point."""
-    for following in itertools.islice(pieces, MOST):
+    for following in itertools.islice(pieces, LARGEST_COUNT):
         if following.sense != segment.sense:
             return following
         if motion.is_angle and abs(following.last.value - values[place - 1]) > 2 * np.pi:
@@ -119,7 +119,7 @@ def whole(motion: Motion) -> tuple[list[Segment], bool]:
     """A turn of the measure, or the curve until it closes, and whether it turned."""
     start, pieces = motion.knot, []
     angles = motion.turns()
-    for segment in itertools.islice(motion.curve.segments(start), MOST):
+    for segment in itertools.islice(motion.curve.segments(start), LARGEST_COUNT):
         pieces.append(segment)
         if motion.is_angle and segment.last.value - start.value >= 2 * np.pi and all(each.sense > 0 for each in pieces):
             return pieces, True
