@@ -147,6 +147,28 @@ def test_runs_that_end_by_an_event_have_rows_of_their_own():
     assert "rows of their own" in repr(ens)
 
 
+def test_with_times_that_are_asked_for_all_rows_stack():
+    """A run that an event ends between two of them has its end in `t_events`."""
+    times = np.linspace(0, 2, 21)
+    falls = zd.Event("link.angle", value=-0.5, terminal=True)
+    ens = zd.ensemble(pendulum, 2.0, parameters={"gravity": [5.0, 1e-3, 10.0]}, step=0.01, events=[falls], t_eval=times,
+                      outputs=["link.angle", "link.end.position"])
+    assert np.array_equal(ens.t, times)
+    assert ens["link.end.position"].shape == (3, 21, 2)
+    for i, (angles, (ended,)) in enumerate(zip(ens["link.angle"], ens.t_events, strict=True)):
+        reached = times <= (ended[0] if len(ended) else 2.0)
+        assert np.array_equal(angles[reached], ens[i]["link.angle"][:reached.sum()])
+        assert np.isnan(angles[~reached]).all()
+    assert [len(ended) for ended, in ens.t_events] == [1, 0, 1]
+
+
+def test_progress_is_that_of_the_runs():
+    seen = []
+    zd.ensemble(pendulum, 5.0, parameters={"gravity": np.linspace(1, 20, 20)}, step=1e-3, progress=seen.append)
+    assert seen == sorted(seen)
+    assert 0 <= seen[0] < seen[-1] == 1
+
+
 def test_solutions_can_be_kept():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01, keep="solutions")
     assert ens[0] is ens[0]
@@ -205,7 +227,10 @@ def test_ctrl_c_in_the_first_run():
     ({"outputs": ["crank.angel"]}, ValueError, "no output is called 'crank.angel' in four_bar; .*crank.angle"),
     ({"outputs": [3]}, TypeError, "each of outputs must be a measure"),
     ({"steps": 3}, TypeError, "ensemble has no argument 'steps'"),
-    ({"progress": True}, TypeError, "ensemble has no argument 'progress'"),
+    ({"on_failure": "raise"}, TypeError, "ensemble has no argument 'on_failure'"),
+    ({"progress": 3}, TypeError, "progress must be True"),
+    ({"p0": [1.0, 2.0]}, ValueError, "p0 must have 3 entries for each run of four_bar"),
+    ({"events": [3]}, TypeError, r"events\[0\] must be a callable"),
     ({"formulation": "best"}, ValueError, "formulation must be one of"),
     ({"reduce": 3}, TypeError, "reduce must be a function"),
     ({"threads": 0}, ValueError, "threads must be between 1"),
@@ -229,8 +254,13 @@ def test_what_a_grid_refuses():
         zd.grid({"a": [1]}, a=[2])
     with pytest.raises(TypeError, match="values must be a dict"):
         zd.grid([1, 2])
-    with pytest.raises(TypeError, match="system must be one of"):
-        zd.ensemble(lambda: 3, 1.0, step=0.1)[0]
+
+
+def test_functions_that_make_no_systems():
+    with pytest.raises(TypeError, match="<lambda> must return a system or a Mechanism, not 3"):
+        zd.ensemble(lambda: 3, 1.0, step=0.1)
+    with pytest.raises(TypeError, match=r"pendulum\(length=1.0, .*\) does not take the parameters mass: .*'mass'"):
+        zd.ensemble(pendulum, 1.0, parameters={"mass": [1.0, 2.0]}, step=0.1)
 
 
 def test_keys_that_are_none():

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-import inspect
-import itertools
-import os
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from .. import _check
-from ..errors import Interrupted, ZerodriftError
-from ..mechanisms.measures import name_of
-from ..runs.simulate import simulate
+from ..errors import Interrupted
+from ..runs.progress import progress_of
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem
-from .result import NOTHING, Ensemble, Outcome
+from .part import NOT_STARTED, Part, joined, nothing
+from .plan import Plan, checked
+from .result import Ensemble
 from .runs import Runs
+from .threads import Threads, processors
 
-OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")     # of `simulate`, what is not passed on
+SHARES = 16         # ranges for each thread, so that all end at about the same time
+LONGEST = 1024      # runs of a range, at most
 
 
 def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None, v0: Any = None, start: Any = None,
              outputs: Any = None, reduce: Callable[[Solution], Any] | None = None, assemble: bool = True, hold: Any = (),
-             threads: int | None = None, keep: str | None = None, **options: Any) -> Ensemble:
+             threads: int | None = None, keep: str | None = None, progress: bool | Callable[[float], None] = False,
+             **options: Any) -> Ensemble:
     """Simulate many times, with parameters or starts that differ from run to run.
 
     Runs go side by side in threads, each by `simulate` and with the bits that it has by itself. A run that fails is data: its
@@ -57,6 +55,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
         At most so many; left out: as many as this process may use processors.
     keep : {None, "solutions"}
         Whether all solutions stay in memory.
+    progress : bool or callable
+        True: a progress bar (needs tqdm). A callable is handed the part of the runs that is done, 0 ... 1.
     **options
         As of `simulate`: ``step``, ``rtol``, ``t_eval``, ``events``, and so on.
 
@@ -80,126 +80,53 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     >>> ens["alpha1"].shape, bool(ens.failed.any())
     ((5, 11), False)
     """
-    _check_options(options)
     runs = Runs(system, parameters, p0, v0, start, hold, assembles=_check.instance("assemble", assemble, bool, "True or False"))
-    if reduce is not None and not callable(reduce):
-        raise TypeError(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
     keeps = keep is not None and bool(_check.choice("keep", keep, ("solutions",)))
-    threads = min(runs.count, _processors() if threads is None else _check.count("threads", threads))
-    names = _names(outputs, reduce)
-    work = _Work(runs, t_span, options, names, reduce, keeps)
-    return work.done(threads)
-
-
-def _check_options(options: dict[str, Any]) -> None:
-    known = [name for name in inspect.signature(simulate).parameters if name not in OWN]
-    for name in options:
-        if name not in known:
-            raise TypeError(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(known)}")
-
-
-def _names(outputs: Any, reduce: Any) -> list[str] | None:
-    """The names of outputs; None: all coordinates."""
-    if outputs is None:
-        return None if reduce is None else []
-    several = [outputs] if isinstance(outputs, str) or not isinstance(outputs, Sequence) else outputs
-    return [name_of(each, "each of outputs") for each in several]
-
-
-def _processors() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-class _Cancelled(Exception):
-    """Raised in a run that nobody waits for any more."""
+    threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
+    plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
+    return _Work(plan).done(threads, progress)
 
 
 class _Work:
-    """The runs that are to be made, and the threads that make them."""
+    """The runs that are to be made, and the parts that are done."""
 
-    def __init__(self, runs: Runs, t_span: Any, options: dict[str, Any], names: list[str] | None, reduce: Any,
-                 keeps: bool) -> None:
-        self._runs, self._t_span, self._options, self._reduce, self._keeps = runs, t_span, options, reduce, keeps
-        self._outcomes, self._cancelled, self._numbers = [NOTHING] * runs.count, False, itertools.count(1)
-        self._names = names
+    def __init__(self, plan: Plan) -> None:
+        self._plan, self._parts, self._lock, self._count = plan, {}, threading.Lock(), 0
 
-    def done(self, threads: int) -> Ensemble:
-        """All runs, the first alone: what is wrong with arguments shows there."""
+    def done(self, threads: int, progress: Any) -> Ensemble:
+        """All runs; after Ctrl-C an error that carries those that are done."""
         begin = time.perf_counter()
-        workers = [threading.Thread(target=self._work, daemon=True) for _ in range(threads if self._runs.count > 1 else 0)]
+        show, close = progress_of(progress)
+        runs = self._plan.runs.count
+        length = min(LONGEST, -(-runs // (SHARES * threads)))
+        ranges = ((first, min(runs, first + length)) for first in range(0, runs, length))
         try:
-            self._first()
-            for worker in workers:
-                worker.start()
-            for worker in workers:
-                while worker.is_alive():        # a join without an end is deaf to Ctrl-C on some machines
-                    worker.join(0.1)
+            Threads(self._plan, ranges, self._finished).run(threads, lambda: show(self._count / runs))
         except KeyboardInterrupt:
-            self._cancelled = True
-            for worker in workers:
-                if worker.ident is not None:
-                    worker.join()
             done = self._ensemble(begin, threads)
-            count = int((~done.failed).sum())
+            count = sum(message != NOT_STARTED for message in done.messages)
             raise Interrupted(f"the ensemble was interrupted: {count} of {len(done)} runs are done", done) from None
+        finally:
+            close()
         return self._ensemble(begin, threads)
 
+    def _finished(self, first: int, part: Part) -> None:
+        with self._lock:
+            self._parts[first] = part
+            self._count += len(part.rows)
+
     def _ensemble(self, begin: float, threads: int) -> Ensemble:
-        return Ensemble(self._runs, self._names or [], self._outcomes, self._solution, time.perf_counter() - begin, threads)
-
-    def _first(self) -> None:
-        """The first run; what is wrong with arguments is an error, and not a failed run."""
-        try:
-            system = self._runs.system(0)
-        except Exception as error:
-            if isinstance(self._runs.made, BaseSystem):
-                raise
-            self._outcomes[0] = _failed(error)
-            return
-        self._check_names(system)
-        try:
-            self._outcomes[0] = self._outcome(0)
-        except Exception as error:
-            if isinstance(error, TypeError | ValueError) and not isinstance(error, ZerodriftError):
-                raise
-            self._outcomes[0] = _failed(error)
-
-    def _check_names(self, system: BaseSystem) -> None:
-        known = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
-        for name in self._names or []:
-            if name not in known and system._watching.find(name) is None:
-                raise ValueError(f"no output is called {name!r} in {system.name}; "
-                                 f"{_check.closest(name, [*system._names_of_measures(), *known])}")
-
-    def _work(self) -> None:
-        """Takes runs until there are none."""
-        while not self._cancelled and (run := next(self._numbers)) < self._runs.count:
-            try:
-                self._outcomes[run] = self._outcome(run)
-            except _Cancelled:
-                return
-            except Exception as error:      # the others go on
-                self._outcomes[run] = _failed(error)
-
-    def _progress(self, _: float) -> None:
-        if self._cancelled:
-            raise _Cancelled
-
-    def _solution(self, run: int, **options: Any) -> Solution:
-        system = self._runs.system(run)
-        p, v = self._runs.start(run, system)
-        return simulate(system, self._t_span, p, v, **self._options, **options)
-
-    def _outcome(self, run: int) -> Outcome:
-        solution = self._solution(run, on_failure="return", progress=self._progress)
-        if self._names is None:
-            self._names = [variable.name for variable in solution.system.coordinates]
-        outputs = {name: np.array(solution[name]) for name in self._names}
-        value = self._reduce(solution) if self._reduce is not None and solution.success else None
-        return Outcome(np.array(solution.t), outputs, value, solution.t_events, solution if self._keeps else None,
-                       solution.message, solution.success)
+        return Ensemble(self._plan, filled(self._parts, self._plan.runs.count), time.perf_counter() - begin, threads)
 
 
-def _failed(error: Exception) -> Outcome:
-    """A run that did not begin, or whose own functions raised."""
-    return NOTHING._replace(message=f"{type(error).__name__}: {error}")
+def filled(parts: dict[int, Part], count: int) -> Part:
+    """All runs, from parts by their first runs; what is missing was not started."""
+    found, end = [], 0
+    for first in sorted(parts):
+        if first > end:
+            found.append(nothing(first - end))
+        found.append(parts[first])
+        end = first + len(parts[first].rows)
+    if end < count:
+        found.append(nothing(count - end))
+    return joined(found)

@@ -2,28 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .. import _check
-from ..runs.solution import Solution
-
-
-class Outcome(NamedTuple):
-    """What is kept of a run."""
-
-    t: np.ndarray
-    outputs: dict[str, np.ndarray]
-    value: Any
-    t_events: tuple[np.ndarray, ...] | None
-    solution: Solution | None
-    message: str
-    success: bool
-
-
-NOTHING = Outcome(np.zeros(0), {}, None, None, None, "it was not started, as the ensemble was interrupted", False)
+from .part import NOT_STARTED, ROADS, Part
+from .plan import Plan
 
 
 class Ensemble:
@@ -49,20 +34,19 @@ class Ensemble:
         How long all of them took together.
     """
 
-    def __init__(self, runs: Any, names: Sequence[str], outcomes: Sequence[Outcome], again: Any, seconds: float,
-                 threads: int) -> None:
-        self.parameters, self.shape, self.seconds, self._threads = runs.parameters, runs.shape, seconds, threads
-        self._again, self._names, self._outcomes = again, tuple(names), outcomes
-        self.failed = np.array([not each.success for each in outcomes], dtype=bool)
-        self.messages = tuple(each.message for each in outcomes)
-        self.t_events = [each.t_events for each in outcomes]
-        longest = max((each.t for each in outcomes), key=len)
-        shared = all(np.array_equal(each.t, longest[: len(each.t)]) for each in outcomes)
-        self.t = _check.frozen(longest.copy()) if shared else None
-        self.values = _together([each.value for each in outcomes])
+    def __init__(self, plan: Plan, part: Part, seconds: float, threads: int) -> None:
+        self.parameters, self.shape, self.seconds, self._threads = plan.runs.parameters, plan.runs.shape, seconds, threads
+        self._plan, self._names, self._part = plan, plan.names, part
+        self.failed = part.failed
+        self.messages = tuple(part.messages)
+        self.t_events = part.t_events
+        t = part.t if plan.t_eval is None else plan.t_eval
+        self.t = _check.frozen(t) if part.is_shared else None
+        self.values = _together(part.values)
+        self._starts = np.concatenate([[0], np.cumsum(part.rows)])      # of each run's rows
 
     def __len__(self) -> int:
-        return len(self._outcomes)
+        return len(self.failed)
 
     def __getitem__(self, key: Any) -> Any:
         """An output of all runs, or one run.
@@ -96,17 +80,17 @@ class Ensemble:
             raise TypeError(f"an ensemble takes the name of an output or the number of a run, not {_check.shown(key)}")
         if not -len(self) <= key < len(self):
             raise IndexError(f"there are {len(self)} runs, and none of number {key}")
-        return self._outcomes[key].solution or self._again(int(key) % len(self))
+        run = int(key) % len(self)
+        return self._part.solutions[run] or self._plan.solution(run)
 
     def _stacked(self, name: str) -> Any:
-        found = [each.outputs.get(name) for each in self._outcomes]
+        rows, found = self._part.rows, self._part.arrays.get(name, np.zeros(0))
         if self.t is None:
-            return [np.zeros(0) if each is None else each for each in found]
-        known = next((each for each in found if each is not None), np.zeros(0))
-        stacked = np.full((len(self), len(self.t), *known.shape[1:]), np.nan)
-        for row, each in zip(stacked, found, strict=True):
-            if each is not None:
-                row[: len(each)] = each
+            return np.split(found, self._starts[1:-1])
+        if (rows == len(self.t)).all():
+            return found.reshape(len(self), len(self.t), *found.shape[1:])
+        stacked = np.full((len(self), len(self.t), *found.shape[1:]), np.nan)
+        stacked[np.arange(len(self.t)) < rows[:, None]] = found
         return stacked
 
     def __iter__(self) -> Any:
@@ -122,8 +106,14 @@ class Ensemble:
         failed = f"{int(self.failed.sum())} failed" if self.failed.any() else "none failed"
         first = f", the first because {self.messages[int(self.failed.argmax())]}" if self.failed.any() else ""
         return (f"<ensemble of {count} runs{varied}: {rows}, {failed}{first}\n"
-                f" in {self.seconds:.3g} s on {self._threads} threads; run by run, on the ordinary road\n"
+                f" in {self.seconds:.3g} s on {self._threads} threads; {self._roads()}\n"
                 f" outputs {', '.join(self._names) or 'none'}>")
+
+    def _roads(self) -> str:
+        """How many runs took which."""
+        done = np.array([message != NOT_STARTED for message in self.messages])
+        return ", ".join(f"{count} on {road}" for number, road in enumerate(ROADS)
+                         if (count := int((self._part.roads[done] == number).sum()))) or "none was made"
 
 
 def _together(values: list[Any]) -> Any:

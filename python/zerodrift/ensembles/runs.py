@@ -82,6 +82,15 @@ def _column(name: str, value: Any) -> np.ndarray:
     return _check.real(f"parameter {name!r} must hold", value)
 
 
+class NoSystem(TypeError):
+    """A function was to make a system, and made something else."""
+
+
+def named(function: Any) -> str:
+    """A function in messages."""
+    return getattr(function, "__qualname__", None) or _check.shown(function)
+
+
 class Runs:
     """The runs of an ensemble.
 
@@ -103,7 +112,7 @@ class Runs:
                   if given is not None and (array := _state(name, given)) is not None}
         counts |= more | {name: len(array) for name, array in states.items() if array.ndim == 2}
         self.count = _common(counts)
-        self._start, self._states = start, states
+        self._start, self.states = start, states
         self.parameters = {name: self._all(each) for name, each in self.parameters.items()}
         self.shape = self.shape or (self.count,)
         if isinstance(self.made, BaseSystem):
@@ -124,7 +133,8 @@ class Runs:
         parameters = self.parameters_of(run)
         if not isinstance(self.made, BaseSystem):
             system = system_of(self.made(**parameters))
-            core_of(system)
+            if not isinstance(system, BaseSystem):
+                raise NoSystem(f"{named(self.made)} must return a system or a Mechanism, not {_check.shown(system)}")
             return system
         return self.made.with_parameters(parameters) if parameters else self.made
 
@@ -133,7 +143,7 @@ class Runs:
         if self._start:
             held = {name: array[run] if varies else array for name, (array, varies) in self._start.items()}
             return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()})
-        p, v = (None if (array := self._states.get(name)) is None else array[run] if array.ndim == 2 else array
+        p, v = (None if (array := self.states.get(name)) is None else array[run] if array.ndim == 2 else array
                 for name in ("p0", "v0"))
         if isinstance(system, MechanismSystem) and p is None and v is None:
             return None, None

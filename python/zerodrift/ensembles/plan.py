@@ -1,0 +1,155 @@
+"""What is to be made of many runs: all that a thread, another process or another machine needs to make some of them."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..errors import ZerodriftError
+from ..mechanisms.measures import name_of
+from ..runs import events as events_of
+from ..runs import settings
+from ..runs.simulate import simulate
+from ..runs.solution import Solution
+from ..systems.base import BaseSystem
+from .runs import NoSystem, Runs, named
+
+OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")     # of `simulate`, what is not passed on
+OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items() if name not in OWN}
+
+
+@dataclass(eq=False)
+class Plan:
+    """The runs, and what is kept of each.
+
+    Attributes
+    ----------
+    runs : Runs
+        Parameters and starts of each run; how its system is made.
+    t_span : float or (float, float)
+    options : dict
+        What `simulate` is told besides. ``vector`` is always among them, so that another machine gives the same bits.
+    names : tuple of str
+        The outputs.
+    reduce : callable or None
+    keeps : bool
+        Whether solutions are.
+    remembered : dict
+        What a road finds out once for all runs; it stays in this process.
+    """
+
+    runs: Runs
+    t_span: Any
+    options: dict[str, Any]
+    names: tuple[str, ...]
+    reduce: Callable[[Solution], Any] | None = None
+    keeps: bool = False
+    remembered: dict[str, Any] = field(default_factory=dict, repr=False)
+
+    @property
+    def t_eval(self) -> np.ndarray | None:
+        """The times that are saved; None: each run has its own."""
+        given = self.options.get("t_eval")
+        return None if given is None else np.asarray(given, dtype=float)
+
+    def over(self, runs: Runs) -> Plan:
+        """The same of other runs; what is remembered stays."""
+        other = copy.copy(self)
+        other.runs = runs
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        return vars(self) | {"remembered": {}}
+
+    def solution(self, run: int, **options: Any) -> Solution:
+        """One run, by `simulate`."""
+        system = self.runs.system(run)
+        p, v = self.runs.start(run, system)
+        return simulate(system, self.t_span, p, v, **self.options, **options)
+
+
+def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, reduce: Any, *, keeps: bool) -> Plan:
+    """A plan all of whose arguments were looked at, with the first system that can be made; nothing has run yet."""
+    for name in options:
+        if name not in OPTIONS:
+            raise TypeError(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}")
+    options = options | {"vector": settings.vector_unit(options.get("vector"))}
+    if reduce is not None and not callable(reduce):
+        raise TypeError(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
+    names = _names(outputs)
+    system = _some_system(runs)
+    if system is not None:
+        _check_options(system, _check.span(t_span), options)
+        _check_names(system, names or [])
+        _check_starts(runs, system)
+        if names is None:
+            names = [] if reduce is not None else [variable.name for variable in system.coordinates]
+    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps)
+
+
+def _names(outputs: Any) -> list[str] | None:
+    """The names of outputs; None: they were left out."""
+    if outputs is None:
+        return None
+    several = [outputs] if isinstance(outputs, str) or not isinstance(outputs, list | tuple) else outputs
+    return [name_of(each, "each of outputs") for each in several]
+
+
+def _some_system(runs: Runs) -> BaseSystem | None:
+    """The first that can be made; None: none can. Of a system that is given, what its parameters lack is an error."""
+    if isinstance(runs.made, BaseSystem):
+        return runs.system(0)
+    _check_signature(runs)
+    for run in range(runs.count):
+        try:
+            return runs.system(run)
+        except NoSystem:
+            raise
+        except Exception:       # a run that fails is data
+            continue
+    return None
+
+
+def _check_signature(runs: Runs) -> None:
+    """Refuses a function that does not take these parameters."""
+    try:
+        signature = inspect.signature(runs.made)
+    except ValueError:      # it has none, as some functions in C
+        return
+    try:
+        signature.bind(**runs.parameters_of(0))
+    except TypeError as error:
+        raise TypeError(f"{named(runs.made)}{signature} does not take the parameters {', '.join(runs.parameters) or '()'}: "
+                        f"{error}") from None
+
+
+def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> None:
+    """As `simulate` does at the door."""
+    given = OPTIONS | options
+    events_of.events(given.pop("events"), system)
+    settings.plan(system, span, **given)
+
+
+def _check_names(system: BaseSystem, names: list[str]) -> None:
+    known = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
+    for name in names:
+        if name not in known and system._watching.find(name) is None:
+            raise ValueError(f"no output is called {name!r} in {system.name}; "
+                             f"{_check.closest(name, [*system._names_of_measures(), *known])}")
+
+
+def _check_starts(runs: Runs, system: BaseSystem) -> None:
+    """Sizes and names, which each run would refuse."""
+    for name, size in (("p0", system.nq), ("v0", system.nv)):
+        array = runs.states.get(name)
+        if array is not None and array.shape[-1] != size:
+            raise ValueError(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
+    with contextlib.suppress(ZerodriftError):       # which is this run's own
+        runs.start(0, system)
