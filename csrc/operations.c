@@ -8,7 +8,7 @@
 #include "run/arguments.h"
 #include "run/create.h"
 #include "run/explain.h"
-#include "systems/expanded.h"
+#include "run/status.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
@@ -88,26 +88,33 @@ static zd_hold hold_of(const zd_settings *settings)
     return hold;
 }
 
+static int project(zd_store *store, const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
+                   const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
+{
+    const zd_hold hold = hold_of(settings);
+    int status = ZD_DONE;
+    if (hold.positions) {
+        const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;     /* (25a) has all rows of C */
+        status = holding ? project_stage(holding, settings, ZD_PHI, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
+    }
+    if (!status && hold.velocities) {
+        const zd_system *holding = zd_hold_velocities(store, system, hold_v, v);
+        status = holding ? project_stage(holding, settings, ZD_C, t, p, v, NULL, message, message_size) : ZD_NO_MEMORY;
+    }
+    return status;
+}
+
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
 {
     zd_settings stage = *settings;
+    zd_store store = {NULL};
     stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
-    zd_held held;
     int status = zd_check_method(system, settings, message, message_size);
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
-    if (status) return status;
-    /* A row that holds something belongs to no group of rows: where there are such, the structure is given up. */
-    zd_system plain = system->structure && (hold_p || hold_v) ? zd_expanded(system) : *system;
-    zd_hold hold = hold_of(settings);
-    if (hold.positions) {
-        zd_system holding = hold_p ? zd_hold_positions(&held, &plain, hold_p, p) : plain;     /* (25a) has all rows of C */
-        status = project_stage(&holding, &stage, ZD_PHI, t, p, v, iterations, message, message_size);
-    }
-    if (!status && hold.velocities) {
-        zd_system holding = zd_hold_velocities(&held, &plain, hold_v, v);
-        status = project_stage(&holding, &stage, ZD_C, t, p, v, NULL, message, message_size);
-    }
+    if (!status) status = project(&store, system, &stage, t, p, v, hold_p, hold_v, iterations, message, message_size);
+    zd_store_release(&store);
+    if (status == ZD_NO_MEMORY && !*message) snprintf(message, (size_t)message_size, "%s", zd_sentence(status));
     return status;
 }
 

@@ -1,11 +1,34 @@
 /* Holding is a constraint like any other: p_i - value_i = 0 among the holonomic rows, v_i - value_i = 0 among the
  * nonholonomic ones. The rows of the inner system are evaluated into the scratch and copied where they belong.
+ *
+ * Such a row touches one body, whose entries it has from A, or from the identity. So it is a row of a group of this body where a structure is
+ * declared, which is so kept; and where none is, the whole system is one body.
  */
 #include "held.h"
 
 #include <string.h>
 
+#include "../point/layout.h"
 #include "../point/point.h"
+
+typedef struct holding {    /* what a system that holds something is laid out from */
+    const zd_system *inner;
+    const int *hold;
+    const double *value;
+    int of_positions;
+} holding;
+
+typedef struct system_that_holds {
+    zd_system system;
+    zd_held held;
+} system_that_holds;
+
+/* ---- bodies ---- */
+
+static int blocks_of(const zd_system *system) { return system->structure ? system->structure->blocks : 1; }
+static int coordinates_of(const zd_system *system, int b) { return system->structure ? system->structure->coordinates[b] : system->nq; }
+static int velocities_of(const zd_system *system, int b) { return system->structure ? system->structure->velocities[b] : system->nv; }
+static int size_of_A(const zd_system *system) { return system->structure ? zd_packed_size(system, ZD_A) : system->nq * system->nv; }
 
 static int count(const int *hold, int n)
 {
@@ -14,36 +37,99 @@ static int count(const int *hold, int n)
     return held;
 }
 
-/* The inner system writes its rows behind its own scratch: C (m, nv), A (nq, nv). */
+/* ---- structure ---- */
+
+/* How many of the groups of the inner system have such rows. */
+static int groups_of(const zd_structure *structure, int rows)
+{
+    int groups = 0;
+    for (int before = 0; groups < structure->groups && before < rows; groups++) before += structure->rows[groups];
+    return groups;
+}
+
+/* How many entries these groups have in C. */
+static int size_of_groups(const zd_structure *structure, int groups)
+{
+    int size = 0;
+    for (int g = 0; g < groups; g++)
+        for (int i = structure->first[g]; i < structure->first[g + 1]; i++) size += structure->rows[g] * structure->velocities[structure->block[i]];
+    return size;
+}
+
+/* Behind the groups of the inner system's first rows, for each body one with what is held of it. */
+static zd_structure take_structure(zd_arena *arena, const holding *it, int rows)
+{
+    const zd_structure *inner = it->inner->structure;
+    const int groups = groups_of(inner, rows), touched = inner->groups ? inner->first[groups] : 0;
+    zd_structure structure = *inner;
+    int *rows_of = zd_take(arena, (size_t)(groups + inner->blocks) * sizeof(int));
+    int *first = zd_take(arena, (size_t)(groups + inner->blocks + 1) * sizeof(int));
+    int *block = zd_take(arena, (size_t)(touched + inner->blocks) * sizeof(int));
+    if (!arena->base) return structure;
+    if (groups) {
+        memcpy(rows_of, inner->rows, (size_t)groups * sizeof(int));
+        memcpy(first, inner->first, (size_t)(groups + 1) * sizeof(int));
+        memcpy(block, inner->block, (size_t)touched * sizeof(int));
+    }
+    structure.groups = groups;
+    for (int b = 0, i = 0; b < inner->blocks; b++) {
+        const int n = it->of_positions ? inner->coordinates[b] : inner->velocities[b], held = it->hold ? count(it->hold + i, n) : 0;
+        i += n;
+        if (!held) continue;
+        block[first[structure.groups]] = b;
+        rows_of[structure.groups] = held;
+        first[structure.groups + 1] = first[structure.groups] + 1;
+        structure.groups++;
+    }
+    structure.rows = rows_of;
+    structure.first = first;
+    structure.block = block;
+    return structure;
+}
+
+/* ---- terms ---- */
+
+/* The inner system writes its rows behind its own scratch: C, then A. */
 static zd_terms inner_terms(const zd_system *inner, const zd_terms *out)
 {
     zd_terms terms = *out;
     terms.C = out->scratch + inner->scratch;
-    terms.A = terms.C + zd_constraints(inner) * inner->nv;
+    terms.A = terms.C + zd_size_of_C(inner);
     return terms;
 }
 
-static void copy_rows(double *to, const double *from, int rows, int width)
+static void copy(double *to, const double *from, int entries)
 {
-    if (rows) memcpy(to, from, (size_t)(rows * width) * sizeof *to);
+    if (entries) memcpy(to, from, (size_t)entries * sizeof *to);
+}
+
+/* Row i of A (coordinates, n) of a body; A NULL: the identity. Returns what stands behind it. */
+static double *write_row(int n, const double *A, int i, double *row)
+{
+    for (int j = 0; j < n; j++) row[j] = A ? A[i * n + j] : i == j;     /* C = dPhi/dp A */
+    return row + n;
 }
 
 static int evaluate_positions(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     const zd_held *held = data;
     const zd_system *inner = held->inner;
-    int nv = inner->nv, mh = inner->mh;
     const zd_terms terms = inner_terms(inner, out);
     int status = inner->evaluate(inner->data, (want | ZD_A) & (inner->provides | ZD_MOVED), t, p, v, &terms);
     if (status) return status;
-    if (want & ZD_C) copy_rows(out->C, terms.C, mh, nv);
-    if (want & ZD_A) copy_rows(out->A, terms.A, inner->nq, nv);
-    for (int i = 0, row = mh; held->hold && i < inner->nq; i++) {
-        if (!held->hold[i]) continue;
-        if (want & ZD_PHI) out->Phi[row] = p[i] - held->value[i];
-        for (int j = 0; (want & ZD_C) && j < nv; j++)
-            out->C[row * nv + j] = inner->provides & ZD_A ? terms.A[i * nv + j] : i == j;   /* C = dPhi/dp A */
-        row++;
+    if (want & ZD_C) copy(out->C, terms.C, held->size_of_C);
+    if (want & ZD_A) copy(out->A, terms.A, size_of_A(inner));
+    const double *A = inner->provides & ZD_A ? terms.A : NULL;
+    double *C = out->C + held->size_of_C;
+    for (int b = 0, i = 0, row = inner->mh; b < blocks_of(inner); b++) {
+        const int coordinates = coordinates_of(inner, b), n = velocities_of(inner, b);
+        for (int k = 0; k < coordinates; k++, i++) {
+            if (!held->hold[i]) continue;
+            if (want & ZD_PHI) out->Phi[row] = p[i] - held->value[i];
+            if (want & ZD_C) C = write_row(n, A, k, C);
+            row++;
+        }
+        if (A) A += coordinates * n;
     }
     return ZD_DONE;
 }
@@ -52,50 +138,63 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
 {
     const zd_held *held = data;
     const zd_system *inner = held->inner;
-    int nv = inner->nv, m = zd_constraints(inner);
+    const int m = zd_constraints(inner);
     int status = inner->evaluate(inner->data, want & (inner->provides | ZD_MOVED), t, p, v, out);
     if (status) return status;
     if ((want & ZD_PHI_T) && !(inner->provides & ZD_PHI_T)) memset(out->Phi_t, 0, (size_t)m * sizeof(double));
-    for (int i = 0, row = m; held->hold && i < nv; i++) {
-        if (!held->hold[i]) continue;
-        if (want & ZD_PHI_T) out->Phi_t[row] = -held->value[i];
-        for (int j = 0; (want & ZD_C) && j < nv; j++) out->C[row * nv + j] = i == j;
-        row++;
+    double *C = out->C + held->size_of_C;
+    for (int b = 0, i = 0, row = m; held->hold && b < blocks_of(inner); b++) {
+        const int n = velocities_of(inner, b);
+        for (int k = 0; k < n; k++, i++) {
+            if (!held->hold[i]) continue;
+            if (want & ZD_PHI_T) out->Phi_t[row] = -held->value[i];
+            if (want & ZD_C) C = write_row(n, NULL, k, C);
+            row++;
+        }
     }
     return ZD_DONE;
 }
 
-/* These are of the inner system alone. */
-static void leave_out_others(zd_system *system)
+/* ---- systems ---- */
+
+static void *take(zd_arena *arena, const void *of)
 {
-    system->operations = NULL;
-    system->direct = NULL;
-    system->directs = 0;
+    const holding *it = of;
+    const zd_system *inner = it->inner;
+    const int rows = it->of_positions ? inner->mh : zd_constraints(inner);
+    system_that_holds nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
+    self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .size_of_C = rows * inner->nv};
+    self->system = *inner;
+    self->system.data = &self->held;
+    self->system.operations = NULL;         /* these two are of the inner system alone */
+    self->system.direct = NULL;
+    self->system.directs = 0;
+    if (!inner->structure) return here;
+    self->held.structure = take_structure(arena, it, rows);
+    self->held.size_of_C = size_of_groups(inner->structure, groups_of(inner->structure, rows));
+    self->system.structure = &self->held.structure;
+    return here;
 }
 
-zd_system zd_hold_positions(zd_held *held, const zd_system *inner, const int *hold, const double *p)
+const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, const int *hold, const double *p)
 {
-    *held = (zd_held){inner, hold, p};
-    zd_system system = *inner;
-    leave_out_others(&system);
-    system.mh += count(hold, inner->nq);
-    system.mn = 0;
-    system.provides = ZD_M | (inner->provides & ZD_A) | (system.mh ? ZD_PHI | ZD_C : 0);
-    system.scratch += (zd_constraints(inner) + inner->nq) * inner->nv;
-    system.evaluate = evaluate_positions;
-    system.data = held;
+    zd_system *system = zd_store_take(store, take, &(holding){inner, hold, p, 1});
+    if (!system) return NULL;
+    system->mh += count(hold, inner->nq);
+    system->mn = 0;
+    system->provides = ZD_M | (inner->provides & ZD_A) | (system->mh ? ZD_PHI | ZD_C : 0);
+    system->scratch += zd_size_of_C(inner) + size_of_A(inner);
+    system->evaluate = evaluate_positions;
     return system;
 }
 
-zd_system zd_hold_velocities(zd_held *held, const zd_system *inner, const int *hold, const double *v)
+const zd_system *zd_hold_velocities(zd_store *store, const zd_system *inner, const int *hold, const double *v)
 {
-    *held = (zd_held){inner, hold, v};
-    zd_system system = *inner;
-    leave_out_others(&system);
-    int rows = count(hold, inner->nv);
-    system.mn += rows;
-    system.provides = ZD_M | (inner->provides & ZD_PHI_T) | (zd_constraints(&system) ? ZD_C : 0) | (rows ? ZD_PHI_T : 0);
-    system.evaluate = evaluate_velocities;
-    system.data = held;
+    zd_system *system = zd_store_take(store, take, &(holding){inner, hold, v, 0});
+    if (!system) return NULL;
+    const int rows = count(hold, inner->nv);
+    system->mn += rows;
+    system->provides = ZD_M | (inner->provides & ZD_PHI_T) | (zd_constraints(system) ? ZD_C : 0) | (rows ? ZD_PHI_T : 0);
+    system->evaluate = evaluate_velocities;
     return system;
 }

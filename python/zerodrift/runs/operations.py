@@ -89,14 +89,19 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool
     return system._assembled(held, wish, nudge, t)
 
 
-def _held(system: BaseSystem, hold: Any) -> list[str]:
+def _held(system: BaseSystem, hold: Any) -> set[str]:
     """The argument `hold`: names of coordinates and velocities."""
     if not isinstance(hold, Iterable):
         raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
-    known = (*system.coordinates, *system.velocities)
-    names = [variable.name for variable in known]
+    known = {variable.name: variable for variable in (*system.coordinates, *system.velocities)}
     each = (hold,) if isinstance(hold, str | Variable) else tuple(hold)
-    return [one.name if one in known and isinstance(one, Variable) else _check.choice("hold", one, names) for one in each]
+    return {_name_of(one, known) for one in each}
+
+
+def _name_of(held: Any, known: Mapping[str, Variable]) -> str:
+    """The name of what is held, whether it is a name or a variable of the system."""
+    name = held.name if isinstance(held, Variable) and known.get(held.name) == held else held
+    return name if isinstance(name, str) and name in known else _check.choice("hold", name, list(known))
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
