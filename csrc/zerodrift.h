@@ -203,6 +203,45 @@ double zd_run_kinetic(const zd_run *run);                   /* J: the largest en
 double zd_run_energy_error(const zd_run *run);              /* J: the largest |Psi_E| (28) of the rows saved so far */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any step of fixed size */
 
+/* ---- many runs of one system, whose numbers differ ---- */
+
+enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES };     /* how a run was made: not, as one that is created, or beside others */
+
+/* Runs that differ by the data of their system and by their start. Entries of a run follow those of the run before; results that are NULL are
+ * not wanted. */
+typedef struct zd_batch {
+    const zd_system *system;        /* whose functions do not need Python */
+    const zd_settings *settings;    /* without events */
+    int64_t runs;
+    const double *data;             /* (runs, doubles): in the place of the system's; NULL: that is the same for all */
+    int64_t doubles;
+    const double *p0, *v0;          /* (runs, nq), (runs, nv) */
+    const zd_settings *assembly;    /* starts are put onto the constraints first, as zd_project() does it by these; NULL: they are not */
+    const int *hold_p, *hold_v;     /* (nq,), (nv,): what that holds; NULL: nothing */
+    const int *stop;                /* no run goes on once this is not 0; NULL: all do */
+    int64_t capacity;               /* rows of a run that there is room for */
+    double *t, *p, *v, *multipliers;        /* (runs, capacity), (runs, capacity, nq), (runs, capacity, nv), (runs, capacity, m) */
+    double *outputs;                /* (runs, capacity, components of all outputs) */
+    int64_t *rows;                  /* (runs,) that were saved */
+    int *status;                    /* (runs,) ZD_PAUSED where it was stopped */
+    int *way;                       /* (runs,) of zd_way; one that could not be created is not begun */
+    zd_statistics *statistics;      /* (runs,) */
+    double *kinetic, *energy_error; /* (runs,) as zd_run_kinetic() and zd_run_energy_error() have them */
+    char *message;                  /* (runs, message_size): of runs that failed, or ended early */
+    int message_size;
+} zd_batch;
+
+/* What is wrong with a run is said of that run; only where there is no memory for any it is returned. Calls for other batches may be made at the
+ * same time. */
+int zd_batch_run(const zd_batch *batch);
+
+/* The tables of a batch from the parameters of a kind of system (runs, all parameters): constants (runs, kind->constants), starts (runs, nq),
+ * (runs, nv). The number of the first run whose parameters are refused, and why; or `runs`. */
+int64_t zd_batch_of_kind(const zd_kind *kind, int64_t runs, const double *parameters, double *constants, double *p0, double *v0,
+                         const char **reason);
+/* derive(row) for each row of data (runs, doubles). */
+void zd_batch_derive(void (*derive)(double *data), int64_t runs, int64_t doubles, double *data);
+
 /* ---- a system that is off by rounding, to see what that does to its motion ---- */
 
 /* Factors near 1 of what the system is evaluated at, and of what it then writes. Entries of M come in equal pairs. */

@@ -61,6 +61,8 @@ __all__ = [
 
 # Imported at first use: most people have no compiled systems of their own.
 _LATER = {
+    "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "Stop", "derive", "error_name", "run_batch",
+                "tables_of_kind"),
     "functions": ("Function", "InLibrary", "address_of", "find", "in_library", "load_data", "numba_signature"),
     "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }

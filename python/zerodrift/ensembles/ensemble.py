@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -19,6 +20,7 @@ from .threads import Threads, processors
 
 SHARES = 16         # ranges for each thread, so that all end at about the same time
 LONGEST = 1024      # runs of a range, at most
+TOLD = 3            # doubtful runs that are looked at, to tell of the first that deserves it
 
 
 def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None, v0: Any = None, start: Any = None,
@@ -108,7 +110,21 @@ class _Work:
             raise Interrupted(f"the ensemble was interrupted: {count} of {len(done)} runs are done", done) from None
         finally:
             close()
+        self._warn()
         return self._ensemble(begin, threads)
+
+    def _warn(self) -> None:
+        """What `simulate` warns of in the first of the runs that are doubtful, once for all of them."""
+        doubtful = sorted(self._plan.remembered.get("doubtful", ()))
+        for run in doubtful[:TOLD]:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                self._plan.solution(run, on_failure="return")
+            for each in caught:
+                warnings.warn(f"{len(doubtful)} of {self._plan.runs.count} runs are doubtful; run {run}: {each.message}",
+                              each.category, stacklevel=4)
+            if caught:
+                return
 
     def _finished(self, first: int, part: Part) -> None:
         with self._lock:

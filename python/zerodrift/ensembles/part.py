@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-ROADS = ("the ordinary road",)      # how a run was made, by the number that `Part.roads` has
+ROADS = ("the ordinary road", "vector lanes")      # how a run was made, by the number that `Part.roads` has
 NOT_STARTED = "it was not started, as the ensemble was interrupted"
 
 

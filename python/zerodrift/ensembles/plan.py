@@ -71,7 +71,7 @@ class Plan:
     def solution(self, run: int, **options: Any) -> Solution:
         """One run, by `simulate`."""
         system = self.runs.system(run)
-        p, v = self.runs.start(run, system)
+        p, v = self.runs.start(run, system, _check.span(self.t_span)[0])
         return simulate(system, self.t_span, p, v, **self.options, **options)
 
 
@@ -86,9 +86,10 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     names = _names(outputs)
     system = _some_system(runs)
     if system is not None:
-        _check_options(system, _check.span(t_span), options)
+        span = _check.span(t_span)
+        _check_options(system, span, options)
         _check_names(system, names or [])
-        _check_starts(runs, system)
+        _check_starts(runs, system, span[0])
         if names is None:
             names = [] if reduce is not None else [variable.name for variable in system.coordinates]
     return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps)
@@ -145,11 +146,11 @@ def _check_names(system: BaseSystem, names: list[str]) -> None:
                              f"{_check.closest(name, [*system._names_of_measures(), *known])}")
 
 
-def _check_starts(runs: Runs, system: BaseSystem) -> None:
+def _check_starts(runs: Runs, system: BaseSystem, t0: float) -> None:
     """Sizes and names, which each run would refuse."""
     for name, size in (("p0", system.nq), ("v0", system.nv)):
         array = runs.states.get(name)
         if array is not None and array.shape[-1] != size:
             raise ValueError(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
     with contextlib.suppress(ZerodriftError):       # which is this run's own
-        runs.start(0, system)
+        runs.start(0, system, t0)

@@ -6,7 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from .. import _gateway
 from ..runs.solution import Solution
+from .batch import Batch, batch_of, batch_range
 from .part import Part, joined, nothing, single
 from .plan import Plan
 
@@ -32,6 +34,9 @@ def run_range(plan: Plan, first: int, last: int, is_cancelled: Callable[[], bool
     is_cancelled : callable
         Asked now and then; once it is true, what was made is returned, and may be fewer runs.
     """
+    batch = batch_of(plan)
+    if batch is not None:
+        return _in_batches(plan, batch, first, last, is_cancelled)
     made = []
     for run in range(first, last):
         try:
@@ -41,6 +46,16 @@ def run_range(plan: Plan, first: int, last: int, is_cancelled: Callable[[], bool
         except Exception as error:      # it could not begin, or its own functions raised: the others go on
             made.append(single(np.zeros(0), {}, f"{type(error).__name__}: {error}", failed=True))
     return joined(made) if made else nothing(0)
+
+
+def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool]) -> Part:
+    """Runs that the core makes, so many at once that their memory is bounded."""
+    stop, made = is_cancelled if isinstance(is_cancelled, _gateway.Stop) else None, []
+    while first < last and not is_cancelled():
+        end = min(last, first + batch.runs_at_once)
+        made.append(batch_range(plan, batch, first, end, stop))
+        first = end
+    return joined([part for part in made if len(part.rows)] or [nothing(0)])
 
 
 def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:

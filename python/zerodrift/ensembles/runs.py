@@ -13,6 +13,7 @@ from ..mechanisms.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.tables import NumberTables
 
 
 class Grid(Mapping):
@@ -103,7 +104,7 @@ class Runs:
     """
 
     def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
-        self._hold, self._assembles, self.shape = hold, assembles, getattr(parameters, "shape", None)
+        self.hold, self._assembles, self.shape = hold, assembles, getattr(parameters, "shape", None)
         self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
         self.parameters, counts = _columns("parameters", parameters)
         start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
@@ -138,19 +139,46 @@ class Runs:
             return system
         return self.made.with_parameters(parameters) if parameters else self.made
 
-    def start(self, run: int, system: BaseSystem) -> tuple[Any, Any]:
-        """P and v at its start; None: the system's own, which a mechanism assembles."""
+    def is_tabular(self, system: BaseSystem) -> bool:
+        """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python."""
+        sizes = {"p0": system.nq, "v0": system.nv}
+        if self._start or (isinstance(system, MechanismSystem) and set(self.states) != set(sizes)):     # it finds them in Python
+            return False
+        fits = all(array.shape[-1] == sizes[name] and np.isfinite(array).all() for name, array in self.states.items())
+        has_start = "p0" in self.states or system.p0 is not None
+        return fits and has_start and system._number_tables(self.parameters_from(0, 1), 1) is not None
+
+    def parameters_from(self, first: int, last: int) -> dict[str, np.ndarray]:
+        """Of the runs first ... last - 1."""
+        return {name: each[first:last] for name, each in self.parameters.items()}
+
+    def assembles(self, system: BaseSystem) -> bool:
+        """Whether starts are made consistent, as parameters have changed what that means."""
+        return bool(self._assembles and self.parameters and system.m)
+
+    def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray, np.ndarray]:
+        """P (k, nq) and v (k, nv) of the runs first ... last - 1, before they are made consistent; NaN of those refused."""
+        sizes = {"p0": tables.core.nq, "v0": tables.core.nv}
+        own = {"p0": tables.p0, "v0": np.zeros(sizes["v0"]) if tables.v0 is None else tables.v0}
+        found = []
+        for name, size in sizes.items():
+            array = self.states.get(name)
+            given = own[name] if array is None else array[first:last] if array.ndim == 2 else array
+            found.append(np.array(np.broadcast_to(given, (last - first, size)), order="C"))
+        found[0][list(tables.refused)] = np.nan
+        return found[0], found[1]
+
+    def start(self, run: int, system: BaseSystem, t: float) -> tuple[Any, Any]:
+        """P and v at its start, which is at t; None: the system's own, which a mechanism assembles."""
         if self._start:
             held = {name: array[run] if varies else array for name, (array, varies) in self._start.items()}
-            return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()})
+            return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()}, t=t)
         p, v = (None if (array := self.states.get(name)) is None else array[run] if array.ndim == 2 else array
                 for name in ("p0", "v0"))
         if isinstance(system, MechanismSystem) and p is None and v is None:
             return None, None
         p, v = (system.p0 if p is None else p), (system.v0 if v is None else v)
-        if not (self._assembles and self.parameters and system.m) or p is None:
-            return p, v
-        return assemble(system, p, v, self._hold)
+        return assemble(system, p, v, self.hold, t=t) if self.assembles(system) and p is not None else (p, v)
 
 
 def _dict(name: str, given: Any) -> Mapping:

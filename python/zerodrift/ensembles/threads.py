@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from .. import _gateway
 from .part import Part
 from .plan import Plan
 from .run_range import run_range
@@ -24,7 +25,7 @@ class Threads:
 
     def __init__(self, plan: Plan, ranges: Iterator[tuple[int, int]], finished: Callable[[int, Part], None]) -> None:
         self._plan, self._ranges, self._finished = plan, ranges, finished
-        self._lock, self._error, self._cancelled = threading.Lock(), None, False
+        self._lock, self._error, self._stop = threading.Lock(), None, _gateway.Stop()
 
     def run(self, count: int, look: Callable[[], None]) -> None:
         """All ranges, in so many threads; meanwhile `look` is called now and then in this one."""
@@ -37,7 +38,7 @@ class Threads:
                     worker.join(LOOK)
                     look()
         except BaseException:
-            self._cancelled = True
+            self._stop.set()
             for worker in workers:
                 if worker.ident is not None:
                     worker.join()
@@ -48,10 +49,11 @@ class Threads:
     def _work(self) -> None:
         try:
             while (taken := self._next()) is not None:
-                self._finished(taken[0], run_range(self._plan, *taken, lambda: self._cancelled))
+                self._finished(taken[0], run_range(self._plan, *taken, self._stop))
         except BaseException as error:      # what is no failed run: a full disk, or Ctrl-C within a user's function
-            self._error, self._cancelled = error, True
+            self._error = error
+            self._stop.set()
 
     def _next(self) -> Any:
         with self._lock:
-            return None if self._cancelled else next(self._ranges, None)
+            return None if self._stop() else next(self._ranges, None)

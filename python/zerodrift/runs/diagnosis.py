@@ -33,6 +33,14 @@ def is_beyond_doubt(results: _gateway.Results) -> bool:
             and counted.energy_corrected <= LARGEST_ENERGY_CORRECTION * kinetic)
 
 
+def are_beyond_doubt(counted: np.ndarray, kinetic: np.ndarray, energy_error: np.ndarray) -> np.ndarray:
+    """The same of many runs (k,), from what the core counts of each, its largest kinetic energy and error of the balance in J."""
+    counts = [counted[name] for name in ("energy_skipped", "too_long", "stiff", "unresolved")]
+    return (~np.any(counts, axis=0) & ~((counted["smallest_pivot"] > 0) & (counted["smallest_pivot"] < SMALLEST_PIVOT))
+            & ((energy_error < LARGEST_ENERGY_ERROR * kinetic) | (energy_error == 0))
+            & (counted["energy_corrected"] <= LARGEST_ENERGY_CORRECTION * kinetic))
+
+
 def warn(solution: Solution, stacklevel: int) -> None:
     """Warn of everything that was off but did not stop the run; `stacklevel` as of `warnings.warn`, counted from the caller."""
     for category, sentence in doubts(solution):

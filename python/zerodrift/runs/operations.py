@@ -12,9 +12,12 @@ from .._gateway import Variable
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import settings
 
+TOL, ITERATIONS = 1e-12, 100      # of `assemble`, where nothing else is asked for
+
 
 def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *, wish: Mapping[Any, Any] | None = None,
-             nudge: bool = False, t: float = 0.0, tol: float = 1e-12, max_iterations: int = 100) -> tuple[np.ndarray, np.ndarray]:
+             nudge: bool = False, t: float = 0.0, tol: float = TOL,
+             max_iterations: int = ITERATIONS) -> tuple[np.ndarray, np.ndarray]:
     """Find a consistent state near a guess, or that of a mechanism near its drawing.
 
     Positions are iterated onto the constraints, then velocities corrected; each moves as little as possible in the mass
@@ -72,10 +75,15 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         raise TypeError(f"wish and nudge are for mechanisms, and {system.name} is none")
     if p is None:
         raise TypeError(f"p is needed, a guess of the coordinates of {system.name}")
-    hold = _held(system, hold)
-    holds = [[int(variable.name in hold) for variable in group] for group in (system.coordinates, system.velocities)]
+    holds = _holds(system, hold)
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
+
+
+def assembly(system: BaseSystem, hold: Any = ()) -> _gateway.Assembly:
+    """How the core does what `assemble` does, holding these coordinates and velocities."""
+    projection = settings.Projection(tol=TOL, max_iterations=ITERATIONS)
+    return _gateway.Assembly(_options("augmented", projection), *_holds(system, hold))
 
 
 def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -87,6 +95,12 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool
         raise TypeError("p must hold real numbers, not object: a dict of values by measure is for mechanisms, "
                         f"and {system.name} is none")
     return system._assembled(held, wish, nudge, t)
+
+
+def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
+    """Which coordinates and which velocities are held."""
+    held = _held(system, hold)
+    return [[int(variable.name in held) for variable in group] for group in (system.coordinates, system.velocities)]
 
 
 def _held(system: BaseSystem, hold: Any) -> set[str]:
@@ -143,11 +157,14 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
     return _corrected(system, p, v, t, projection, formulation, (None, None))
 
 
+def _options(formulation: str, projection: settings.Projection) -> Any:
+    return _gateway.settings({"formulation": settings.formulation_row(formulation), **settings.given(formulation, projection)})
+
+
 def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
     core = core_of(system)
     p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
-    options = _gateway.settings({"formulation": settings.formulation_row(formulation), **settings.given(formulation, projection)})
-    _gateway.project(core, options, _check.number("t", t), p, v, *holds)
+    _gateway.project(core, _options(formulation, projection), _check.number("t", t), p, v, *holds)
     return p, v
 
 

@@ -17,6 +17,7 @@ from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from ..systems.structure import Structure, checked
+from ..systems.tables import NumberTables, not_finite, refusals
 from . import compiling
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
 
@@ -114,6 +115,23 @@ class SymbolicSystem(BaseSystem):
         data = np.concatenate([self._data(), np.zeros(self._direct.constants)])
         library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
         return data
+
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
+        if not parameters or not self.compiled:
+            return super()._number_tables(parameters, count, vector)
+        if any(each.ndim > 1 for each in parameters.values()):
+            return None
+        core = self._core if vector is None else self._direct_core(vector)
+        library = self._library if core is self._core else self._direct.library(vector or "")
+        further = 0 if library is self._library else self._direct.constants
+        data = np.zeros((count, len(self._values) + self._code.constants + 1 + further))
+        data[:, :len(self._values)] = self._values
+        for name, each in parameters.items():
+            data[:, self._code.parameters.index(name)] = each
+        _gateway.derive(_gateway.address_of(self._library, "zd_symbolic_constants"), data)
+        if library is not self._library:
+            _gateway.derive(_gateway.address_of(library, f"{DIRECT}_constants"), data)
+        return NumberTables(core, data, self.p0, self.v0, refusals(self._with, parameters, not_finite(parameters, count)))
 
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())

@@ -12,6 +12,7 @@ from .. import _check, _gateway
 from .._gateway import Variable
 from .shapes import Shape
 from .structure import Structure, of_core
+from .tables import NumberTables
 from .watching import Watching
 
 
@@ -205,6 +206,15 @@ class BaseSystem:
 
     def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
         return self._core
+
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
+        """So many systems with these parameters, (count,) or (count, size) each, and direct functions for a vector unit, if
+        they are wanted and there are any; None where each has to be made, or run, in Python.
+        """
+        core = getattr(self, "_core", None)
+        if parameters or core is None or core.for_run() is not core:
+            return None
+        return NumberTables(core if vector is None else self._direct_core(vector), None, self.p0, self.v0, {})
 
     def _why_not_direct(self) -> str | None:
         """Why it has no direct functions, as far as is known; empty: it has some; None: systems of its kind have none."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import inspect
 import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
 from .base import BaseSystem
+from .tables import NumberTables, not_finite, refusals
 
 _KINDS = _gateway.kinds()
 
@@ -37,6 +39,22 @@ class SystemOfKind(BaseSystem):
 
     def _parameter_units(self) -> dict[str, str]:
         return {parameter.name: parameter.unit for parameter in self._kind.parameters}
+
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
+        if not parameters:
+            return super()._number_tables(parameters, count, vector)
+        columns, wrong = [], not_finite(parameters, count)
+        for parameter in self._kind.parameters:
+            own = _as_numbers(parameter, self._given.get(parameter.name))
+            given = parameters.get(parameter.name)
+            if given is not None and (parameter.rule == "choice" or given.size != count * parameter.size):
+                return None
+            values = np.broadcast_to(own, (count, own.size)) if given is None else given.reshape(count, parameter.size)
+            wrong |= _is_too_small(parameter, values).any(axis=1)
+            columns.append(values)
+        data, p0, v0, reasons = _gateway.tables_of_kind(self._kind, np.ascontiguousarray(np.concatenate(columns, axis=1), float))
+        wrong[list(reasons)] = True
+        return NumberTables(self._core, data, p0, v0, refusals(self._with, parameters, wrong))
 
 
 class BuiltIn(SystemOfKind):
@@ -67,10 +85,14 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
         return np.array([float(parameter.words.index(_check.choice(parameter.name, given, parameter.words)))])
     values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
         parameter.name, given, parameter.size)
-    too_small = {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule)
-    if too_small is not None and too_small.any():
+    if _is_too_small(parameter, values).any():
         raise ValueError(f"{parameter.name} must be {parameter.rule}, not {given!r}")
     return values
+
+
+def _is_too_small(parameter: _gateway.Parameter, values: np.ndarray) -> np.ndarray:
+    """Which values break the parameter's rule; of one that is derived, none."""
+    return {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule, np.zeros(values.shape, dtype=bool))
 
 
 def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:

@@ -1,0 +1,108 @@
+"""Many runs in one call of the core: what differs between them stands in tables."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import ERRORS, MESSAGE_SIZE, doubles, text
+from .runs import NAMES_AND_KINDS
+from .systems import CoreSystem, Kind
+
+STATISTICS = np.dtype([(name, {"int64_t": np.int64, "double": float}[kind]) for name, kind in NAMES_AND_KINDS.items()])
+NOT_BEGUN, BY_ITSELF, IN_LANES = lib.ZD_NOT_BEGUN, lib.ZD_BY_ITSELF, lib.ZD_IN_LANES
+
+
+class Stop:
+    """What tells runs in other threads that nobody waits for them any more."""
+
+    def __init__(self) -> None:
+        self.c = ffi.new("int *")
+
+    def set(self) -> None:
+        self.c[0] = 1
+
+    def __call__(self) -> bool:
+        return self.c[0] != 0
+
+
+class Assembly(NamedTuple):
+    """How starts are made consistent: settings for the core, and which coordinates and velocities are held."""
+
+    options: Any
+    hold_p: list[int]
+    hold_v: list[int]
+
+
+class BatchResults(NamedTuple):
+    """What came of k runs."""
+
+    columns: dict[str, np.ndarray]      # "t" (k, rows), "p" (k, rows, nq), and so on: those that were wanted
+    rows: np.ndarray                    # (k,): saved of each
+    status: np.ndarray                  # (k,): of the core
+    way: np.ndarray                     # (k,): how each was made
+    statistics: np.ndarray              # (k,): as the core counts
+    kinetic: np.ndarray                 # (k,): the largest energy seen, J
+    energy_error: np.ndarray            # (k,): the largest |Psi_E| of the saved rows, J
+    messages: list[str]                 # (k,): of those that did not reach their end
+
+
+# Of each run: where the core writes it, and as what
+OF_RUNS = {"rows": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float, "energy_error": float}
+TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "zd_statistics[]", "kinetic": "double[]",
+         "energy_error": "double[]"}
+
+
+def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, p0: np.ndarray, v0: np.ndarray, capacity: int,
+              wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None) -> BatchResults:
+    """Runs of systems that have their own data (k, doubles), from their own starts p0 (k, nq), v0 (k, nv).
+
+    The interpreter is free for other threads meanwhile. The system must not be written in Python.
+    """
+    k, shapes = len(p0), {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,)}
+    columns = {name: np.full((k, capacity, *shapes[name]), np.nan) for name in wanted}
+    of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
+    messages = np.zeros((k, MESSAGE_SIZE), np.int8)
+    options.given_jacobian = core.given_jacobian
+    members: dict[str, Any] = {
+        "system": core.c, "settings": options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
+        "p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv), "message": ffi.from_buffer("char[]", messages),
+        **{name: doubles(array, array.size, writable=True) for name, array in columns.items()},
+        **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
+    if data is not None:
+        members |= {"data": doubles(data, data.size), "doubles": data.shape[1]}
+    if assembly is not None:
+        members |= {"assembly": assembly.options, "hold_p": ffi.new("int[]", assembly.hold_p),
+                    "hold_v": ffi.new("int[]", assembly.hold_v)}
+    if stop is not None:
+        members["stop"] = stop.c
+    if lib.zd_batch_run(ffi.new("zd_batch *", members)):
+        raise MemoryError(f"there is no memory for the {capacity} rows of a run")
+    return BatchResults(columns, **of_runs, messages=[each.tobytes().partition(b"\0")[0].decode() for each in messages])
+
+
+def error_name(status: int) -> str:
+    """What the exception is called that stands for a failed status."""
+    return ERRORS[status].__name__
+
+
+def tables_of_kind(kind: Kind, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[int, str]]:
+    """The data of many systems of a kind, and their starts, from parameters (k, all of them); and why some have none."""
+    k, system = len(parameters), kind.c.system
+    data, p0, v0 = np.empty((k, max(1, kind.c.constants))), np.full((k, system.nq), np.nan), np.full((k, system.nv), np.nan)
+    reason, refused, first = ffi.new("const char **"), {}, 0
+    while first < k:
+        memory = [doubles(part, part.size, writable=part is not parameters)
+                  for part in (each[first:] for each in (parameters, data, p0, v0))]
+        first += lib.zd_batch_of_kind(kind.c, k - first, *memory, reason)
+        if reason[0]:
+            refused[first] = text(reason[0])
+            first += 1
+    return data, p0, v0, refused
+
+
+def derive(address: int, data: np.ndarray) -> None:
+    """Calls a compiled function, which takes one row, for each row of data (k, doubles)."""
+    lib.zd_batch_derive(ffi.cast("void(*)(double *)", address), *data.shape, doubles(data, data.size, writable=True))

@@ -1,0 +1,110 @@
+"""Runs that the core makes without Python: many in one call, from tables of parameters and starts."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check, _gateway
+from ..runs import diagnosis, settings
+from ..runs.operations import assembly
+from ..systems.base import BaseSystem
+from ..systems.tables import NumberTables
+from .part import ROADS, Part, nothing
+from .plan import OPTIONS, Plan
+
+MOST_NUMBERS = 2**21        # of what one call keeps, so that memory does not grow with the range
+
+
+class Batch(NamedTuple):
+    """What the core is told of all runs of a plan."""
+
+    system: BaseSystem                      # whose numbers vary
+    options: Any                            # of the core
+    rows: int                               # that a run saves at most
+    columns: dict[str, tuple[str, int]]     # where each output is: in "p", "v" or "multipliers"
+    vector: str | None                      # the unit of direct functions; None: none are taken
+    assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
+
+    @property
+    def runs_at_once(self) -> int:
+        """In one call."""
+        groups = {group for group, _ in self.columns.values()}
+        return max(1, MOST_NUMBERS // (self.rows * (1 + len(groups) * max(self.system.nq, self.system.nv, self.system.m))))
+
+
+def batch_of(plan: Plan) -> Batch | None:
+    """What is known of a plan; None where its runs need Python, or nobody knows how many rows they have."""
+    if "batch" not in plan.remembered:
+        plan.remembered["batch"] = _batch(plan)
+    return plan.remembered["batch"]
+
+
+def _batch(plan: Plan) -> Batch | None:
+    runs, system, options = plan.runs, plan.runs.made, OPTIONS | plan.options
+    if plan.reduce is not None or plan.keeps or options.pop("events") is not None or not isinstance(system, BaseSystem):
+        return None
+    columns = _columns(system, plan.names)
+    if columns is None or not runs.is_tabular(system):
+        return None
+    found = settings.plan(system, _check.span(plan.t_span), **options)
+    if found.rows is None:
+        return None
+    return Batch(system, found.options, found.rows, columns,
+                 found.chosen["vector"] if _gateway.takes_direct(found.options) else None,
+                 assembly(system, runs.hold) if runs.assembles(system) else None)
+
+
+def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str, int]] | None:
+    """Where outputs are among the numbers of a row; None where one of them is elsewhere."""
+    known: dict[str, list[tuple[str, int]]] = {}
+    for group, variables in {"p": system.coordinates, "v": system.velocities, "multipliers": system.constraints}.items():
+        for column, variable in enumerate(variables):
+            known.setdefault(variable.name, []).append((group, column))
+    if any(len(known.get(name, ())) != 1 or system._watching.find(name) is not None for name in names):
+        return None
+    return {name: known[name][0] for name in names}
+
+
+def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> Part:
+    """The runs first ... last - 1; fewer where they are stopped."""
+    system, runs = batch.system, plan.runs
+    tables = system._number_tables(runs.parameters_from(first, last), last - first, batch.vector)
+    p0, v0 = runs.starts(tables, first, last)
+    wanted = tuple(dict.fromkeys(["t", *(group for group, _ in batch.columns.values())]))
+    made = _gateway.run_batch(tables.core, batch.options, tables.data, p0, v0, batch.rows, wanted, batch.assembly, stop)
+    count = int(np.argmax(paused)) if (paused := made.status == _gateway.PAUSED).any() else last - first
+    if not count:
+        return nothing(0)
+    doubtful = np.flatnonzero(~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)[:count])
+    plan.remembered.setdefault("doubtful", []).extend((first + doubtful).tolist())
+    return _part(plan, batch, made, _messages(made, tables), count)
+
+
+def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], count: int) -> Part:
+    """The first `count` of the runs."""
+    rows, t = made.rows[:count], made.columns["t"][:count]
+    if plan.t_eval is not None:     # a run that ends between two of these has its end besides
+        rows = np.minimum(rows, len(plan.t_eval))
+    kept = np.arange(batch.rows) < rows[:, None]
+    longest = t[np.argmax(rows), :rows.max(initial=0)]
+    is_shared = (np.where(kept[:, :len(longest)], t[:, :len(longest)], longest) == longest).all()
+    none = [None] * count
+    roads = np.where(made.way[:count] == _gateway.IN_LANES, ROADS.index("vector lanes"), ROADS.index("the ordinary road"))
+    return Part(rows, longest.copy() if is_shared else t[kept],
+                {name: made.columns[group][:count, :, column][kept] for name, (group, column) in batch.columns.items()},
+                made.status[:count] != _gateway.DONE, messages[:count], roads.astype(np.uint8), none, none, none)
+
+
+def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:
+    """What happened to each run; to one that did not begin, as its error says it."""
+    said = []
+    for run, (status, way, message) in enumerate(zip(made.status.tolist(), made.way.tolist(), made.messages, strict=True)):
+        if run in tables.refused:
+            said.append(tables.refused[run])
+        elif status < 0 and way == _gateway.NOT_BEGUN:
+            said.append(f"{_gateway.error_name(status)}: {message}")
+        else:
+            said.append(message or "done")
+    return said
