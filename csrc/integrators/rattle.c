@@ -17,7 +17,8 @@
  *     M0 x + C0^T (h/2 lambda) = M0 v0 + h/2 F(t0, p0, w) - N w,    C0 x = -Phi(t1, p0 + h w) / h,    w <- w + H x
  *
  * and H, the identity at first, learns from what each change did to x what that matrix leaves out: C. G. Broyden, Math. Comp. 19
- * (1965) 577.
+ * (1965) 577. H is kept as the product of what it has learnt, I + u s^T each time, so that its cost and memory follow the velocities:
+ * C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, SIAM, 1995, section 7.3.
  */
 #include <math.h>
 #include <string.h>
@@ -29,7 +30,7 @@
 #include "../point/matrices.h"
 #include "integrator.h"
 
-enum { MAX_ITERATIONS = 60 };
+enum { MAX_ITERATIONS = 60, MOST_LEARNT = 16 };
 static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
 static const double LEAST = 0.1;                /* of s^T s, that s^T H y is: else nothing is learned from it */
 static const double ROUNDING = 2 * 0x1p-52;     /* of w: nothing to be changed */
@@ -40,7 +41,9 @@ typedef struct rattle {
     zd_point *probe;        /* wherever terms are wanted, but for p0, whose leading matrix is in use */
     double *p0, *p, *moved; /* (n,) */
     double *v0, *w, *x;     /* (n,) */
-    double *H, *s, *y;      /* (n, n), (n,), (n,): the last change s of w took y out of x */
+    double *s, *y;          /* (n,), (n,): the last change s of w took y out of x */
+    int learnt;             /* how many factors I + u s^T H has, */
+    double *u_of_H, *s_of_H;    /* (MOST_LEARNT, n) each, and these */
     double *start, *mean;   /* (n,): M0 v0 and N w */
     double *F, *Mdot;       /* (n,), stored as M is */
     int stored;             /* how many entries of M are */
@@ -55,7 +58,7 @@ typedef struct rattle {
 
 static int suits(const zd_system *system)
 {
-    return !system->mn && !(system->provides & ZD_A) && !zd_is_too_large(system);
+    return !system->mn && !(system->provides & ZD_A);
 }
 
 static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
@@ -74,9 +77,10 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .v0 = zd_take_doubles(arena, n),
         .w = zd_take_doubles(arena, n),
         .x = zd_take_doubles(arena, n),
-        .H = zd_take_doubles(arena, n * n),
         .s = zd_take_doubles(arena, n),
         .y = zd_take_doubles(arena, n),
+        .u_of_H = zd_take_doubles(arena, MOST_LEARNT * n),
+        .s_of_H = zd_take_doubles(arena, MOST_LEARNT * n),
         .start = zd_take_doubles(arena, n),
         .mean = zd_take_doubles(arena, n),
         .F = zd_take_doubles(arena, n),
@@ -90,10 +94,12 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* to <- H x, H (n, n) */
-static void multiply(int n, const double *H, const double *x, double *to)
+/* to <- H x */
+static void multiply(const rattle *self, const double *x, double *to)
 {
-    for (int i = 0; i < n; i++) to[i] = zd_dot(n, H + i * n, x);
+    const int n = self->n;
+    zd_copy(n, x, to);
+    for (int k = 0; k < self->learnt; k++) zd_add_scaled(n, to, zd_dot(n, self->s_of_H + k * n, to), self->u_of_H + k * n);
 }
 
 /* to <- s M x, or where `add` is set to + s M x; M is stored as that of the motion */
@@ -161,18 +167,18 @@ static int residual(void *context, double *size)
     return ZD_DONE;
 }
 
-/* H <- H + (s - H y) s^T H / s^T H y */
+/* H <- H + (s - H y) s^T H / s^T H y = (I + u s^T) H, u = (s - H y) / s^T H y; nothing more is learnt by an H that is full */
 static void learn(rattle *self)
 {
-    int n = self->n;
-    double *y = self->y, *Hy = self->F, *sH = self->mean;       /* these two are free now */
+    const int n = self->n;
+    double *y = self->y, *Hy = self->F;     /* which is free now */
     zd_subtract(n, self->y, self->x, y);
-    multiply(n, self->H, y, Hy);
-    for (int j = 0; j < n; j++) sH[j] = 0;
-    for (int i = 0; i < n; i++) zd_add_scaled(n, sH, self->s[i], self->H + i * n);
-    double denominator = zd_dot(n, sH, y);
-    if (!(fabs(denominator) > LEAST * zd_dot(n, self->s, self->s))) return;
-    for (int i = 0; i < n; i++) zd_add_scaled(n, self->H + i * n, (self->s[i] - Hy[i]) / denominator, sH);
+    multiply(self, y, Hy);
+    const double denominator = zd_dot(n, self->s, Hy);
+    if (self->learnt == MOST_LEARNT || !(fabs(denominator) > LEAST * zd_dot(n, self->s, self->s))) return;
+    double *u = self->u_of_H + self->learnt * n;
+    for (int i = 0; i < n; i++) u[i] = (self->s[i] - Hy[i]) / denominator;
+    zd_copy(n, self->s, self->s_of_H + self->learnt++ * n);
 }
 
 static int improve(void *context)
@@ -180,7 +186,7 @@ static int improve(void *context)
     rattle *self = context;
     int n = self->n;
     learn(self);
-    multiply(n, self->H, self->x, self->s);
+    multiply(self, self->x, self->s);
     zd_add_scaled(n, self->w, 1, self->s);
     zd_copy(n, self->x, self->y);
     return ZD_DONE;
@@ -196,7 +202,7 @@ static int find_positions(rattle *self)
     times_mass(self, 1, motion->point->terms.M, self->v0, 0, self->start);
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
     self->before = INFINITY;
-    for (int i = 0; i < self->n * self->n; i++) self->H[i] = i % (self->n + 1) == 0;
+    self->learnt = 0;
     memset(self->s, 0, (size_t)self->n * sizeof(double));      /* no change yet to learn from */
     status = zd_newton_solve(&newton, self, &iterations, &left);
     motion->statistics.implicit_iterations += iterations;
@@ -278,7 +284,7 @@ const zd_integrator zd_rattle = {
         .description = "The discrete equations of motion of the trapezoidal discrete Lagrangian: symplectic and symmetric, of "
                        "order two, with positions and velocities on their constraints at the end of each step by the method "
                        "itself. Errors of the energy oscillate but do not grow over long times. It takes holonomic systems whose "
-                       "velocities are the rates of their coordinates.",
+                       "velocities are the rates of their coordinates, of any size where a structure is declared.",
         .reference = "H. C. Andersen, Journal of Computational Physics 52 (1983) 24-34; J. E. Marsden, M. West, Discrete "
                      "mechanics and variational integrators, Acta Numerica 10 (2001) 357-514",
     },

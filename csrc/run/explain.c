@@ -118,7 +118,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         describe_surplus(system, formulation, to, size);
         break;
     case ZD_UNSUITED_INTEGRATOR:
-        if (zd_is_too_large(system))
+        if (zd_is_too_large(system) && !run->stepper.integrator->step_of_motion)
             snprintf(to, size, "'%s' solves its steps with dense matrices: it takes systems that declare their structure up to %d velocities, "
                      "and here there are %d", integrator, ZD_MOST_IMPLICIT, system->nv);
         else snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,

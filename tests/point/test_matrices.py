@@ -252,14 +252,6 @@ def test_light_rods_between_heavy_ones_lose_no_digits(ratio):
     assert_close(one[1], other[1], 1e-9)
 
 
-@needs_compiler
-def test_implicit_methods_refuse_large_structured_systems_with_a_sentence():
-    system = chain(101).system()
-    for integrator in ("trapezoidal", "rattle"):
-        with pytest.raises(zd.UnsuitedIntegrator, match=f"'{integrator}' .* up to 300 velocities, and here there are 303"):
-            zd.simulate(system, 0.1, step=0.01, integrator=integrator)
-
-
 # ---- described by a library ----
 
 

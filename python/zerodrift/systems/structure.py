@@ -23,7 +23,7 @@ class Structure:
     constraint matrix C: A and M block after block, C group after group, each a small row-major matrix whose columns are the
     velocities of the blocks that the group touches. From 41 rows or 301 velocities on, formulations make no dense matrix at all:
     cost and memory follow the blocks. Then bifurcations are not looked for (`simulate`, `on_singular`). Up to 300 velocities
-    are taken by implicit integrators, and by "independent" where there is a kinematic matrix.
+    are taken by implicit integrators, but RATTLE takes any number; and by "independent" where there is a kinematic matrix.
 
     Parameters
     ----------
