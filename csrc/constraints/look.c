@@ -42,6 +42,32 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+/* Squared lengths of the changes of some rows, with their weights squared, added up. */
+ZD_INLINE double add_changes(const int n, int rows, const double *C, const float *C0, const double *weight)
+{
+    double sum = 0;
+    for (int k = 0; k < rows; k++) {
+        double square = 0;
+        for (int i = 0; i < n; i++) square += (C[k * n + i] - (double)C0[k * n + i]) * (C[k * n + i] - (double)C0[k * n + i]);
+        sum += weight[k] * weight[k] * square;
+    }
+    return sum;
+}
+
+/* Whether a bound of the sum tells that it is below NEAR: (sum_k w_k |d_k|)^2 <= m sum_k w_k^2 |d_k|^2, which takes no roots. */
+static int is_near(const zd_look *self, const zd_point *point)
+{
+    const zd_layout *layout = point->layout;
+    double sum = 0;
+    for (int g = 0; layout && g < layout->groups; g++) {
+        const int rows = layout->row_at[g + 1] - layout->row_at[g], n = layout->width[g];
+        const double *C = point->terms.C + layout->C_at[g], *weight = self->weight + layout->row_at[g];
+        const float *C0 = self->C + layout->C_at[g];
+        sum += n == 6 ? add_changes(6, rows, C, C0, weight) : n == 3 ? add_changes(3, rows, C, C0, weight) : add_changes(n, rows, C, C0, weight);
+    }
+    return layout && self->is_known && self->close.m * sum < NEAR * NEAR;
+}
+
 /* The sum, or infinity where nothing is known. */
 static double find_change(const zd_look *self, const zd_point *point)
 {
@@ -113,6 +139,7 @@ static zd_shares factor_products(zd_look *self, const zd_point *point)
 int zd_look_is_doubtful(zd_look *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
+    if (is_near(self, point)) return 0;
     const double change = find_change(self, point);
     if (change < NEAR) return 0;
     self->close.C = point->terms.C;

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../constraints/rank.h"
+#include "../constraints/rows.h"
 #include "../linalg/small.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
@@ -40,6 +40,7 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
         .lambda = zd_take_doubles(arena, m),
         .rest = zd_take_doubles(arena, m),
         .step = zd_take_doubles(arena, n),
+        .least = zd_rank_is_of_many(system) ? NULL : zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -121,6 +122,29 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     if (pivots.failed < 0) return is_to_be_refined(self) ? zd_point_need(point, ZD_C) : ZD_DONE;
     point->failed_index = zd_weighted_row(self->weighted, pivots.failed);
     return ZD_DEPENDENT_ROWS;
+}
+
+/* S_kk = sum_i W_i C_ki^2 is at most |C_k|^2 times the largest of these W_i. */
+static void find_least(zd_coupling *self, const zd_point *point)
+{
+    for (int k = 0; k < self->m; k++) {
+        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
+        double most = 0;
+        for (int j = 0; j < row.count; j++) most = fmax(most, self->W[row.column[j]]);
+        self->least[k] = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * point->rank->start_square[k] * most;
+    }
+    self->is_least_known = 1;
+}
+
+int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
+{
+    const double *diagonal = self->weighted->blocks->diagonal;
+    const int *place = self->weighted->strips.place, may_tell = self->least && self->is_diagonal && self->is_constant;
+    int are_long = may_tell && point->rank->is_started;
+    if (are_long && !self->is_least_known) find_least(self, point);
+    for (int k = 0; are_long && k < self->m; k++) are_long = diagonal[place[k]] > self->least[k];
+    if (are_long) return 1;
+    return zd_point_need(point, ZD_C) == ZD_DONE && zd_rows_are_long(point);
 }
 
 /* ---- solution ---- */

@@ -18,6 +18,8 @@ typedef struct zd_coupling {
     double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */
     double *rest, *step;    /* (m,), (n,): what is left of C x = rhs, and what removes it */
+    double *least;          /* (m,): what is more than this on the diagonal of S belongs to a row that is long; NULL: that is not asked */
+    int is_least_known;
     const zd_operations *products;      /* of the system, in place of those with C; NULL: there are none */
     const void *data;           /* what these are called with, and the terms at the point */
     zd_terms terms;
@@ -29,6 +31,8 @@ typedef struct zd_coupling {
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system);
 /* All rows count at the point. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
 int zd_coupling_factor(zd_coupling *self, zd_point *point);
+/* zd_rows_are_long() where it was factored, from the diagonal of S if that tells, else from C. */
+int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point);
 /* As the solve of formulation.h. */
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda);
 

@@ -162,10 +162,10 @@ static void *take_all(zd_arena *arena, const void *of)
 }
 
 /* Where its pivots tell that all rows count, or that is known. */
-static int is_told(const schur *self, const zd_point *point)
+static int is_told(const schur *self, zd_point *point)
 {
     if (point->known & ZD_RANKED) return 1;
-    return self->coupling->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_rows_are_long(point);
+    return self->coupling->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_coupling_has_long_rows(self->coupling, point);
 }
 
 /* By C M^-1 C^T, where all rows count and it keeps enough digits. */
