@@ -1,4 +1,3 @@
-import json
 from pathlib import Path
 
 from setuptools import setup
@@ -16,17 +15,12 @@ class BuildPy(build_py):
 
 
 class SourceDistribution(sdist):
-    """Leaves out what notebooks have printed and drawn, which is larger than all the rest; to run them brings it back."""
+    """Takes what MANIFEST.in says, and not what an earlier list of files says as well, which setuptools would add to it."""
 
-    def make_release_tree(self, base_dir, files):
-        super().make_release_tree(base_dir, files)
-        for path in Path(base_dir).rglob("*.ipynb"):
-            notebook = json.loads(path.read_text(encoding="utf-8"))
-            for cell in notebook["cells"]:
-                if cell["cell_type"] == "code":
-                    cell.update(outputs=[], execution_count=None)
-            path.unlink()       # it may be a link to the file that it was made from
-            path.write_text(json.dumps(notebook, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    def run(self):
+        for earlier in Path("python").glob("*.egg-info/SOURCES.txt"):
+            earlier.unlink()
+        super().run()
 
 
 setup(

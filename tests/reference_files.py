@@ -5,6 +5,7 @@ import json
 from itertools import pairwise
 
 import numpy as np
+import pytest
 
 import zerodrift as zd
 from support import ROOT
@@ -18,7 +19,10 @@ def definition(name):
 
 
 def table(name):
-    with open(FOLDER / f"{name}_ref.csv") as file:
+    path = FOLDER / f"{name}_ref.csv"
+    if not path.exists() and (ROOT / "PKG-INFO").exists():
+        pytest.skip(f"{path.name} is not in source distributions: it is in the repository")
+    with open(path) as file:
         rows = list(csv.DictReader(file))
     return {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
 

@@ -34,7 +34,7 @@
 #define ZD_ANY_4(bits) (_mm256_movemask_pd((__m256d)(bits)) != 0)
 #define ZD_ANY_8(bits) (_mm512_test_epi64_mask((__m512i)(bits), (__m512i)(bits)) != 0)
 #define ZD_HALF_OF_4(x, half) _mm256_extractf128_pd(x, half)
-#else
+#elif defined(__GNUC__)
 #define ZD_FMA_4(a, b, c) __builtin_ia32_vfmaddpd256(a, b, c)
 #define ZD_FMA_8(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, -1, 4)
 #define ZD_SQRT_4(x) __builtin_ia32_sqrtpd256(x)
