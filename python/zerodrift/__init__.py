@@ -31,6 +31,7 @@ from .errors import (
     UnreachableTolerance,
     UnsuitedFormulation,
     UnsuitedIntegrator,
+    WorkerLost,
     ZerodriftError,
 )
 from .runs.events import Event
@@ -46,7 +47,7 @@ __all__ = [
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart",
     "InconsistentSystem", "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution",
     "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
-    "UnsuitedIntegrator", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "ensemble",
+    "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "ensemble",
     "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load", "models",
     "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",
     "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",

@@ -63,6 +63,10 @@ class StepFailed(ZerodriftError):
     """The equations of an implicit step were not solved, or chosen steps became too short or too many."""
 
 
+class WorkerLost(ZerodriftError):
+    """An executor did not return some runs of an ensemble; `solution` is the Ensemble of what it did return."""
+
+
 class StaleCore(ZerodriftError, ImportError):
     """The compiled core does not belong to the C sources beside it."""
 

@@ -12,7 +12,9 @@ from .runs.solution import Solution
 
 
 def load(path: str | Path) -> Any:
-    """Read what was saved: a solution, `Solution.save`, or a mechanism, `Mechanism.save`, told apart by what is in the file.
+    """Read what was saved: a solution, `Solution.save`, an ensemble, `Ensemble.save`, or a mechanism, `Mechanism.save`.
+
+    They are told apart by what is in the file. A folder is the ``store`` of an ensemble, of which what is done is there.
 
     The rows that a run wrote to a file, ``simulate(..., save_to=...)``, stay there: of its arrays, that part is read which is
     looked at, so that they may be larger than memory. A run that goes on yet, or that was killed, has the rows that came.
@@ -23,13 +25,13 @@ def load(path: str | Path) -> Any:
 
     Returns
     -------
-    Solution or Mechanism
+    Solution, Ensemble or Mechanism
 
     Raises
     ------
     ValueError
-        If the file is neither, or if there is something in a mechanism that this version does not know; the key and its place
-        are named.
+        If the file is none of these, or if there is something in a mechanism that this version does not know; the key and its
+        place are named.
 
     Examples
     --------
@@ -40,6 +42,10 @@ def load(path: str | Path) -> Any:
     >>> bool((again.p == sol.p).all())
     True
     """
+    if Path(path).is_dir() or _is_zip(path):
+        ensemble = _ensembles().read(path, lambda description: _system(description, str(path)))
+        if ensemble is not None:
+            return ensemble
     read_from = row_file.read if row_file.is_one(path) else read
     values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
@@ -50,7 +56,18 @@ def load(path: str | Path) -> Any:
         description = rebuilding.parsed(content.decode(errors="replace"), str(path))
         if description is not None:
             return rebuilding.mechanism(description, str(path))
-    raise ValueError(f"{path} is no solution saved by zerodrift, and no mechanism")
+    raise ValueError(f"{path} is no solution saved by zerodrift, no ensemble, and no mechanism")
+
+
+def _is_zip(path: str | Path) -> bool:
+    """Whether it is of the kind that arrays are saved in."""
+    with open(path, "rb") as file:
+        return file.read(2) == b"PK"
+
+
+def _ensembles() -> Any:
+    """What reads ensembles; imported where there may be one."""
+    return importlib.import_module(".ensembles.reading", __package__)
 
 
 def _rebuilding() -> Any:

@@ -11,6 +11,7 @@ from .base import (
     DONE,
     ERRORS,
     EVENT,
+    FINGERPRINT,
     FULL,
     INTERRUPTED,
     PAUSED,
@@ -51,12 +52,12 @@ from .runs import (
 from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
-    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FULL", "INTERRUPTED", "PACKED",
-    "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function", "InLibrary", "Kind",
-    "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable", "Watcher",
-    "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "doubles",
-    "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe",
-    "project", "required", "row_bytes", "settings", "step", "takes_direct", "terms_of",
+    "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
+    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function",
+    "InLibrary", "Kind", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run", "Variable",
+    "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit",
+    "doubles", "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed",
+    "probe", "project", "required", "row_bytes", "settings", "step", "takes_direct", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

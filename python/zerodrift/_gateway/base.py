@@ -16,6 +16,7 @@ TABLES = {"systems": lib.ZD_SYSTEMS, "formulations": lib.ZD_FORMULATIONS,
           "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
 MESSAGE_SIZE = 512
 PROCESSOR_UNIT = lib.zd_processor_unit()      # the number of the last vector unit that it has
+FINGERPRINT = ffi.string(lib.zd_fingerprint).decode()       # of the sources that the core was compiled from
 ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
@@ -89,7 +90,7 @@ def check_fingerprint() -> None:
         return
     from .._fingerprint import core_fingerprint  # where nothing is developed, that is not imported
 
-    if core_fingerprint(root) != text(lib.zd_fingerprint):
+    if core_fingerprint(root) != FINGERPRINT:
         sources = os.path.join(root, "csrc")
         raise errors.StaleCore(f"the compiled core is older than {sources}; rebuild it with: pip install -e {root}")
 

@@ -46,7 +46,7 @@ def _batch(plan: Plan) -> Batch | None:
     if plan.reduce is not None or plan.keeps or options.pop("events") is not None or not isinstance(system, BaseSystem):
         return None
     columns = _columns(system, plan.names)
-    if columns is None or not runs.is_tabular(system):
+    if columns is None or not plan.is_tabular:
         return None
     found = settings.plan(system, _check.span(plan.t_span), **options)
     if found.rows is None:
@@ -77,13 +77,13 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
     count = int(np.argmax(paused)) if (paused := made.status == _gateway.PAUSED).any() else last - first
     if not count:
         return nothing(0)
-    doubtful = np.flatnonzero(~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)[:count])
-    plan.remembered.setdefault("doubtful", []).extend((first + doubtful).tolist())
-    return _part(plan, batch, made, _messages(made, tables), count)
+    doubtful = ~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)
+    return _part(plan, batch, made, _messages(made, tables), doubtful[:count])
 
 
-def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], count: int) -> Part:
-    """The first `count` of the runs."""
+def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
+    """The first of the runs, as many as were made."""
+    count = len(doubtful)
     rows, t = made.rows[:count], made.columns["t"][:count]
     if plan.t_eval is not None:     # a run that ends between two of these has its end besides
         rows = np.minimum(rows, len(plan.t_eval))
@@ -94,7 +94,7 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
     roads = np.where(made.way[:count] == _gateway.IN_LANES, ROADS.index("vector lanes"), ROADS.index("the ordinary road"))
     return Part(rows, longest.copy() if is_shared else t[kept],
                 {name: made.columns[group][:count, :, column][kept] for name, (group, column) in batch.columns.items()},
-                made.status[:count] != _gateway.DONE, messages[:count], roads.astype(np.uint8), none, none, none)
+                made.status[:count] != _gateway.DONE, messages[:count], roads.astype(np.uint8), doubtful, none, none, none)
 
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:

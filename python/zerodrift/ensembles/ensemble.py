@@ -1,4 +1,4 @@
-"""`ensemble`: many runs at once, in the threads of this process."""
+"""`ensemble`: many runs at once, in threads, processes, or on other machines."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from .. import _check
-from ..errors import Interrupted
+from ..errors import Interrupted, WorkerLost
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
-from .part import NOT_STARTED, Part, joined, nothing
+from . import executors
+from . import store as stores
+from .part import Part, filled
 from .plan import Plan, checked
 from .result import Ensemble
 from .runs import Runs
@@ -25,12 +29,13 @@ TOLD = 3            # doubtful runs that are looked at, to tell of the first tha
 
 def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None, v0: Any = None, start: Any = None,
              outputs: Any = None, reduce: Callable[[Solution], Any] | None = None, assemble: bool = True, hold: Any = (),
-             threads: int | None = None, keep: str | None = None, progress: bool | Callable[[float], None] = False,
+             executor: Any = None, threads: int | None = None, chunk: int | None = None, store: Any = None,
+             keep: str | None = None, progress: bool | Callable[[float], None] = False,
              **options: Any) -> Ensemble:
     """Simulate many times, with parameters or starts that differ from run to run.
 
-    Runs go side by side in threads, each by `simulate` and with the bits that it has by itself. A run that fails is data: its
-    rows end, `failed` says so, and `messages` why.
+    Runs go side by side in threads, or wherever an executor makes them, each with the bits that it has by itself. A run that
+    fails is data: its rows end, `failed` says so, and `messages` why.
 
     Parameters
     ----------
@@ -53,8 +58,20 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
         Whether a start is made consistent after a change of parameters. Mechanisms always are.
     hold : sequence of str
         Coordinates and velocities that keep their values in that, as of `zerodrift.assemble`.
+    executor : None, "processes" or Executor
+        None: threads of this process; callables of Python then take turns. "processes": processes of this machine. Else
+        whatever has ``submit`` as those of `concurrent.futures` have: also loky's, ``dask.distributed.Client().get_executor()``,
+        ``mpi4py.futures.MPIPoolExecutor()``. Functions travel to them by the names that they have in their modules, and others,
+        of notebooks or within functions, by cloudpickle, if that is installed. All runs take the vector unit of this process.
     threads : int, optional
-        At most so many; left out: as many as this process may use processors.
+        At most so many threads, or processes; left out: as many as this process may use processors.
+    chunk : int, optional
+        So many runs are handed out together; left out: some 16 portions for each thread or worker.
+    store : str or Path, optional
+        A folder that runs are written to when they are done, in files of `chunk` runs that appear as a whole. The same call goes
+        on where it stopped, after Ctrl-C, a crash or a lost worker, also with another chunk, executor or number of threads, and
+        makes no run twice. A folder that belongs to another study is refused; `zerodrift.load` opens it at any time. What
+        functions read from global variables is not compared.
     keep : {None, "solutions"}
         Whether all solutions stay in memory.
     progress : bool or callable
@@ -70,8 +87,12 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     ------
     ValueError, TypeError
         Before anything runs: for arrays of different lengths, parameters and outputs that nobody has, wrong options.
+        Also for a function that cannot travel to other processes, which is named.
     Interrupted
         After Ctrl-C; ``solution`` is the Ensemble of what was done.
+    WorkerLost
+        If an executor does not return some runs, as its processes died, or are of a machine that gives other bits; ``solution``
+        is the Ensemble of what it did return.
 
     Examples
     --------
@@ -84,65 +105,78 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     """
     runs = Runs(system, parameters, p0, v0, start, hold, assembles=_check.instance("assemble", assemble, bool, "True or False"))
     keeps = keep is not None and bool(_check.choice("keep", keep, ("solutions",)))
+    place = executors.checked(executor)
     threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
+    chunk = None if chunk is None else _check.count("chunk", chunk)
+    if store is not None and keeps:
+        raise ValueError('keep="solutions" is for memory, and a store keeps outputs; ens[i] makes run i again, with the same '
+                         "bits")
+    if store is not None:
+        options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
-    return _Work(plan).done(threads, progress)
+    return _Work(plan, place, threads, chunk, None if store is None else stores.Store(store, plan)).done(progress)
 
 
 class _Work:
     """The runs that are to be made, and the parts that are done."""
 
-    def __init__(self, plan: Plan) -> None:
-        self._plan, self._parts, self._lock, self._count = plan, {}, threading.Lock(), 0
+    def __init__(self, plan: Plan, executor: Any, threads: int, chunk: int | None, store: stores.Store | None) -> None:
+        self._plan, self._store, self._threads = plan, store, threads
+        self._lock, self._begin = threading.Lock(), time.perf_counter()
+        self._parts = {} if store is None else store.parts()
+        self._count = sum(len(part.rows) for part in self._parts.values())
+        runs = plan.runs.count
+        workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
+        ranges = stores.missing(self._parts, runs, chunk or min(LONGEST, -(-runs // (SHARES * workers))))
+        maker = Threads(plan, ranges, self._finished) if executor is None else (
+            executors.Elsewhere(plan, ranges, self._finished, executor))
+        self._make, self._where = maker.run, _where(executor, threads)
 
-    def done(self, threads: int, progress: Any) -> Ensemble:
-        """All runs; after Ctrl-C an error that carries those that are done."""
-        begin = time.perf_counter()
+    def done(self, progress: Any) -> Ensemble:
+        """All runs; after Ctrl-C, or where some were lost, an error that carries those that are done."""
         show, close = progress_of(progress)
-        runs = self._plan.runs.count
-        length = min(LONGEST, -(-runs // (SHARES * threads)))
-        ranges = ((first, min(runs, first + length)) for first in range(0, runs, length))
         try:
-            Threads(self._plan, ranges, self._finished).run(threads, lambda: show(self._count / runs))
+            self._make(self._threads, lambda: show(self._count / self._plan.runs.count))
         except KeyboardInterrupt:
-            done = self._ensemble(begin, threads)
-            count = sum(message != NOT_STARTED for message in done.messages)
-            raise Interrupted(f"the ensemble was interrupted: {count} of {len(done)} runs are done", done) from None
+            done = self._ensemble()
+            raise Interrupted(f"the ensemble was interrupted: {self._count} of {len(done)} runs are done", done) from None
+        except WorkerLost as error:
+            error.solution = self._ensemble()
+            if self._store:
+                _check.tell(error, f"what was done is in {self._store.folder}, and the same call goes on with it")
+            raise
         finally:
             close()
-        self._warn()
-        return self._ensemble(begin, threads)
+        ensemble = self._ensemble()
+        self._warn(ensemble)
+        return ensemble
 
-    def _warn(self) -> None:
+    def _warn(self, ensemble: Ensemble) -> None:
         """What `simulate` warns of in the first of the runs that are doubtful, once for all of them."""
-        doubtful = sorted(self._plan.remembered.get("doubtful", ()))
-        for run in doubtful[:TOLD]:
+        doubtful = np.flatnonzero(ensemble.doubtful)
+        for run in doubtful[:TOLD].tolist():
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
                 self._plan.solution(run, on_failure="return")
             for each in caught:
-                warnings.warn(f"{len(doubtful)} of {self._plan.runs.count} runs are doubtful; run {run}: {each.message}",
-                              each.category, stacklevel=4)
+                warnings.warn(f"{len(doubtful)} of {len(ensemble)} runs are doubtful; run {run}: {each.message}", each.category,
+                              stacklevel=4)
             if caught:
                 return
 
     def _finished(self, first: int, part: Part) -> None:
+        if self._store:
+            self._store.write(first, part)
         with self._lock:
             self._parts[first] = part
             self._count += len(part.rows)
 
-    def _ensemble(self, begin: float, threads: int) -> Ensemble:
-        return Ensemble(self._plan, filled(self._parts, self._plan.runs.count), time.perf_counter() - begin, threads)
+    def _ensemble(self) -> Ensemble:
+        return Ensemble(self._plan, filled(self._parts, self._plan.runs.count), time.perf_counter() - self._begin, self._where)
 
 
-def filled(parts: dict[int, Part], count: int) -> Part:
-    """All runs, from parts by their first runs; what is missing was not started."""
-    found, end = [], 0
-    for first in sorted(parts):
-        if first > end:
-            found.append(nothing(first - end))
-        found.append(parts[first])
-        end = first + len(parts[first].rows)
-    if end < count:
-        found.append(nothing(count - end))
-    return joined(found)
+def _where(executor: Any, threads: int) -> str:
+    """Where runs are made, in the words of `repr`."""
+    if executor is None:
+        return f"on {threads} threads"
+    return f"in {threads} processes" if executor == "processes" else f"by {type(executor).__name__}"

@@ -27,6 +27,8 @@ class Part(NamedTuple):
     messages : list of str (n,)
     roads : ndarray (n,) of uint8
         How each was made: its place in `ROADS`.
+    doubtful : ndarray (n,) of bool
+        Whether `simulate` would warn of it.
     values, t_events, solutions : list (n,)
         What `reduce` returned of each, the times of its events, and it itself where it is kept; else None.
     """
@@ -37,6 +39,7 @@ class Part(NamedTuple):
     failed: np.ndarray
     messages: list[str]
     roads: np.ndarray
+    doubtful: np.ndarray
     values: list[Any]
     t_events: list[Any]
     solutions: list[Any]
@@ -52,19 +55,28 @@ class Part(NamedTuple):
             return (self.t[:rows] for rows in self.rows)
         return iter(np.split(self.t, np.cumsum(self.rows)[:-1]))
 
+    def behind(self, count: int) -> Part:
+        """The same without the first runs."""
+        ends = np.cumsum(self.rows)
+        begin = int(ends[count - 1])
+        t = self.t[:self.rows[count:].max(initial=0)] if self.is_shared else self.t[begin:]
+        return Part(self.rows[count:], t, {name: array[begin:] for name, array in self.arrays.items()}, self.failed[count:],
+                    self.messages[count:], self.roads[count:], self.doubtful[count:], self.values[count:], self.t_events[count:],
+                    self.solutions[count:])
+
 
 def single(t: np.ndarray, arrays: dict[str, np.ndarray], message: str, *, failed: bool, value: Any = None,
-           t_events: Any = None, solution: Any = None, road: int = 0) -> Part:
+           t_events: Any = None, solution: Any = None, road: int = 0, doubtful: bool = False) -> Part:
     """A run by itself."""
-    return Part(np.array([len(t)]), t, arrays, np.array([failed]), [message], np.array([road], np.uint8), [value], [t_events],
-                [solution])
+    return Part(np.array([len(t)]), t, arrays, np.array([failed]), [message], np.array([road], np.uint8),
+                np.array([doubtful]), [value], [t_events], [solution])
 
 
 def nothing(count: int, message: str = NOT_STARTED) -> Part:
     """So many runs of which nothing is there."""
     none = [None] * count
-    return Part(np.zeros(count, int), np.zeros(0), {}, np.ones(count, bool), [message] * count, np.zeros(count, np.uint8), none,
-                none, none)
+    return Part(np.zeros(count, int), np.zeros(0), {}, np.ones(count, bool), [message] * count, np.zeros(count, np.uint8),
+                np.zeros(count, bool), none, none, none)
 
 
 def joined(parts: Sequence[Part]) -> Part:
@@ -77,7 +89,20 @@ def joined(parts: Sequence[Part]) -> Part:
         _concatenated(part.rows for part in parts), _times(parts),
         {name: np.concatenate([part.arrays[name] for part in parts if part.arrays]) for name in names},
         _concatenated(part.failed for part in parts), _chained(part.messages for part in parts),
-        _concatenated(part.roads for part in parts), *lists)
+        _concatenated(part.roads for part in parts), _concatenated(part.doubtful for part in parts), *lists)
+
+
+def filled(parts: dict[int, Part], count: int) -> Part:
+    """All runs, from parts by their first runs; what is missing was not started."""
+    found, end = [], 0
+    for first in sorted(parts):
+        if first > end:
+            found.append(nothing(first - end))
+        found.append(parts[first])
+        end = first + len(parts[first].rows)
+    if end < count:
+        found.append(nothing(count - end))
+    return joined(found)
 
 
 def _times(parts: Sequence[Part]) -> np.ndarray:

@@ -41,6 +41,8 @@ class Plan:
     reduce : callable or None
     keeps : bool
         Whether solutions are.
+    is_tabular : bool
+        Whether the numbers of all runs stand in tables that the core reads; the same for parts of them.
     remembered : dict
         What a road finds out once for all runs; it stays in this process.
     """
@@ -51,13 +53,13 @@ class Plan:
     names: tuple[str, ...]
     reduce: Callable[[Solution], Any] | None = None
     keeps: bool = False
+    is_tabular: bool = False
     remembered: dict[str, Any] = field(default_factory=dict, repr=False)
 
     @property
     def t_eval(self) -> np.ndarray | None:
         """The times that are saved; None: each run has its own."""
-        given = self.options.get("t_eval")
-        return None if given is None else np.asarray(given, dtype=float)
+        return self.options.get("t_eval")
 
     def over(self, runs: Runs) -> Plan:
         """The same of other runs; what is remembered stays."""
@@ -92,7 +94,10 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
         _check_starts(runs, system, span[0])
         if names is None:
             names = [] if reduce is not None else [variable.name for variable in system.coordinates]
-    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps)
+    if options.get("t_eval") is not None:
+        options["t_eval"] = np.array(options["t_eval"], dtype=float)
+    is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made)
+    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, is_tabular)
 
 
 def _names(outputs: Any) -> list[str] | None:

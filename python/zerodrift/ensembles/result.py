@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import _check
+from . import saving
 from .part import NOT_STARTED, ROADS, Part
 from .plan import Plan
 
@@ -26,6 +28,8 @@ class Ensemble:
         Which runs did not reach their end, nor a terminal event.
     messages : tuple of str
         What happened to each.
+    doubtful : ndarray (n,)
+        Whose steps, corrections or energy leave doubt: `simulate` warns of most of these, and the first is told of.
     values : ndarray (n, ...) or list
         What `reduce` returned of each; NaN, or None in a list, where it failed.
     t_events : list of tuple of ndarray
@@ -34,11 +38,11 @@ class Ensemble:
         How long all of them took together.
     """
 
-    def __init__(self, plan: Plan, part: Part, seconds: float, threads: int) -> None:
-        self.parameters, self.shape, self.seconds, self._threads = plan.runs.parameters, plan.runs.shape, seconds, threads
+    def __init__(self, plan: Plan, part: Part, seconds: float, where: str) -> None:
+        self.parameters, self.shape, self.seconds, self._where = plan.runs.parameters, plan.runs.shape, seconds, where
         self._plan, self._names, self._part = plan, plan.names, part
         self.failed = part.failed
-        self.messages = tuple(part.messages)
+        self.messages, self.doubtful = tuple(part.messages), part.doubtful
         self.t_events = part.t_events
         t = part.t if plan.t_eval is None else plan.t_eval
         self.t = _check.frozen(t) if part.is_shared else None
@@ -93,6 +97,41 @@ class Ensemble:
         stacked[np.arange(len(self.t)) < rows[:, None]] = found
         return stacked
 
+    def save(self, path: str | Path) -> Path:
+        """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it.
+
+        A system is kept as far as `Solution.save` keeps it, functions are not: where there are none, runs can be made again of
+        what was loaded, too. Solutions that stayed in memory are not written.
+
+        Parameters
+        ----------
+        path : str or Path
+            The suffix ``.npz`` is added where it is missing.
+
+        Returns
+        -------
+        Path
+            Where it was written.
+
+        Raises
+        ------
+        TypeError
+            If `reduce` returned what a file does not keep.
+
+        Examples
+        --------
+        >>> import tempfile, zerodrift as zd
+        >>> ens = zd.ensemble(zd.systems.oscillator(), 1.0, parameters={"mass": [1.0, 2.0]}, step=0.1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     again = zd.load(ens.save(folder + "/study"))
+        >>> bool((again["x"] == ens["x"]).all() and (again[1].p == ens[1].p).all())
+        True
+        """
+        path = Path(path)
+        path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
+        saving.write(path, self._plan, self._part)
+        return path
+
     def __iter__(self) -> Any:
         raise TypeError("an ensemble is not gone through, as that would make all runs again: take ens['name'], or ens[i]")
 
@@ -104,9 +143,10 @@ class Ensemble:
         varied = f" over {', '.join(self.parameters)}" if self.parameters else ""
         rows = f"{len(self.t)} rows each" if self.t is not None else "rows of their own"
         failed = f"{int(self.failed.sum())} failed" if self.failed.any() else "none failed"
+        failed += f", {int(self.doubtful.sum())} doubtful" if self.doubtful.any() else ""
         first = f", the first because {self.messages[int(self.failed.argmax())]}" if self.failed.any() else ""
         return (f"<ensemble of {count} runs{varied}: {rows}, {failed}{first}\n"
-                f" in {self.seconds:.3g} s on {self._threads} threads; {self._roads()}\n"
+                f" {f'in {self.seconds:.3g} s ' if self.seconds else ''}{self._where}; {self._roads()}\n"
                 f" outputs {', '.join(self._names) or 'none'}>")
 
     def _roads(self) -> str:

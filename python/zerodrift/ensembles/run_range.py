@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .. import _gateway
+from ..runs import diagnosis
 from ..runs.solution import Solution
 from .batch import Batch, batch_of, batch_range
 from .part import Part, joined, nothing, single
@@ -70,7 +71,7 @@ def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:
     value = plan.reduce(solution) if plan.reduce is not None and solution.success else None
     return single(np.array(solution.t[:rows]), {name: np.array(solution[name][:rows]) for name in plan.names}, solution.message,
                   failed=not solution.success, value=value, t_events=solution.t_events,
-                  solution=solution if plan.keeps else None)
+                  solution=solution if plan.keeps else None, doubtful=any(True for _ in diagnosis.doubts(solution)))
 
 
 def _rows(plan: Plan, solution: Solution) -> int:

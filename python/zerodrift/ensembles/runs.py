@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -104,7 +105,7 @@ class Runs:
     """
 
     def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
-        self.hold, self._assembles, self.shape = hold, assembles, getattr(parameters, "shape", None)
+        self.hold, self.may_assemble, self.shape = hold, assembles, getattr(parameters, "shape", None)
         self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
         self.parameters, counts = _columns("parameters", parameters)
         start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
@@ -113,7 +114,7 @@ class Runs:
                   if given is not None and (array := _state(name, given)) is not None}
         counts |= more | {name: len(array) for name, array in states.items() if array.ndim == 2}
         self.count = _common(counts)
-        self._start, self.states = start, states
+        self.start_values, self.states = start, states
         self.parameters = {name: self._all(each) for name, each in self.parameters.items()}
         self.shape = self.shape or (self.count,)
         if isinstance(self.made, BaseSystem):
@@ -129,6 +130,21 @@ class Runs:
         """Of one run, as its system takes them."""
         return {name: each[run].item() if each.ndim == 1 else np.array(each[run]) for name, each in self.parameters.items()}
 
+    def table(self, first: int, last: int) -> dict[str, Any]:
+        """The numbers of the runs first ... last - 1: all that tells them from others."""
+        here = slice(first, last)
+        return {"parameters": {name: np.ascontiguousarray(each[here]) for name, each in self.parameters.items()},
+                "start_values": {name: (array[here] if varies else array, varies)
+                                 for name, (array, varies) in self.start_values.items()},
+                "states": {name: array[here] if array.ndim == 2 else array for name, array in self.states.items()},
+                "count": last - first, "shape": (last - first,)}
+
+    def with_table(self, table: dict[str, Any]) -> Runs:
+        """Other runs, made in the same way."""
+        other = copy.copy(self)
+        vars(other).update(table)
+        return other
+
     def system(self, run: int) -> BaseSystem:
         """The system of one run."""
         parameters = self.parameters_of(run)
@@ -142,8 +158,8 @@ class Runs:
     def is_tabular(self, system: BaseSystem) -> bool:
         """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python."""
         sizes = {"p0": system.nq, "v0": system.nv}
-        if self._start or (isinstance(system, MechanismSystem) and set(self.states) != set(sizes)):     # it finds them in Python
-            return False
+        if self.start_values or (isinstance(system, MechanismSystem) and set(self.states) != set(sizes)):
+            return False        # it finds them in Python
         fits = all(array.shape[-1] == sizes[name] and np.isfinite(array).all() for name, array in self.states.items())
         has_start = "p0" in self.states or system.p0 is not None
         return fits and has_start and system._number_tables(self.parameters_from(0, 1), 1) is not None
@@ -154,7 +170,7 @@ class Runs:
 
     def assembles(self, system: BaseSystem) -> bool:
         """Whether starts are made consistent, as parameters have changed what that means."""
-        return bool(self._assembles and self.parameters and system.m)
+        return bool(self.may_assemble and self.parameters and system.m)
 
     def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray, np.ndarray]:
         """P (k, nq) and v (k, nv) of the runs first ... last - 1, before they are made consistent; NaN of those refused."""
@@ -170,8 +186,8 @@ class Runs:
 
     def start(self, run: int, system: BaseSystem, t: float) -> tuple[Any, Any]:
         """P and v at its start, which is at t; None: the system's own, which a mechanism assembles."""
-        if self._start:
-            held = {name: array[run] if varies else array for name, (array, varies) in self._start.items()}
+        if self.start_values:
+            held = {name: array[run] if varies else array for name, (array, varies) in self.start_values.items()}
             return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()}, t=t)
         p, v = (None if (array := self.states.get(name)) is None else array[run] if array.ndim == 2 else array
                 for name in ("p0", "v0"))

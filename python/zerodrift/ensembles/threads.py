@@ -37,6 +37,7 @@ class Threads:
                 while worker.is_alive():
                     worker.join(LOOK)
                     look()
+            look()
         except BaseException:
             self._stop.set()
             for worker in workers:

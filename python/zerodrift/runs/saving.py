@@ -41,7 +41,7 @@ def described(values: Mapping[str, Any]) -> dict[str, Any]:
     description |= {name: None if values[name] is None else len(values[name]) for name in EVENTS}
     description["outputs"] = list(values["outputs"])
     description["system"] = values["system"]._described()
-    description["settings"] = {name: _to_json(value) for name, value in values["settings"].items()}
+    description["settings"] = {name: to_json(value) for name, value in values["settings"].items()}
     return description
 
 
@@ -64,8 +64,8 @@ def unpacked(description: dict[str, Any], arrays: dict[str, np.ndarray],
             description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
     description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))
                               if f"outputs.{i}" in arrays}
-    description["system"] = _restored_system(description["system"], rebuilt)
-    description["settings"] = {name: _from_json(value) for name, value in description["settings"].items()}
+    description["system"] = restored_system(description["system"], rebuilt)
+    description["settings"] = {name: from_json(value) for name, value in description["settings"].items()}
     return arrays | description
 
 
@@ -78,20 +78,20 @@ def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
         return dict(file)
 
 
-def _to_json(value: Any) -> Any:
+def to_json(value: Any) -> Any:
     """A setting as JSON."""
     if isinstance(value, tuple):
-        return [_to_json(each) for each in value]
+        return [to_json(each) for each in value]
     if isinstance(value, RowSettings):
         return {"kind": type(value).__name__, **{field.name: getattr(value, field.name) for field in fields(value)}}
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def _from_json(value: Any) -> Any:
+def from_json(value: Any) -> Any:
     if isinstance(value, dict):
         return CARDS[value.pop("kind")].settings(**value)
     if isinstance(value, list) and value and isinstance(value[0], dict | str):
-        return tuple(map(_from_json, value))
+        return tuple(map(from_json, value))
     return np.array(value) if isinstance(value, list) else value
 
 
@@ -120,7 +120,7 @@ class Described(BaseSystem):
         return repr(self)       # sizes, rows and parameters were not saved
 
 
-def _restored_system(description: dict[str, Any], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> BaseSystem:
+def restored_system(description: dict[str, Any], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> BaseSystem:
     if "mechanism" in description:
         return rebuilt(description)
     if "parameters" in description and description["name"] in FACTORIES:

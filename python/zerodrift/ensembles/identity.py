@@ -1,0 +1,136 @@
+"""What tells one study from another: digests of numbers and settings, and of functions name, code, defaults and closure."""
+
+from __future__ import annotations
+
+import copyreg
+import functools
+import hashlib
+from collections.abc import Iterable, Mapping
+from types import BuiltinFunctionType, CodeType, FunctionType, MethodType, ModuleType
+from typing import Any
+
+import numpy as np
+
+LENGTH = 24         # hexadecimal digits of a digest
+PLAIN = (type(None), bool, int, float, complex, str, bytes)
+
+
+class Identity:
+    """Digests of objects that are equal wherever and whenever the same objects are made.
+
+    An object is what it pickles as, but that functions count by what they do and not by where they are, and that what a
+    cached property has found does not count. Values of global variables that functions read are not seen.
+
+    Attributes
+    ----------
+    functions : dict of str to dict
+        Of each function met: its name, and the digests of its code, defaults and closure.
+    """
+
+    def __init__(self) -> None:
+        self.functions: dict[str, dict[str, str]] = {}
+        self._known: dict[int, tuple[str, Any]] = {}        # the object, too: else another may get its address
+        self._open: list[int] = []
+
+    def of(self, what: Any) -> str:
+        """The digest of an object."""
+        if isinstance(what, PLAIN):
+            return _digest(type(what).__name__, repr(what))
+        if id(what) in self._known:
+            return self._known[id(what)][0]
+        if id(what) in self._open:          # it is a part of itself
+            return _digest("again", str(len(self._open) - self._open.index(id(what))))
+        self._open.append(id(what))
+        found = _digest(*self._parts(what))
+        self._open.pop()
+        self._known[id(what)] = found, what
+        return found
+
+    def _parts(self, what: Any) -> Iterable[str | bytes]:
+        """What makes up an object's digest."""
+        match what:
+            case np.ndarray() if what.dtype != object:
+                return "array", what.dtype.str, str(what.shape), np.ascontiguousarray(what).tobytes()
+            case np.generic():
+                return "number", what.dtype.str, what.tobytes()
+            case list() | tuple():
+                return type(what).__name__, *map(self.of, what)
+            case set() | frozenset():
+                return "set", *sorted(map(self.of, what))
+            case dict():
+                return "dict", *(self.of(each) for pair in what.items() for each in pair)
+            case FunctionType():
+                return self._function(what)
+            case MethodType():
+                return "method", self.of(what.__self__), self.of(what.__func__)
+            case CodeType():
+                return self._code(what)
+            case type() | BuiltinFunctionType() | ModuleType():
+                return "name", _named(what)
+            case _:
+                return self._object(what)
+
+    def _function(self, what: FunctionType) -> Iterable[str]:
+        name = _named(what)
+        closure = [cell.cell_contents for cell in what.__closure__ or () if not _is_empty(cell)]
+        parts = {"code": self.of(what.__code__), "defaults": self.of((what.__defaults__, what.__kwdefaults__)),
+                 "closure": self.of(closure)}
+        key, number = name, 1
+        while self.functions.get(key, parts) != parts:      # as lambdas of one function have one name
+            number += 1
+            key = f"{name} ({number})"
+        self.functions[key] = parts
+        attributes = [self.of(each) for each in sorted(vars(what).items())]     # as an event's direction
+        return "function", name, *parts.values(), *attributes
+
+    def _code(self, what: CodeType) -> Iterable[str | bytes]:
+        counts = (what.co_argcount, what.co_posonlyargcount, what.co_kwonlyargcount, what.co_flags)
+        names = (what.co_names, what.co_varnames, what.co_freevars, what.co_cellvars)
+        return "code", what.co_code, str(counts), str(names), self.of(what.co_consts)
+
+    def _object(self, what: Any) -> Iterable[str]:
+        reduce = copyreg.dispatch_table.get(type(what))
+        reduced = reduce(what) if reduce else what.__reduce_ex__(4)
+        if isinstance(reduced, str):
+            return "global", reduced
+        made, arguments, state, items, pairs = (*reduced, None, None, None)[:5]
+        if isinstance(state, dict):
+            state = {name: value for name, value in state.items()
+                     if not isinstance(getattr(type(what), name, None), functools.cached_property)}
+        return "object", _named(made), *map(self.of, (arguments, state, list(items or ()), list(pairs or ())))
+
+
+def _is_empty(cell: Any) -> bool:
+    """Whether a function refers to a name that has no value yet."""
+    try:
+        return cell.cell_contents is cell       # which no cell contains
+    except ValueError:
+        return True
+
+
+def _named(what: Any) -> str:
+    module = getattr(what, "__module__", None) or ""
+    return f"{module}.{getattr(what, '__qualname__', what.__name__)}".lstrip(".")
+
+
+def _digest(*parts: str | bytes) -> str:
+    """Of parts whose number and lengths count, too."""
+    whole = hashlib.sha256()
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else part
+        whole.update(f"{len(data)} ".encode() + data)
+    return whole.hexdigest()[:LENGTH]
+
+
+def differences(name: str, then: Any, now: Any) -> list[str]:
+    """What is not as it was, in words; dicts entry by entry."""
+    if isinstance(then, Mapping) and isinstance(now, Mapping):
+        return [each for key in [*then, *(key for key in now if key not in then)]
+                for each in differences(f"{name}[{key!r}]" if name else key, then.get(key), now.get(key))]
+    if then == now:
+        return []
+    return [f"{name} was {_shown(then)} and is {_shown(now)}"]
+
+
+def _shown(value: Any) -> str:
+    return "not there" if value is None else str(value)

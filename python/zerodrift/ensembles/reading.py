@@ -1,0 +1,23 @@
+"""Ensembles that were saved in a file, or that stay in the folder they were made in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..systems.base import BaseSystem
+from . import saving, store
+from .part import filled
+from .result import Ensemble
+
+
+def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Ensemble | None:
+    """The ensemble of a file or a folder; None: there is none in it. `rebuilt` makes the system of a mechanism."""
+    if not Path(path).is_dir():
+        found = saving.read(path, rebuilt)
+        return None if found is None else Ensemble(*found, 0.0, f"as {Path(path).name} has it")
+    if not store.is_one(path):
+        raise ValueError(f"{path} is a folder, and no store of an ensemble")
+    plan, parts = store.load(path, rebuilt)
+    return Ensemble(plan, filled(parts, plan.runs.count), 0.0, f"as {Path(path).name} has it")

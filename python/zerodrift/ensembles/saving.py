@@ -1,0 +1,212 @@
+"""Ensembles in files: arrays in an NPZ file, and beside them a description in JSON; no pickle."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check
+from ..errors import ZerodriftError
+from ..runs import saving
+from ..runs.solution import Solution
+from ..systems.base import BaseSystem
+from .part import Part
+from .plan import Plan
+from .runs import Runs
+
+KEY = "zerodrift"       # of the description among the arrays
+WHAT = "ensemble"
+DONE = "done"           # what most runs say, which is not written
+
+
+# ---- parts ----
+
+
+def packed_part(part: Part) -> dict[str, np.ndarray]:
+    """A part as arrays, one of which is a text."""
+    arrays = {"rows": part.rows, "t": part.t, "failed": part.failed, "roads": part.roads,
+              "doubtful": part.doubtful}
+    arrays |= {f"outputs.{i}": array for i, array in enumerate(part.arrays.values())}
+    values, stacked = _packed_values(part.values)
+    return {KEY: np.array(json.dumps({
+        "outputs": list(part.arrays), "messages": {i: each for i, each in enumerate(part.messages) if each != DONE},
+        "values": values, "t_events": [None if each is None else [times.tolist() for times in each] for each in part.t_events],
+    })), **arrays, **stacked}
+
+
+def _packed_values(values: list[Any]) -> tuple[Any, dict[str, np.ndarray]]:
+    """What reduce returned: arrays of one shape as one, all else as JSON."""
+    known = [each for each in values if each is not None]
+    if known and all(isinstance(each, np.ndarray) and each.dtype == known[0].dtype and each.shape == known[0].shape
+                     and each.dtype.kind in "biufc" for each in known):
+        return [each is not None for each in values], {"values": np.stack(known)}
+    return {"json": [value_as_json(each) for each in values]}, {}
+
+
+def unpacked_part(arrays: dict[str, np.ndarray]) -> Part:
+    """The part again."""
+    described = json.loads(str(arrays[KEY]))
+    messages, count = described["messages"], len(arrays["rows"])
+    events = [None if each is None else tuple(np.array(times, dtype=float) for times in each) for each in described["t_events"]]
+    return Part(arrays["rows"], arrays["t"], {name: arrays[f"outputs.{i}"] for i, name in enumerate(described["outputs"])},
+                arrays["failed"], [messages.get(str(i), DONE) for i in range(count)], arrays["roads"],
+                arrays["doubtful"], _unpacked_values(described["values"], arrays), events, [None] * count)
+
+
+def _unpacked_values(described: Any, arrays: dict[str, np.ndarray]) -> list[Any]:
+    if isinstance(described, dict):
+        return [value_from_json(each) for each in described["json"]]
+    known = iter(arrays["values"])
+    return [next(known) if there else None for there in described]
+
+
+def value_as_json(value: Any) -> Any:
+    """A value that `reduce` returned.
+
+    Raises
+    ------
+    TypeError
+        If it is of a kind that would not come back as it is.
+    """
+    if isinstance(value, np.generic) and value.dtype.kind in "biuf":
+        return value.item()
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, np.ndarray) and value.dtype.kind in "biuf":
+        return {"array": value.tolist(), "dtype": value.dtype.str, "shape": value.shape}
+    if isinstance(value, list):
+        return [value_as_json(each) for each in value]
+    if isinstance(value, tuple) and not hasattr(value, "_fields"):
+        return {"tuple": [value_as_json(each) for each in value]}
+    if isinstance(value, dict) and all(isinstance(key, str) for key in value):
+        return {"dict": {key: value_as_json(each) for key, each in value.items()}}
+    raise TypeError(f"reduce must return what a file keeps: numbers, strings, arrays of numbers, and lists, tuples and dicts of "
+                    f"these, not {_check.shown(value)}")
+
+
+def value_from_json(value: Any) -> Any:
+    """The value again."""
+    if isinstance(value, list):
+        return [value_from_json(each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    if "array" in value:
+        return np.array(value["array"], dtype=value["dtype"]).reshape(value["shape"])
+    if "tuple" in value:
+        return tuple(value_from_json(each) for each in value["tuple"])
+    return {key: value_from_json(each) for key, each in value["dict"].items()}
+
+
+# ---- plans ----
+
+
+def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
+    """All that a plan says and that is no function, as arrays, one of which is a text."""
+    runs = plan.runs
+    starts = {name: array for name, (array, _) in runs.start_values.items()}
+    groups = {"parameters": runs.parameters, "start": starts, "states": runs.states}
+    description = {
+        "kind": WHAT, "t_span": list(_check.span(plan.t_span)), "names": plan.names, "shape": runs.shape, "count": runs.count,
+        "settings": {name: saving.to_json(value.item() if isinstance(value, np.generic) else value)
+                     for name, value in plan.options.items() if name != "events"},
+        "assembles": runs.may_assemble, "hold": names_of(runs.hold),
+        "varies": [varies for _, varies in runs.start_values.values()],
+        "system": runs.made._described() if isinstance(runs.made, BaseSystem) else None, "why_not": why_not(plan),
+        **{kind: list(group) for kind, group in groups.items()}}
+    arrays = {f"{kind}.{i}": array for kind, group in groups.items() for i, array in enumerate(group.values())}
+    return {KEY: np.array(json.dumps(description)), **arrays}
+
+
+def why_not(plan: Plan | Kept) -> str | None:
+    """Why runs cannot be made again of what a file has of a plan; None: they can."""
+    if isinstance(plan, Kept):
+        return plan.why_not
+    if not isinstance(plan.runs.made, BaseSystem):
+        return "a function made its system, which a file does not keep"
+    return None if plan.options.get("events") is None else "it had events, which a file does not keep"
+
+
+def names_of(hold: Any) -> list[str]:
+    """Of the argument `hold`."""
+    several = [hold] if isinstance(hold, str) or hasattr(hold, "name") else hold
+    return [getattr(each, "name", each) for each in several]
+
+
+class Kept(NamedTuple):
+    """What was kept of a plan: enough to look at what it made, and to make a run again where nothing in it was a function."""
+
+    runs: Runs
+    t_span: Any
+    options: dict[str, Any]
+    names: tuple[str, ...]
+    why_not: str | None     # why runs cannot be made again
+
+    @property
+    def t_eval(self) -> np.ndarray | None:
+        """The times that are saved; None: each run has its own."""
+        return self.options.get("t_eval")
+
+    def solution(self, run: int, **options: Any) -> Solution:
+        """One run, by `simulate`."""
+        if self.why_not:
+            raise ZerodriftError(f"run {run} cannot be made again, as {self.why_not}: call zd.ensemble again")
+        return Plan(self.runs, self.t_span, self.options, self.names).solution(run, **options)
+
+
+def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Kept:
+    """The plan again, as far as it was kept; `rebuilt` makes the system of a mechanism."""
+    described = json.loads(str(arrays[KEY]))
+    names = {kind: described[kind] for kind in ("parameters", "start", "states")}
+    table = {kind: {name: arrays[f"{kind}.{i}"] for i, name in enumerate(each)} for kind, each in names.items()}
+    made, reason = None, described["why_not"]
+    if described["system"] is not None:
+        made = saving.restored_system(described["system"], rebuilt)
+        if isinstance(made, saving.Described):
+            reason = f"of {made.name} only the description was kept"
+    runs = object.__new__(Runs)
+    vars(runs).update(made=made, parameters=table["parameters"], states=table["states"], count=described["count"],
+                      start_values={name: (array, varies) for (name, array), varies
+                             in zip(table["start"].items(), described["varies"], strict=True)},
+                      shape=tuple(described["shape"]), hold=described["hold"], may_assemble=described["assembles"])
+    settings = {name: saving.from_json(value) for name, value in described["settings"].items()}
+    return Kept(runs, tuple(described["t_span"]), settings, tuple(described["names"]), reason)
+
+
+# ---- files ----
+
+
+def write(path: Path, plan: Plan | Kept, part: Part) -> None:
+    """Writes an ensemble."""
+    arrays = {f"runs.{name}": array for name, array in packed_part(part).items()}
+    np.savez_compressed(path, **packed_plan(plan), **arrays)
+
+
+def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[Kept, Part] | None:
+    """The ensemble in a file; None: there is another thing in it."""
+    if not is_ensemble(path):
+        return None
+    arrays = read_arrays(path)
+    part = {name.removeprefix("runs."): array for name, array in arrays.items() if name.startswith("runs.")}
+    return unpacked_plan(arrays, rebuilt), unpacked_part(part)
+
+
+def is_ensemble(path: str | Path) -> bool:
+    """Whether an ensemble was saved in this file."""
+    if not zipfile.is_zipfile(path):
+        return False
+    with np.load(path, allow_pickle=False) as file:
+        return KEY in file.files and json.loads(str(file[KEY])).get("kind") == WHAT
+
+
+def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
+    """The arrays of an NPZ file."""
+    try:
+        with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
+            return dict(file)
+    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
+        raise ValueError(f"{path} cannot be read: {error}") from None

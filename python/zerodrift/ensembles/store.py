@@ -1,0 +1,211 @@
+"""A folder in which the finished parts of an ensemble stay, so that the same call goes on where it stopped."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import uuid
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _check, _gateway
+from ..runs.settings import VECTOR_UNITS
+from ..systems.base import BaseSystem
+from . import saving
+from .identity import Identity, differences
+from .part import Part
+from .plan import OPTIONS, Plan
+
+FORMAT = 1
+MANIFEST, STUDY = "manifest.json", "study.npz"      # what tells the study from others, and its numbers
+PATTERN = "runs_*_*.npz"                            # each has the runs from the first number on, up to the second
+WHAT = "store of an ensemble"
+
+
+def is_one(path: str | Path) -> bool:
+    """Whether a folder is a store."""
+    return (Path(path) / MANIFEST).is_file()
+
+
+def vector_of(folder: str | Path) -> str | None:
+    """The vector unit with which a store began; None: there is none yet.
+
+    Raises
+    ------
+    ValueError
+        If this processor does not have it.
+    """
+    if not is_one(_check.instance("store", folder, str | Path, "the path of a folder")):
+        return None
+    unit, units = _manifest(Path(folder)).get("vector"), VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+    if unit not in units:
+        raise ValueError(f"store {str(folder)!r} was begun with {unit}, and the processor of {platform.node()} has "
+                         f'{" and ".join(units)}: it goes on where that is, or elsewhere from the beginning with vector="avx2" | '
+                         '"baseline"')
+    return unit
+
+
+class Store:
+    """Parts of one ensemble in a folder.
+
+    A part is written under a name of its own and then renamed, so that it is there as a whole or not at all. It does not matter
+    which process wrote it, nor how many runs it has.
+
+    Parameters
+    ----------
+    folder : str or Path
+    plan : Plan
+
+    Raises
+    ------
+    ValueError
+        If what is there belongs to another study; all differences are named. Nothing is changed then.
+    """
+
+    def __init__(self, folder: str | Path, plan: Plan) -> None:
+        self.folder, now = Path(folder), manifest_of(plan)
+        if is_one(self.folder):
+            _check_same(self.folder, now, plan)
+            return
+        if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
+            raise ValueError(f"store {str(folder)!r} must be a new or an empty folder, or that of an ensemble, and it is neither")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        _write(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(plan)))
+        _write(self.folder / MANIFEST, lambda file: file.write(json.dumps(now, indent=1).encode()))
+
+    def parts(self) -> dict[int, Part]:
+        """What is done, by the first run of each part; no run twice."""
+        found, end = {}, 0
+        for (first, last), path in sorted(_files(self.folder).items()):
+            part = saving.unpacked_part(saving.read_arrays(path))
+            if last > end:          # two processes may have worked at the same study
+                found[max(first, end)] = part if first >= end else part.behind(end - first)
+                end = last
+        return found
+
+    def write(self, first: int, part: Part) -> None:
+        """Keeps a part, which may have been cut short."""
+        if count := len(part.rows):
+            path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
+            _write(path, lambda file: np.savez(file, **saving.packed_part(part)))
+
+
+def load(folder: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[saving.Kept, dict[int, Part]]:
+    """What a store has, without the call that began it."""
+    store = object.__new__(Store)
+    store.folder = Path(folder)
+    return saving.unpacked_plan(saving.read_arrays(store.folder / STUDY), rebuilt), store.parts()
+
+
+def missing(parts: dict[int, Part], count: int, length: int) -> Iterator[tuple[int, int]]:
+    """Ranges of at most so many runs that are in no part."""
+    begin = 0
+    for first, last in [*((first, first + len(part.rows)) for first, part in sorted(parts.items())), (count, count)]:
+        for here in range(begin, first, length):
+            yield here, min(first, here + length)
+        begin = last
+
+
+def manifest_of(plan: Plan) -> dict[str, Any]:
+    """What makes an ensemble the one that it is."""
+    runs, found = plan.runs, Identity()
+    numbers = {"parameters": runs.parameters, "start": {name: array for name, (array, _) in runs.start_values.items()},
+               **runs.states}
+    settings = {name: plan.options.get(name, default) for name, default in OPTIONS.items() if name != "vector"}
+    made = {"system": _system(runs.made, found), "reduce": None if plan.reduce is None else found.of(plan.reduce)}
+    described = {name: _described(value, found) for name, value in settings.items()}
+    return {
+        "what": WHAT, "format": FORMAT, "version": _gateway.FINGERPRINT, "vector": plan.options["vector"], "runs": runs.count,
+        "t_span": list(_check.span(plan.t_span)), "outputs": list(plan.names), **made, "settings": described,
+        "assemble": runs.may_assemble, "hold": saving.names_of(runs.hold), "functions": found.functions,
+        "python": ".".join(platform.python_version_tuple()[:2]) if found.functions else None,     # their code depends on it
+        "numbers": {name: {key: found.of(array) for key, array in each.items()} if isinstance(each, dict) else found.of(each)
+                    for name, each in numbers.items()}}
+
+
+def _system(made: Any, found: Identity) -> Any:
+    """With its parameters one by one, which are what most often differs."""
+    if not isinstance(made, BaseSystem):
+        return found.of(made)
+    return {"name": made.name, "parameters": {name: _described(value, found) for name, value in made.parameters.items()},
+            "digest": found.of(made)}
+
+
+def _described(value: Any, found: Identity) -> Any:
+    """A setting: as it is where that is short, else its digest."""
+    return value if isinstance(value, str | bool | int | float | None) else found.of(value)
+
+
+def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
+    """Refuses a store that belongs to another study."""
+    then = _manifest(folder)
+    if then.get("format") != FORMAT:
+        raise ValueError(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here")
+    numbers = _other_runs(folder, plan) if then["numbers"] != now["numbers"] and then["runs"] == now["runs"] else []
+    others = {name: value for name, value in now.items() if name != "numbers"}
+    found = differences("", {name: value for name, value in then.items() if name != "numbers"}, others) + numbers
+    if found or then["numbers"] != now["numbers"]:
+        raise ValueError(f"store {str(folder)!r} belongs to another study: {'; '.join(found) or 'its numbers differ'}. Take "
+                         "another folder, or call as it was called")
+
+
+def _other_runs(folder: Path, plan: Plan) -> list[str]:
+    """Which runs have other numbers, and the first of these."""
+    then = saving.unpacked_plan(saving.read_arrays(folder / STUDY), lambda description: None).runs
+    found = []
+    for what, old, new in (("parameters", then.parameters, plan.runs.parameters),
+                           ("start", _arrays(then.start_values), _arrays(plan.runs.start_values)),
+                           ("", then.states, plan.runs.states)):
+        for name in [*old, *(name for name in new if name not in old)]:
+            found += _other_column(f"{what}[{name!r}]" if what else name, old.get(name), new.get(name))
+    return found
+
+
+def _arrays(columns: dict[str, tuple[np.ndarray, bool]]) -> dict[str, np.ndarray]:
+    return {name: array for name, (array, _) in columns.items()}
+
+
+def _other_column(name: str, old: np.ndarray | None, new: np.ndarray | None) -> list[str]:
+    if old is None or new is None:
+        return [f"{name} was {'not ' if old is None else ''}there and is {'not ' if new is None else ''}there"]
+    if old.shape != new.shape or not old.ndim:
+        return [] if np.array_equal(old, new) else [f"{name} was {_check.shown(old)} and is {_check.shown(new)}"]
+    other = np.flatnonzero((old != new).reshape(len(old), -1).any(axis=1))
+    return [f"{name} of {len(other)} runs, first run {other[0]}, where it was {_check.shown(old[other[0]])} and is "
+            f"{_check.shown(new[other[0]])}"] if len(other) else []
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    try:
+        found = json.loads((folder / MANIFEST).read_bytes())
+    except (OSError, ValueError) as error:
+        raise ValueError(f"{folder / MANIFEST} cannot be read: {error}") from None
+    if not isinstance(found, dict) or found.get("what") != WHAT:
+        raise ValueError(f"{folder / MANIFEST} is that of no {WHAT}")
+    return found
+
+
+def _files(folder: Path) -> dict[tuple[int, int], Path]:
+    """The parts' files by their runs."""
+    found = {}
+    for path in folder.glob(PATTERN):
+        first, last = path.stem.split("_")[1:]
+        found[int(first), int(last)] = path
+    return found
+
+
+def _write(path: Path, write: Callable[[Any], Any]) -> None:
+    """Writes a file that is there as a whole or not at all, whenever the process or the machine dies."""
+    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
+    try:
+        with temporary.open("wb") as file:
+            write(file)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

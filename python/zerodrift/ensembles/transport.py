@@ -1,0 +1,104 @@
+"""How plans and parts get to other processes and back: numbers as they are, functions by their names, else by cloudpickle."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import pickle
+import sys
+from types import FunctionType, ModuleType
+from typing import Any
+
+from .runs import named
+
+MAIN = ("__main__", "__mp_main__")      # modules that another process does not have, or has another one of
+
+
+def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes:
+    """An object in bytes; `name` says in errors what it is.
+
+    Functions of the script that runs travel by their names, too, where `shares_main`: processes that `multiprocessing` has
+    started import it.
+
+    Raises
+    ------
+    TypeError
+        If there is something in it that cannot travel. A function that no module has by its name needs cloudpickle.
+    """
+    buffer = io.BytesIO()
+    packer = _Packer(buffer, pickle.HIGHEST_PROTOCOL)
+    packer.shares_main = shares_main and hasattr(sys.modules["__main__"], "__file__")
+    try:
+        packer.dump(what)
+    except _Stuck as error:
+        raise TypeError(f"{name} cannot travel to another process: {error}") from None
+    except Exception as error:
+        raise TypeError(f"{name} cannot travel to another process: {type(error).__name__}: {error}") from error
+    return buffer.getvalue()
+
+
+def unpacked(data: bytes) -> Any:
+    """The object again.
+
+    Raises
+    ------
+    ImportError
+        If a module is missing here in which something in it was defined.
+    """
+    try:
+        return pickle.loads(data)
+    except (ImportError, AttributeError) as error:
+        raise ImportError(f"{error}; what is defined in a module travels by its name, so that workers need that module, the same "
+                          "as here; cloudpickle.register_pickle_by_value(module) sends what it is instead") from None
+
+
+class _Stuck(TypeError):
+    """Raised for a function that cannot travel."""
+
+
+class _Packer(pickle.Pickler):
+    """Sends functions and classes by reference where another process finds them, else by value."""
+
+    shares_main = False
+
+    def reducer_override(self, what: Any) -> Any:
+        if not isinstance(what, FunctionType | type) or is_found(what):
+            return NotImplemented
+        cloudpickle = _cloudpickle()
+        if cloudpickle is not None:
+            return _restored, (cloudpickle.dumps(what),)
+        if isinstance(what, type) or (self.shares_main and is_found(what, but=())):
+            return NotImplemented       # of a class, this says what is missing
+        raise _Stuck(f"{named(what)} of {what.__module__} is in no module that another process could import; define it "
+                     "there, or pip install cloudpickle")
+
+
+def _restored(data: bytes) -> Any:
+    return pickle.loads(data)
+
+
+def is_found(what: Any, but: tuple[str, ...] = MAIN) -> bool:
+    """Whether another process can import a function or a class by its name, and is meant to; not from these modules."""
+    module = what.__module__
+    if module == "builtins":
+        return True
+    if module in but or _is_by_value(module):
+        return False
+    found: Any = sys.modules.get(module)
+    for name in what.__qualname__.split("."):
+        found = getattr(found, name, None)
+    return found is what
+
+
+def _is_by_value(module: str) -> bool:
+    """Whether the user has told cloudpickle to send what is in that module, or in a package that it is in."""
+    cloudpickle = sys.modules.get("cloudpickle")
+    told = cloudpickle.list_registry_pickle_by_value() if cloudpickle else ()
+    return any(module == each or module.startswith(f"{each}.") for each in told)
+
+
+def _cloudpickle() -> ModuleType | None:
+    try:
+        return importlib.import_module("cloudpickle")
+    except ImportError:
+        return None

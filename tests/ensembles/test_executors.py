@@ -1,0 +1,206 @@
+"""Ensembles in other processes: the same bits, functions that travel or are named, workers that die."""
+
+import multiprocessing
+import os
+import subprocess
+import sys
+import threading
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from small_studies import dies, locks, lowest, pendulum, waits
+from zerodrift.ensembles import executors, transport
+
+GRAVITIES = np.linspace(5.0, 10.0, 12)
+PLAIN = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.angle"]}
+
+
+@pytest.fixture(scope="module")
+def processes():
+    """One that is started anew, as a worker elsewhere is."""
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor:
+        yield executor
+
+
+def same(one, other):
+    """Whether two ensembles have the same bits."""
+    return (np.array_equal(one["link.angle"], other["link.angle"], equal_nan=True) and one.messages == other.messages
+            and np.array_equal(one.values, other.values))
+
+
+@pytest.mark.parametrize("chunk", [None, 5])
+def test_another_process_gives_the_same_bits(processes, chunk):
+    here = zd.ensemble(pendulum, 1.0, reduce=lowest, **PLAIN)
+    there = zd.ensemble(pendulum, 1.0, reduce=lowest, executor=processes, chunk=chunk, **PLAIN)
+    assert same(here, there)
+    assert "by ProcessPoolExecutor" in repr(there)
+    assert np.array_equal(there[3]["link.angle"], there["link.angle"][3])
+
+
+def test_systems_starts_and_solutions_travel(processes):
+    m = zd.models.four_bar()
+    arguments = {"parameters": {"crank.mass": [1.0, 2.0, 3.0]}, "step": 0.01, "chunk": 2, "outputs": ["C.force"],
+                 "start": {"crank.angle": [0.5, 1.0, 1.5]}, "events": [zd.Event("crank.angle", value=2.0)]}
+    here = zd.ensemble(m, 0.5, **arguments)
+    there = zd.ensemble(m, 0.5, executor=processes, keep="solutions", **arguments)
+    assert np.array_equal(here["C.force"], there["C.force"])
+    assert np.array_equal(there[2].t, here[2].t)
+    assert there[2] is there[2]
+    assert [len(times) for times, in there.t_events] == [len(times) for times, in here.t_events]
+
+
+def test_processes_of_its_own_and_failures():
+    """Which are data there, too."""
+    arguments = PLAIN | {"parameters": {"length": [1.0, 0.0, 2.0]}}
+    here = zd.ensemble(pendulum, 1.0, **arguments)
+    there = zd.ensemble(pendulum, 1.0, executor="processes", threads=1, **arguments)
+    assert same(here, there)
+    assert there.failed.tolist() == [False, True, False]
+    assert "in 1 processes" in repr(there)
+
+
+def test_functions_that_cannot_travel_are_named(monkeypatch, processes):
+    """Before anything runs, and only where cloudpickle is missing; those of a script travel to processes that import it."""
+    monkeypatch.setattr(transport, "_cloudpickle", lambda: None)
+    with pytest.raises(TypeError, match=r"the ensemble cannot travel .*<lambda> of .* pip install cloudpickle"):
+        zd.ensemble(pendulum, 1.0, executor=processes, reduce=lambda sol: 1.0, **PLAIN)
+    with pytest.raises(TypeError, match=r"cannot travel to another process: .*lock"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, executor=processes, step=0.1, hold=threading.Lock())
+    monkeypatch.setattr(lowest, "__module__", "__main__")
+    monkeypatch.setattr(sys.modules["__main__"], "lowest", lowest, raising=False)
+    with pytest.raises(TypeError, match="lowest of __main__"):
+        transport.packed(lowest)
+    assert transport.unpacked(transport.packed(lowest, shares_main=True)) is lowest
+
+
+def test_functions_travel_by_value_with_cloudpickle(processes):
+    cloudpickle = pytest.importorskip("cloudpickle")
+    factor = 2.0
+    ens = zd.ensemble(pendulum, 1.0, executor=processes, reduce=lambda sol: factor * sol.t[-1], **PLAIN)
+    assert ens.values.tolist() == [2.0] * 12
+    assert transport.is_found(lowest)
+    module = sys.modules[lowest.__module__]
+    cloudpickle.register_pickle_by_value(module)
+    try:
+        assert not transport.is_found(lowest)
+        assert transport.unpacked(transport.packed(lowest)) is not lowest
+    finally:
+        cloudpickle.unregister_pickle_by_value(module)
+
+
+def test_what_a_worker_lacks_is_said(monkeypatch):
+    stamp = {"vector": "avx512", "fingerprint": executors._gateway.FINGERPRINT}
+    monkeypatch.setattr(executors._gateway, "PROCESSOR_UNIT", 1)
+    with pytest.raises(zd.WorkerLost, match=r'no avx512, .* vector="avx2" \| "baseline" .* baseline and avx2'):
+        executors.check_stamp(stamp)
+    with pytest.raises(zd.WorkerLost, match="another zerodrift"):
+        executors.check_stamp(stamp | {"fingerprint": "another"})
+    with pytest.raises(ImportError, match=r"No module named 'elsewhere'.*register_pickle_by_value"):
+        transport.unpacked(b"celsewhere\nthing\n.")
+
+
+class Elsewhere:
+    """An executor whose workers have another version, and something else besides."""
+
+    def submit(self, function, *arguments):
+        future = Future()
+        future.set_result(function(*arguments))
+        return future
+
+
+def test_a_worker_of_another_version_is_refused(monkeypatch):
+    checked = executors.check_stamp
+    monkeypatch.setattr(executors, "check_stamp", lambda stamp: checked(stamp | {"fingerprint": "another"}))
+    with pytest.raises(zd.WorkerLost, match=r"another zerodrift than .* \(on ") as caught:
+        zd.ensemble(pendulum, 1.0, executor=Elsewhere(), **PLAIN)
+    assert caught.value.solution.failed.all()
+    monkeypatch.undo()
+    with pytest.raises(TypeError, match="what is kept of a run cannot travel"):
+        zd.ensemble(pendulum, 1.0, executor=Elsewhere(), reduce=locks, **PLAIN)
+
+
+def test_workers_that_die_leave_what_was_done(tmp_path):
+    """And the same call goes on with it, by threads."""
+    arguments = PLAIN | {"store": tmp_path / "study", "reduce": dies, "chunk": 2}
+    with (ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor,
+          pytest.raises(zd.WorkerLost, match=r"did not return the runs 6 ... 7, nor 2 other portions: Broken") as caught):
+        zd.ensemble(pendulum, 1.0, executor=executor, **arguments)
+    assert "the same call goes on" in caught.value.__notes__[0]
+    assert (~caught.value.solution.failed).sum() == 6
+    with pytest.raises(zd.WorkerLost, match=r"did not return the runs 6 ... 7: .*__main__"):
+        zd.ensemble(pendulum, 1.0, executor=executor, **arguments)      # which is broken by now
+    os.environ["ZERODRIFT_SURVIVES"] = "1"
+    try:
+        assert not zd.ensemble(pendulum, 1.0, **arguments).failed.any()
+    finally:
+        del os.environ["ZERODRIFT_SURVIVES"]
+
+
+def test_ctrl_c_ends_processes_and_keeps_what_they_did(monkeypatch):
+    """The flag that tells them so is heard within a run."""
+    def look(part):
+        if part > 0:
+            raise KeyboardInterrupt
+
+    with pytest.raises(zd.Interrupted, match="of 400 runs are done") as caught:
+        zd.ensemble(pendulum, 1.0, executor="processes", threads=1, chunk=40, progress=look, reduce=waits,
+                    **PLAIN | {"parameters": {"gravity": np.linspace(5, 10, 400)}})
+    done = ~caught.value.solution.failed
+    assert 40 <= done.sum() < 400
+    assert done[:done.sum()].all()
+
+
+def test_a_thread_pool_is_an_executor_too():
+    with ThreadPoolExecutor(2) as executor:
+        assert same(zd.ensemble(pendulum, 1.0, executor=executor, reduce=lowest, **PLAIN),
+                    zd.ensemble(pendulum, 1.0, reduce=lowest, **PLAIN))
+
+
+@pytest.mark.parametrize("executor", [3, "threads", ProcessPoolExecutor])
+def test_what_is_no_executor(executor):
+    if isinstance(executor, type):
+        executor = executor.__new__(executor).__class__.__name__
+    with pytest.raises(TypeError, match=r"executor must be None, .* which has submit\(\)"):
+        zd.ensemble(pendulum, 1.0, executor=executor, **PLAIN)
+
+
+CLUSTER = """
+import os, signal, sys, threading
+import numpy as np
+import zerodrift as zd
+from dask.distributed import Client, LocalCluster
+from small_studies import pendulum, slow
+
+if __name__ == "__main__":
+    with (LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+          Client(cluster) as client):
+        victim = next(iter(cluster.workers.values())).pid
+        def look(part):
+            global victim
+            if part > 0.2 and victim:
+                os.kill(victim, signal.SIGKILL)
+                victim = None
+        ens = zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 60)}, step=0.01, reduce=slow,
+                          outputs=["link.angle"], executor=client.get_executor(), chunk=4, store=sys.argv[1], progress=look)
+        assert victim is None and not ens.failed.any(), ens
+"""
+
+
+def test_a_cluster_whose_worker_is_killed(tmp_path):
+    """Of processes on one machine: another takes its runs. What is in the store is what threads make, and is not made again."""
+    pytest.importorskip("distributed", reason="needs dask's cluster: pip install 'zerodrift[cluster]'")
+    counted, script = tmp_path / "counted", tmp_path / "script.py"
+    script.write_text(CLUSTER)
+    here = os.path.dirname(os.path.dirname(__file__))
+    paths = os.pathsep.join([here, *filter(None, sys.path)])
+    subprocess.run([sys.executable, script, tmp_path / "study"], check=True, timeout=100, capture_output=True,
+                   env=os.environ | {"ZERODRIFT_COUNTED": str(counted), "PYTHONPATH": paths})
+    found = zd.load(tmp_path / "study")
+    alone = zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 60)}, step=0.01, outputs=["link.angle"])
+    assert np.array_equal(found["link.angle"], alone["link.angle"])
+    lines = counted.read_text().splitlines()
+    assert 60 <= len(lines) <= 64       # the chunk that died was made again
+    assert len(set(lines)) == 60

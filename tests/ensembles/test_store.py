@@ -1,0 +1,255 @@
+"""Stores: what was finished stays, is not made again, and belongs to one study."""
+
+import itertools
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from small_studies import lowest, pendulum, slow, waits
+from support import ROOT
+from zerodrift.ensembles import store as module
+from zerodrift.ensembles.identity import Identity
+
+GRAVITIES = np.linspace(5.0, 10.0, 12)
+STUDY = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.angle"], "reduce": lowest}
+
+
+def same(one, other):
+    """Whether two ensembles are the same to the last bit."""
+    return (np.array_equal(one["link.angle"], other["link.angle"], equal_nan=True) and one.messages == other.messages
+            and np.array_equal(one.values, other.values, equal_nan=True) and np.array_equal(one.failed, other.failed))
+
+
+def test_a_finished_study_is_read_and_not_run(tmp_path, monkeypatch):
+    alone = zd.ensemble(pendulum, 1.0, **STUDY)
+    first = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
+    assert same(alone, first)
+    assert sorted(path.name for path in (tmp_path / "study").iterdir()) == [
+        "manifest.json", *(f"runs_{i:09}_{min(i + 5, 12):09}.npz" for i in (0, 5, 10)), "study.npz"]
+    monkeypatch.delattr("zerodrift.ensembles.plan.simulate")
+    seen = []
+    again = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=2, progress=seen.append, **STUDY)
+    assert same(alone, again)
+    assert seen[-1] == 1.0
+
+
+KILLED = """
+import os, signal, sys
+import numpy as np
+import zerodrift as zd
+from small_studies import pendulum, slow
+
+zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 100)}, step=0.01, reduce=slow, outputs=["link.angle"],
+            chunk=3, threads=2, store=sys.argv[1], progress=lambda part: part > 0.2 and os.kill(os.getpid(), signal.SIGKILL))
+"""
+
+
+def test_a_killed_study_goes_on(tmp_path, monkeypatch):
+    """With another number of runs in a chunk and of threads; nothing that was finished is made again."""
+    folder, counted = tmp_path / "study", tmp_path / "counted"
+    environment = os.environ | {"ZERODRIFT_COUNTED": str(counted), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    monkeypatch.setenv("ZERODRIFT_COUNTED", str(counted))
+    killed = subprocess.run([sys.executable, "-c", KILLED, folder], env=environment, timeout=60)
+    assert killed.returncode == -signal.SIGKILL
+    began, done = len(counted.read_text().splitlines()), int((~zd.load(folder).failed).sum())
+    assert 20 <= done <= began <= done + 6      # two chunks of three may have been under way
+    study = STUDY | {"parameters": {"gravity": np.linspace(5.0, 10.0, 100)}, "reduce": slow}
+    whole = zd.ensemble(pendulum, 1.0, store=folder, chunk=7, threads=3, **study)
+    assert len(counted.read_text().splitlines()) - began == 100 - done
+    assert same(whole, zd.ensemble(pendulum, 1.0, **study | {"reduce": lowest}))
+
+
+def test_an_interrupted_study_goes_on(tmp_path):
+    """Ctrl-C within a chunk: the runs of it that were done are kept, too."""
+    def stops(part):
+        if part > 0:
+            raise KeyboardInterrupt
+
+    study = STUDY | {"parameters": {"gravity": np.linspace(5.0, 10.0, 200)}, "reduce": waits, "chunk": 50}
+    with pytest.raises(zd.Interrupted) as caught:
+        zd.ensemble(pendulum, 1.0, store=tmp_path / "study", progress=stops, **study)
+    done = ~caught.value.solution.failed
+    loaded = zd.load(tmp_path / "study")
+    assert same(caught.value.solution, loaded)
+    assert 0 < done.sum() < 200
+    assert "was not started" in loaded.messages[-1]
+    assert same(zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **study),
+                zd.ensemble(pendulum, 1.0, **study | {"reduce": lowest}))
+
+
+def test_a_part_is_there_as_a_whole_or_not_at_all(tmp_path, monkeypatch):
+    """A full disk, and a file that another program has cut short."""
+    def full(source, target):
+        raise OSError("no space left")
+
+    study = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
+    (tmp_path / "study" / "runs_000000005_000000010.npz").unlink()
+    with monkeypatch.context() as patched:
+        patched.setattr(module.os, "replace", full)
+        with pytest.raises(OSError, match="no space left"):
+            zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
+    assert not [path for path in (tmp_path / "study").iterdir() if path.name.startswith(".")]
+    assert zd.load(tmp_path / "study").failed.sum() == 5
+    assert same(study, zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY))
+    path = tmp_path / "study" / "runs_000000000_000000005.npz"
+    path.write_bytes(path.read_bytes()[:100])
+    with pytest.raises(ValueError, match=r"runs_000000000_000000005.npz cannot be read"):
+        zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
+
+
+def test_two_processes_may_work_at_one_study(tmp_path):
+    """Each writes its own parts, and they overlap; all orders of these give one ensemble."""
+    alone = zd.ensemble(pendulum, 1.0, **STUDY)
+    for i, chunk in enumerate((5, 4, 3)):
+        zd.ensemble(pendulum, 1.0, store=tmp_path / str(i), chunk=chunk, **STUDY)
+    for path in itertools.chain((tmp_path / "1").glob("runs*"), (tmp_path / "2").glob("runs*")):
+        path.rename(tmp_path / "0" / path.name)
+    assert same(alone, zd.load(tmp_path / "0"))
+
+
+def made_by(factor, shift=1.0):
+    """Functions that differ by what they close over, by their defaults, or by their code."""
+    def reduce(sol, shift=shift):
+        return factor * sol.t[-1] + shift
+    return reduce
+
+
+def otherwise(factor, shift=1.0):
+    """The same, with another code."""
+    def reduce(sol, shift=shift):
+        return factor * sol.t[-1] - shift
+    reduce.__qualname__ = "made_by.<locals>.reduce"
+    return reduce
+
+
+BASE = {"parameters": {"gravity": GRAVITIES, "length": 1.0}, "step": 0.01, "outputs": ["link.angle"], "reduce": made_by(1.0)}
+
+
+@pytest.mark.parametrize(("changes", "said"), [
+    ({"reduce": made_by(2.0)}, r"functions\['.*made_by.<locals>.reduce'\]\['closure'\] was .* and is"),
+    ({"reduce": made_by(1.0, shift=2.0)}, r"\['defaults'\] was"),
+    ({"reduce": otherwise(1.0)}, r"\['code'\] was"),
+    ({"reduce": None}, "reduce was .* and is not there"),
+    ({"step": 0.02}, r"settings\['step'\] was 0.01 and is 0.02"),
+    ({"formulation": "augmented"}, r"settings\['formulation'\] was schur and is augmented"),
+    ({"outputs": ["link.angular_velocity"]}, r"outputs was \['link.angle'\] and is \['link.angular_velocity'\]"),
+    ({"parameters": {"gravity": GRAVITIES + (np.arange(12) > 6), "length": 1.0}},
+     r"parameters\['gravity'\] of 5 runs, first run 7, where it was .*8.1.* and is .*9.1"),
+    ({"parameters": {"gravity": GRAVITIES[:6], "length": 1.0}}, "runs was 12 and is 6"),
+    ({"parameters": {"gravity": GRAVITIES}}, r"parameters\['length'\] was there and is not there"),
+    ({"start": {"link.angle": 0.1}}, r"start\['link.angle'\] was not there and is there"),
+    ({"vector": "baseline"}, "vector was .* and is baseline"),
+    ({"t_span": 2.0}, r"t_span was \[0.0, 1.0\] and is \[0.0, 2.0\]"),
+    ({"assemble": False}, "assemble was True and is False"),
+    ({"events": [zd.Event("link.angle", value=-1.0)]}, r"settings\['events'\] was not there and is"),
+    ({"system": zd.models.four_bar(), "outputs": ["crank.angle"], "parameters": None},
+     "system was .* and is {'name': 'four_bar'"),
+])
+def test_a_store_of_another_study_is_refused(tmp_path, changes, said):
+    """Every difference is named, before anything runs and without a trace in the folder."""
+    if changes.get("vector") == "baseline" and zd.simulate(zd.systems.four_bar(), 0.1, step=0.1).settings["vector"] == "baseline":
+        changes, said = {"vector": "baseline", "step": 0.02}, "step"
+    call = {"system": pendulum, "t_span": 1.0} | BASE
+    zd.ensemble(**call, store=tmp_path / "study")
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "study").iterdir()}
+    with pytest.raises(ValueError, match=f"store .*study' belongs to another study: .*{said}"):
+        zd.ensemble(**call | changes, store=tmp_path / "study")
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "study").iterdir()} == before
+    zd.ensemble(**call, store=tmp_path / "study")
+
+
+def test_parameters_of_a_system_are_named(tmp_path):
+    study = {"v0": [[0.1], [0.2]], "step": 0.1, "store": tmp_path / "study"}
+    zd.ensemble(zd.systems.oscillator(), 1.0, **study)
+    with pytest.raises(ValueError, match=r"system\['parameters'\]\['mass'\] was 1.0 and is 2.0; "):
+        zd.ensemble(zd.systems.oscillator(mass=2.0), 1.0, **study)
+    with pytest.raises(ValueError, match=r"v0 of 1 runs, first run 1, where it was .*0.2.* and is .*0.3"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, **study | {"v0": [[0.1], [0.3]]})
+
+
+def test_the_vector_unit_of_the_beginning_stays(tmp_path, monkeypatch):
+    """Where it is left out; where the processor lacks it, that is said."""
+    study = {"step": 0.1, "store": tmp_path / "study"}
+    zd.ensemble(zd.systems.four_bar(), 0.3, vector="baseline", **study)
+    assert not zd.ensemble(zd.systems.four_bar(), 0.3, **study).failed.any()
+    path = tmp_path / "study" / "manifest.json"
+    path.write_text(path.read_text().replace('"baseline"', '"avx512"'))
+    monkeypatch.setattr(module._gateway, "PROCESSOR_UNIT", 0)
+    with pytest.raises(ValueError, match=r'begun with avx512, and .* has baseline: .*vector="avx2" \| "baseline"'):
+        zd.ensemble(zd.systems.four_bar(), 0.3, **study)
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    ({"format": 2}, "has format 2, and format 1 is known here"), ({"version": "another"}, "version was another and is"),
+    ({"what": "something"}, "is that of no store"), (None, "cannot be read")])
+def test_manifests_of_others(tmp_path, change, said):
+    study = {"step": 0.1, "store": tmp_path / "study"}
+    zd.ensemble(zd.systems.oscillator(), 1.0, **study)
+    path = tmp_path / "study" / "manifest.json"
+    path.write_text("{" if change is None else json.dumps(json.loads(path.read_text()) | change))
+    with pytest.raises(ValueError, match=said):
+        zd.ensemble(zd.systems.oscillator(), 1.0, **study)
+
+
+def test_what_a_store_refuses(tmp_path):
+    (tmp_path / "other").write_text("something else")
+    with pytest.raises(ValueError, match="must be a new or an empty folder"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, step=0.1, store=tmp_path)
+    with pytest.raises(TypeError, match="store must be the path of a folder"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, step=0.1, store=3)
+    with pytest.raises(ValueError, match="keep=\"solutions\" is for memory"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, step=0.1, store=tmp_path / "new", keep="solutions")
+    with pytest.raises(TypeError, match=r"reduce must return what a file keeps: .*<object"):
+        zd.ensemble(zd.systems.oscillator(), 1.0, step=0.1, store=tmp_path / "new", reduce=lambda sol: object())
+    with pytest.raises(ValueError, match="is a folder, and no store"):
+        zd.load(tmp_path)
+
+
+IDENTITIES = """
+import numpy as np
+import zerodrift as zd
+from small_studies import pendulum
+from zerodrift.ensembles.identity import Identity
+
+def decorated(p, L):
+    return np.array([(p @ p - L**2) / 2]) if {"a", "b", "c"} else None
+
+system = zd.System(["x", "y"], mass=lambda m: m * np.eye(2), constraints=decorated, parameters={"m": 1.0, "L": 1.0}, p0=[1, 0])
+loaded = pendulum()
+loaded.torque("load", "link", value=lambda angle: -angle, of={"angle": "link.angle"})
+for each in (zd.systems.four_bar(), system, zd.models.slider_crank().system(), loaded.system(),
+             np.sin, decorated, pendulum().system().evaluate):
+    before = Identity().of(each)
+    if hasattr(each, "evaluate"):
+        zd.simulate(each, 0.05, step=0.01)
+    print(before, Identity().of(each) == before)
+"""
+
+
+def test_identities_do_not_depend_on_the_process():
+    """Nor on what a system has found out meanwhile; strings hash otherwise in each process."""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), *filter(None, sys.path)])}
+    printed = [subprocess.run([sys.executable, "-c", IDENTITIES], env=environment | {"PYTHONHASHSEED": seed}, check=True,
+                              text=True, capture_output=True).stdout for seed in "12"]
+    assert printed[0] == printed[1]
+    assert printed[0].count("True") == len(set(printed[0].splitlines())) == 7
+
+
+def test_identities_of_what_refers_to_itself():
+    one, other = [1.0], [1.0]
+    one.append(one)
+    other.append(other)
+    assert Identity().of(one) == Identity().of(other) != Identity().of([1.0, [1.0]])
+
+    def recursive(n):
+        return later(n) if n else recursive(n - 1)
+
+    before = Identity().of(recursive)       # one of its names has no value yet
+    later = abs
+    assert Identity().of(recursive) != before
