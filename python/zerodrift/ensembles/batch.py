@@ -26,6 +26,7 @@ class Batch(NamedTuple):
     columns: dict[str, tuple[str, int]]     # where each output is: in "p", "v" or "multipliers"
     vector: str | None                      # the unit of direct functions; None: none are taken
     assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
+    times: np.ndarray | None                # t_eval, whose memory the options refer to
 
     @property
     def runs_at_once(self) -> int:
@@ -53,7 +54,7 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     return Batch(system, found.options, found.rows, columns,
                  found.chosen["vector"] if _gateway.takes_direct(found.options) else None,
-                 assembly(system, runs.hold) if runs.assembles(system) else None)
+                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen.get("t_eval"))
 
 
 def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str, int]] | None:
