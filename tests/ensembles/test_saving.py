@@ -1,5 +1,7 @@
 """Ensembles that are saved and loaded, and what becomes of them in xarray and pandas."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -60,3 +62,64 @@ def test_what_reduce_returns_comes_back_as_it_was(value):
 def test_what_a_file_does_not_keep(value):
     with pytest.raises(TypeError, match="reduce must return what a file keeps"):
         saving.value_as_json(value)
+
+
+def studies():
+    """One over a grid with times of its own choice, and one whose runs end by an event."""
+    grid = zd.grid({"crank.mass": [1.0, 2.0], "rocker.mass": [1.0, 2.0, 3.0]})
+    falls = zd.Event("link.angle", value=-0.5, terminal=True)
+    return (zd.ensemble(zd.models.four_bar(), 0.5, parameters=grid, step=0.01, t_eval=[0.0, 0.25, 0.5],
+                        outputs=["crank.angle", "C.force"]),
+            zd.ensemble(pendulum, 1.0, parameters={"length": [1.0, 0.0, 2.0]}, events=[falls], step=0.01, reduce=lowest,
+                        outputs=["link.angle"]))
+
+
+def test_xarray_has_all_of_it():
+    pytest.importorskip("xarray")
+    gridded, ragged = studies()
+    data = gridded.to_xarray()
+    assert dict(data.sizes) == {"crank.mass": 2, "rocker.mass": 3, "t": 3, "component": 2}
+    chosen = data["C.force"].sel({"crank.mass": 2.0, "rocker.mass": 3.0, "t": 0.25, "component": "y"})
+    assert float(chosen) == gridded["C.force.y"][5, 1]
+    assert [data[name].attrs["units"] for name in ("C.force", "crank.angle", "t")] == ["N", "rad", "s"]
+    data = ragged.to_xarray()
+    assert dict(data.sizes) == {"run": 3, "row": len(ragged[2].t)}
+    assert np.array_equal(data["link.angle"][2], ragged["link.angle"][2])
+    assert np.array_equal(data["t"][0, :len(ragged[0].t)], ragged[0].t)
+    assert np.isnan(data["link.angle"][1]).all()
+    assert data["failed"].values.tolist() == [False, True, False]
+    assert float(data["value"][2]) == ragged.values[2]
+    assert data["length"].values.tolist() == [1.0, 0.0, 2.0]
+    assert str(data["message"].values[1]).startswith("ValueError")
+
+
+def test_pandas_has_all_of_it():
+    pytest.importorskip("pandas")
+    gridded, ragged = studies()
+    table = gridded.to_pandas()
+    assert list(table) == ["crank.mass", "rocker.mass", "crank.angle", "C.force.x", "C.force.y"]
+    assert table["C.force.y"][5, 0.25] == gridded["C.force.y"][5, 1]
+    assert ragged.to_pandas().groupby(level="run").size().to_dict() == {0: len(ragged[0].t), 2: len(ragged[2].t)}
+    for reduce, column in ((lowest, "value"), (lambda sol: np.ones(2), "value.1"), (lambda sol: "text", "value")):
+        table = zd.ensemble(pendulum, 0.1, parameters={"length": [1.0, 0.0]}, step=0.01, reduce=reduce).to_pandas()
+        assert {"length", column, "failed", "message"} <= set(table)
+        assert table["failed"].tolist() == [False, True]
+
+
+@pytest.mark.parametrize("name", ["xarray", "pandas"])
+def test_what_is_not_installed_is_named(monkeypatch, name):
+    monkeypatch.setitem(sys.modules, name, None)
+    ens = zd.ensemble(zd.systems.oscillator(), 0.5, step=0.1)
+    with pytest.raises(ImportError, match=rf"to_{name} needs {name}, .* pip install 'zerodrift\[ensembles\]'"):
+        getattr(ens, f"to_{name}")()
+
+
+def test_components_of_vectors():
+    gridded, _ = studies()
+    assert np.array_equal(gridded["C.force.x"], gridded["C.force"][..., 0])
+    for name in ("C.force.z", "crank.angle.x", "B.force.x"):
+        with pytest.raises(KeyError, match="no output is called"):
+            _ = gridded[name]
+    ens = zd.ensemble(pendulum, 1.0, parameters={"length": [1.0, 2.0]}, outputs=["link.end.position"],
+                      integrator="dop853")
+    assert [each.tolist() for each in ens["link.end.position.y"]] == [each[:, 1].tolist() for each in ens["link.end.position"]]

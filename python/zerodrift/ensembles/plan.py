@@ -41,6 +41,8 @@ class Plan:
     reduce : callable or None
     keeps : bool
         Whether solutions are.
+    units : dict of str to str
+        Of outputs and parameters, as far as they are known.
     is_tabular : bool
         Whether the numbers of all runs stand in tables that the core reads; the same for parts of them.
     remembered : dict
@@ -53,6 +55,7 @@ class Plan:
     names: tuple[str, ...]
     reduce: Callable[[Solution], Any] | None = None
     keeps: bool = False
+    units: dict[str, str] = field(default_factory=dict)
     is_tabular: bool = False
     remembered: dict[str, Any] = field(default_factory=dict, repr=False)
 
@@ -97,7 +100,8 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     if options.get("t_eval") is not None:
         options["t_eval"] = np.array(options["t_eval"], dtype=float)
     is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made)
-    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, is_tabular)
+    units = {} if system is None else _units(system, names or [])
+    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular)
 
 
 def _names(outputs: Any) -> list[str] | None:
@@ -149,6 +153,13 @@ def _check_names(system: BaseSystem, names: list[str]) -> None:
         if name not in known and system._watching.find(name) is None:
             raise ValueError(f"no output is called {name!r} in {system.name}; "
                              f"{_check.closest(name, [*system._names_of_measures(), *known])}")
+
+
+def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:
+    """Of these outputs, and of the parameters that say theirs."""
+    variables = {variable.name: variable.unit
+                 for group in (system.coordinates, system.velocities, system.constraints) for variable in group}
+    return system._parameter_units() | {name: variables.get(name, system._watching.unit(name) or "") for name in names}
 
 
 def _check_starts(runs: Runs, system: BaseSystem, t0: float) -> None:

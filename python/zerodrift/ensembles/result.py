@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from . import saving
+from ..systems.watching import AXES
+from . import exporting, saving
 from .part import NOT_STARTED, ROADS, Part
 from .plan import Plan
 
@@ -34,12 +35,15 @@ class Ensemble:
         What `reduce` returned of each; NaN, or None in a list, where it failed.
     t_events : list of tuple of ndarray
         Of each run; None where no events were asked for, or nothing came of it.
+    units : dict of str to str
+        Of outputs and parameters, as far as they are known.
     seconds : float
         How long all of them took together.
     """
 
     def __init__(self, plan: Plan, part: Part, seconds: float, where: str) -> None:
         self.parameters, self.shape, self.seconds, self._where = plan.runs.parameters, plan.runs.shape, seconds, where
+        self.units = plan.units
         self._plan, self._names, self._part = plan, plan.names, part
         self.failed = part.failed
         self.messages, self.doubtful = tuple(part.messages), part.doubtful
@@ -58,8 +62,8 @@ class Ensemble:
         Parameters
         ----------
         key : str, measure or int
-            An output by its name; or the number of a run, which is made again by itself, with the same bits, unless solutions
-            were kept.
+            An output by its name, or a component of one, ``"C.force.x"``; or the number of a run, which is made again by
+            itself, with the same bits, unless solutions were kept.
 
         Returns
         -------
@@ -77,6 +81,8 @@ class Ensemble:
         """
         name = getattr(key, "name", key)
         if isinstance(name, str):
+            if (component := self._component(name)) is not None:
+                return component
             if name not in self._names:
                 raise KeyError(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}")
             return self._stacked(name)
@@ -86,6 +92,17 @@ class Ensemble:
             raise IndexError(f"there are {len(self)} runs, and none of number {key}")
         run = int(key) % len(self)
         return self._part.solutions[run] or self._plan.solution(run)
+
+    def _component(self, name: str) -> Any:
+        """A component of an output that is a vector; None: it is something else."""
+        base, _, axis = name.rpartition(".")
+        if name in self._names or base not in self._names or axis not in AXES:
+            return None
+        vectors = self._stacked(base)
+        first = vectors[0]
+        if first.ndim != 2 or AXES[axis] >= first.shape[1]:
+            return None
+        return [each[:, AXES[axis]] for each in vectors] if self.t is None else vectors[..., AXES[axis]]
 
     def _stacked(self, name: str) -> Any:
         rows, found = self._part.rows, self._part.arrays.get(name, np.zeros(0))
@@ -131,6 +148,46 @@ class Ensemble:
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
         saving.write(path, self._plan, self._part)
         return path
+
+    def to_xarray(self) -> Any:
+        """Everything as an xarray.Dataset, with its units.
+
+        Outputs have the dimensions ``run`` and ``t``, of a grid those of its parameters instead of ``run``, and vectors
+        ``component``. Where runs have times of their own, ``row`` stands for ``t``, and ``t`` is among the variables.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed: ``pip install 'zerodrift[ensembles]'``.
+
+        Examples
+        --------
+        With xarray, as that may be missing here::
+
+            ens = zd.ensemble(zd.systems.oscillator(), 1.0, parameters=zd.grid(mass=[1.0, 2.0], stiffness=[3.0, 4.0]), step=0.1)
+            ens.to_xarray()["x"].sel(mass=2.0, stiffness=3.0).plot()
+        """
+        return exporting.to_xarray(self, self.units, self._part)
+
+    def to_pandas(self) -> Any:
+        """Everything as a pandas.DataFrame: one line for each row of each run, with the index ``(run, t)``.
+
+        Columns are the parameters, then the outputs, vectors by their components. Where only `reduce` was asked for, there is
+        one line for each run, with the index ``run``, and columns are the parameters, ``value``, ``failed`` and ``message``.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed: ``pip install 'zerodrift[ensembles]'``.
+
+        Examples
+        --------
+        With pandas, as that may be missing here::
+
+            ens = zd.ensemble(zd.systems.oscillator(), 1.0, parameters={"mass": [1.0, 2.0]}, step=0.1)
+            ens.to_pandas().groupby("mass")["x"].max()
+        """
+        return exporting.to_pandas(self, self._part)
 
     def __iter__(self) -> Any:
         raise TypeError("an ensemble is not gone through, as that would make all runs again: take ens['name'], or ens[i]")

@@ -111,7 +111,8 @@ def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
     starts = {name: array for name, (array, _) in runs.start_values.items()}
     groups = {"parameters": runs.parameters, "start": starts, "states": runs.states}
     description = {
-        "kind": WHAT, "t_span": list(_check.span(plan.t_span)), "names": plan.names, "shape": runs.shape, "count": runs.count,
+        "kind": WHAT, "t_span": list(_check.span(plan.t_span)), "names": plan.names, "units": plan.units, "shape": runs.shape,
+        "count": runs.count,
         "settings": {name: saving.to_json(value.item() if isinstance(value, np.generic) else value)
                      for name, value in plan.options.items() if name != "events"},
         "assembles": runs.may_assemble, "hold": names_of(runs.hold),
@@ -144,6 +145,7 @@ class Kept(NamedTuple):
     t_span: Any
     options: dict[str, Any]
     names: tuple[str, ...]
+    units: dict[str, str]
     why_not: str | None     # why runs cannot be made again
 
     @property
@@ -174,7 +176,7 @@ def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, An
                              in zip(table["start"].items(), described["varies"], strict=True)},
                       shape=tuple(described["shape"]), hold=described["hold"], may_assemble=described["assembles"])
     settings = {name: saving.from_json(value) for name, value in described["settings"].items()}
-    return Kept(runs, tuple(described["t_span"]), settings, tuple(described["names"]), reason)
+    return Kept(runs, tuple(described["t_span"]), settings, tuple(described["names"]), described["units"], reason)
 
 
 # ---- files ----

@@ -329,20 +329,10 @@ def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scal
     ax.set_yscale("log" if (y > 0).all() else "linear")
     ax.set_facecolor("#E8E8E8")
     drawn = np.ma.masked_invalid(np.maximum(values, scale.vmin))
-    cells = ax.pcolormesh(_edges(x), _edges(y), drawn, norm=scale, cmap="viridis_r")
+    cells = ax.pcolormesh(_style.edges(x, log=True), _style.edges(y, log=True), drawn, norm=scale, cmap="viridis_r")
     row, column = np.nonzero(np.isnan(values))
     ax.plot(x[column], y[row], "x", color="#B22222", markersize=3, markeredgewidth=0.8)
     return cells
-
-
-def _edges(centres: np.ndarray) -> np.ndarray:
-    """The edges of cells halfway between their centres, geometrically where all centres are positive."""
-    forward, inverse = (np.log, np.exp) if (centres > 0).all() else (np.asarray, np.asarray)
-    if len(centres) == 1:
-        return inverse(forward(centres)[0] + np.array([-0.1, 0.1]))
-    middle = forward(centres)[:-1] + np.diff(forward(centres)) / 2
-    first, last = forward(centres)[[0, -1]] * 2 - middle[[0, -1]]
-    return inverse(np.concatenate([[first], middle, [last]]))
 
 
 def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:

@@ -92,3 +92,13 @@ def labelled(variable: Variable) -> str:
 
 def with_unit(symbol: str, variables: Sequence[Variable]) -> str:
     return f"{symbol} [{', '.join(units(variables))}]"
+
+
+def edges(centres: np.ndarray, *, log: bool) -> np.ndarray:
+    """The edges of cells halfway between their centres, geometrically on a logarithmic axis where all centres are positive."""
+    forward, inverse = (np.log, np.exp) if log and (centres > 0).all() else (np.asarray, np.asarray)
+    if len(centres) == 1:
+        return inverse(forward(centres)[0] + np.array([-0.1, 0.1]))
+    middle = forward(centres)[:-1] + np.diff(forward(centres)) / 2
+    first, last = forward(centres)[[0, -1]] * 2 - middle[[0, -1]]
+    return inverse(np.concatenate([[first], middle, [last]]))

@@ -49,6 +49,11 @@ class Watching:
             return Place(self.number[base], component)
         return None
 
+    def unit(self, name: str) -> str | None:
+        """The unit of a measure, or of a component of one; None: there is none of that name."""
+        found = self.find(name)
+        return None if found is None else self._measures[found.number].unit
+
     def __reduce__(self) -> tuple[Any, ...]:
         return Watching, (self.core,)       # what is known of solutions is found again
 
