@@ -35,8 +35,8 @@ def fingerprint() -> str:
 
 def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
-    names = ("include/zerodrift/system.h", "joints/joint.h", "mechanisms/link.h", "mechanisms/mechanism.h", "zerodrift.h",
-             "python/interface.h")
+    names = ("include/zerodrift/system.h", "joints/joint.h", "mechanisms/link.h", "mechanisms/mechanism.h",
+             "space_joints/joint.h", "space/tables.h", "zerodrift.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text() for name in names)
     return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')

@@ -9,6 +9,7 @@
 #include <stddef.h>
 
 #include "../mechanisms/mechanism.h"
+#include "../space/tables.h"
 #include "../zerodrift.h"
 
 #define ZD_WRITTEN_IN_PYTHON static

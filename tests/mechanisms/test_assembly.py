@@ -56,7 +56,7 @@ def test_the_closed_position_is_that_nearest_to_the_drawing():
     system = linkage().system("absolute")
     start = system._start
     assembly, p = start.assembled(0.0)
-    drawn = start.drawn(start._tables({})).ravel()
+    drawn = start._tables({}).drawn().ravel()
     M, free = assembly.free_motions(p)
     downhill = free.T @ M @ ((p - drawn) / assembly.scale)
     assert np.abs(downhill).max() < 1e-2 * np.linalg.norm(M @ ((p - drawn) / assembly.scale))

@@ -80,11 +80,6 @@ def test_numbers_are_checked_where_they_are_given(m, add, error):
         add(m)
 
 
-def test_a_mechanism_is_in_the_plane():
-    with pytest.raises(ValueError, match=r"dimension must be 2, not 3: mechanisms are in the plane, not yet in space"):
-        zd.Mechanism("m", dimension=3)
-
-
 @pytest.mark.parametrize("name", ["a.b", "t", "p", "two words"])
 def test_parameters_have_names_that_callables_can_take(name):
     with pytest.raises(ValueError, match=r"parameters"):

@@ -195,6 +195,12 @@ def element_kinds() -> dict[str, ElementKind]:
     return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_element_kinds()))}
 
 
+def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
+    """What each row of C is, of a `zd_row_owner *`."""
+    return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
+                 for i in range(m))
+
+
 class MechanismCore(CoreSystem):
     """The core's system of a mechanism.
 
@@ -229,9 +235,7 @@ class MechanismCore(CoreSystem):
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
         """What each row of C is, holonomic ones first."""
-        rows = lib.zd_mechanism_rows(self._mechanism)
-        return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
-                     for i in range(self.m))
+        return rows_of(lib.zd_mechanism_rows(self._mechanism), self.m)
 
     @functools.cached_property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -239,11 +243,29 @@ class MechanismCore(CoreSystem):
         coordinates = lib.zd_mechanism_coordinates(self._mechanism)
         return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
 
+    @property
+    def motions(self) -> tuple[Coordinate, ...]:
+        """What each entry of v is the rate of."""
+        return self.coordinates
+
+    @property
+    def origin(self) -> np.ndarray:
+        """Positions (nq,) that are some, wherever they are."""
+        return np.zeros(self.nq)
+
+    def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions (nq,) after a step (nv,)."""
+        return p + step
+
+    def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """The step (nv,) that leads to p from other positions."""
+        return p - other
+
     def for_run(self) -> MechanismCore:
         """The same system; with laws, one that keeps what they raise for itself."""
         if self._law is None:
             return self
-        owner = LawOwner(self._law, _law_sizes(self.tables))
+        owner = LawOwner(self._law, law_sizes(self.tables))
         mine = self._with_data(ffi.new_handle(owner), self._numbers)
         mine._owner = owner
         return mine
@@ -294,7 +316,7 @@ class MechanismCore(CoreSystem):
         return p, v
 
 
-def _law_sizes(tables: Tables) -> dict[int, tuple[int, int]]:
+def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
     """How many gauges each law is handed, and how many numbers it gives."""
     sizes = {effort.law: (len(effort.inputs), 1) for effort in tables.efforts if effort.law >= 0}
     return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
@@ -302,6 +324,13 @@ def _law_sizes(tables: Tables) -> dict[int, tuple[int, int]]:
 
 def _write(tables: Tables) -> dict[str, Any]:
     """All tables but that of the bodies as arrays of C, by their names in `zd_tables`."""
+    return {
+        **written_rows(tables), "joint": ffi.new("zd_joint[]", list(tables.joints)),
+        "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])}
+
+
+def written_rows(tables: Any) -> dict[str, Any]:
+    """Relations, efforts and measures as arrays of C, and the words of these."""
     terms: list[tuple[int, float]] = []
     relations, efforts = [], []
     for row in tables.relations:
@@ -316,9 +345,7 @@ def _write(tables: Tables) -> dict[str, Any]:
     measures = [(name, units[row.unit], QUANTITIES[row.quantity], *row[3:])
                 for name, row in zip(names, tables.measures, strict=True)]
     return {
-        "words": (names, units), "joint": ffi.new("zd_joint[]", list(tables.joints)),
-        "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),
-        "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
+        "words": (names, units), "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
         "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_observed[]", measures)}
 
 

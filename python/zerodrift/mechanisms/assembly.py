@@ -53,17 +53,25 @@ class Assembly:
         self.core, self.rows, self.length, self.t = core, rows, length, t
         self.kept = sorted(set(range(core.mh)) - set(left_out))
         self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
-        angles = np.array([coordinate.kind == "angle" for coordinate in core.coordinates])
+        angles = np.array([coordinate.kind == "angle" for coordinate in core.motions])
         self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are told in rad and parts of the length
         self._size: dict[int, np.ndarray] = {}
         self._weigh()
 
     def _weigh(self) -> None:
         """The square root of the mass metric in scaled coordinates; what has no mass gets a millionth of the largest."""
-        M = self.core.evaluate_stored(self.t, np.zeros(self.core.nq), np.zeros(self.core.nv))["M"]
+        M = self.core.evaluate_stored(self.t, self.core.origin, np.zeros(self.core.nv))["M"]
         mass = (np.diag(M) if self.core.packing is None else M) * self.scale**2     # of free bodies the diagonal is stored
         largest = mass.max(initial=0.0) or 1.0
         self.weight = np.sqrt(np.maximum(mass, 1e-6 * largest))
+
+    def _moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions after a step in scaled coordinates."""
+        return self.core.moved(p, step * self.scale)
+
+    def _apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """The step in scaled coordinates that leads to p from other positions."""
+        return self.core.apart(p, other) / self.scale
 
     def _evaluate(self, p: np.ndarray) -> dict[str, np.ndarray]:
         """All terms at rest, where there are rows."""
@@ -135,7 +143,7 @@ class Assembly:
         if not free.shape[1]:
             return p
         direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
-        return self._nearby(p + NUDGE * direction / np.abs(direction).max() * self.scale, left_out)
+        return self._nearby(self._moved(p, NUDGE * direction / np.abs(direction).max()), left_out)
 
     def _nearby(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
         """The positions nearest to these in which all rows are met but those left out; these, where there are none."""
@@ -185,16 +193,16 @@ class Assembly:
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
         """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
-        distance = np.linalg.norm((p - drawn) / self.scale * self.weight)
+        distance = np.linalg.norm(self._apart(p, drawn) * self.weight)
         for _ in range(NEARER):
             residual, rows = self._residual(p, held)
-            step = (drawn - p) / self.scale
+            step = self._apart(drawn, p)
             step = step - self._least_step(rows, rows @ step + residual)
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
-            tried = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
+            tried = self._newton(self._moved(p, step), lambda p: self._residual(p, held))
             if tried is None:
                 break
-            nearer = np.linalg.norm((tried - drawn) / self.scale * self.weight)
+            nearer = np.linalg.norm(self._apart(tried, drawn) * self.weight)
             if not nearer < distance * (1 - 1e-6):
                 break
             p, distance = tried, nearer
@@ -220,7 +228,7 @@ class Assembly:
             step = -self._least_step(rows, residual)
             if np.abs(step).max(initial=0.0) > LONGEST:
                 step *= LONGEST / np.abs(step).max()
-            tried = p + step * self.scale
+            tried = self._moved(p, step)
             tried_residual, tried_rows = system(tried)
             error = np.abs(tried_residual).max(initial=0.0)
             if not error < best:
@@ -243,7 +251,7 @@ class Assembly:
             while damping < 1e12:
                 step = -vt.T @ ((u.T @ residual) * s / (s**2 + damping * s.max(initial=1.0)**2))
                 step *= min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
-                tried = p + step * self.scale
+                tried = self._moved(p, step)
                 tried_residual, tried_rows = system(tried)
                 if (tried_size := float(tried_residual @ tried_residual)) < size:
                     break
@@ -280,7 +288,7 @@ class Assembly:
 
         before = error(p)
         for _ in range(20):
-            moved = self._newton(p + step * self.scale, lambda p: self._residual(p, held))
+            moved = self._newton(self._moved(p, step), lambda p: self._residual(p, held))
             if moved is not None and error(moved) < before * (1 - 1e-9):
                 return moved
             step = step / 2

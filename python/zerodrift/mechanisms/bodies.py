@@ -40,6 +40,11 @@ class Point:
     acceleration = vector("acceleration", "Its acceleration, in the drawing's axes, in m/s^2.")
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.body.dimension
+
+    @property
     def measured_name(self) -> str:
         """What its measures are called by."""
         if self.name is None:
@@ -66,8 +71,7 @@ class Point:
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path, of a point that has a name."""
-        place = self.local_with(now)
-        return {"local.x": float(place[0]), "local.y": float(place[1])}
+        return {f"local.{axis}": float(value) for axis, value in zip("xyz", self.local_with(now), strict=False)}
 
     def __repr__(self) -> str:
         return f"<point {self.name or tuple(map(float, self.local))} of {self.body.name}>"
@@ -100,6 +104,11 @@ class Body:
     angular_acceleration = scalar("angular_acceleration", "Its angular acceleration in rad/s^2.")
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return len(self.pose.origin)
+
+    @property
     def measured_name(self) -> str:
         """What its measures are called by."""
         return self.name
@@ -114,9 +123,9 @@ class Body:
 
         Parameters
         ----------
-        local : array_like (2,)
+        local : array_like (2,), in space (3,)
             Its coordinates in the body's frame, in m.
-        at : array_like (2,) or Point
+        at : array_like (2,) or (3,), or Point
             Instead: where it is in the drawing.
         name : str, optional
             For its measures, ``"name.position"`` and ``"name.velocity"``.
@@ -132,7 +141,8 @@ class Body:
         """
         if (local is None) == (at is None):
             raise TypeError(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
-        local = _check.vector("local", local, 2) if at is None else self.pose.local(place("at", at))
+        size = self.dimension
+        local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self.register(Point(self, local, name))
 
     def properties(self, numbers: Numbers) -> MassProperties:
@@ -259,9 +269,9 @@ class Particle(Body):
         return Point(self, np.zeros(2), self.name)
 
 
-def place(argument: str, value: Any) -> np.ndarray:
-    """A place in the drawing, (2,): coordinates, or where a point is drawn."""
-    return value.drawn if isinstance(value, Point) else _check.vector(argument, value, 2)
+def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
+    """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+    return value.drawn if isinstance(value, Point) else _check.vector(argument, value, dimension)
 
 
 def _as_it_is(point: Point) -> Point:

@@ -12,7 +12,7 @@ from .forces import Actuator, Motor
 from .numbers import AS_GIVEN
 from .starting import Starting
 from .system import row_names
-from .tables import Tables
+from .tabulated import tables_of
 
 DEPENDENT = 1e-9        # of a row's own size: what is left of a row that follows from others
 
@@ -53,7 +53,7 @@ class Count(NamedTuple):
 def count(drawing: Drawing) -> Count:
     """The count of a mechanism at its assembled start."""
     start = Starting(drawing, AS_GIVEN)
-    tables = Tables(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
+    tables = tables_of(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
     assembly, p = start.assembled(0.0)
     rows = assembly.scaled_rows(p)
     names = [variable.name for variable in row_names(tables, assembly.core)]

@@ -23,6 +23,8 @@ VERSION = 1             # of the format
 
 def described(drawing: Drawing) -> dict[str, Any]:
     """Everything of a mechanism; ValueError where a callable is in it, which it names."""
+    if drawing.dimension == 3:
+        raise ValueError(f"{drawing.name!r} is in space, and a mechanism in space cannot be saved yet")
     elements = [{"kind": _kind(element), "name": element.name, **WRITTEN[_kind(element)](element, drawing)}
                 for element in drawing.elements.values() if element is not drawing.ground]
     return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": 2, "gravity": _pair(drawing.gravity),

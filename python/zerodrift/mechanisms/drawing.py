@@ -20,6 +20,11 @@ class Drawing(NamedTuple):
     held: dict[str, Any]
     wished: dict[str, Any]
 
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return len(self.gravity)
+
     def of(self, kind: type | tuple[type, ...]) -> list[Any]:
         """The elements of a kind, in the order in which they were added."""
         return [element for element in self.elements.values() if isinstance(element, kind)]
@@ -40,7 +45,8 @@ class Drawing(NamedTuple):
 
     def numbers(self, now: Numbers) -> dict[str, float]:
         """Every number that has a path, and the user's own parameters."""
-        listed = {"gravity.x": float(self.gravity[0]), "gravity.y": float(self.gravity[1]), **self.parameters}
+        gravity = {f"gravity.{axis}": float(value) for axis, value in zip("xyz", self.gravity, strict=False)}
+        listed = {**gravity, **self.parameters}
         for element in self.elements.values():
             if hasattr(element, "numbers"):
                 listed |= {f"{element.name}.{quantity}": value for quantity, value in element.numbers(now).items()}
@@ -59,6 +65,11 @@ class Inertias:
                 carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
         for body in drawing.parts():
             self.of[body.name] = _together(*body.properties(numbers), carried.get(body.name, []))
+
+    def is_massive(self, body: Body) -> bool:
+        """Whether no motion of a body is without mass."""
+        mass, inertia, _ = self.of[body.name]
+        return mass > 0 and (inertia > 0 or not body.turns)
 
     def local(self, point: Point, numbers: Numbers) -> tuple[float, float]:
         """A point from its body's mass centre, in the body's axes; on the ground from its origin."""

@@ -14,15 +14,17 @@ from .forces import Motor
 from .joints import Joint
 from .laws import Law
 from .readings import reading
+from .space_bodies import SpaceGround
 
 
 class Elements:
     """What a mechanism consists of; the verbs of `Mechanism` add to it."""
 
     name: str
+    dimension: int
 
     def __init__(self, parameters: Any) -> None:
-        self.ground = Ground()
+        self.ground = SpaceGround() if self.dimension == 3 else Ground()
         self.ground.register = self._register_point
         self.parameters = {key: _check.number(f"parameter {key!r}", value)
                            for key, value in _check.parameters(parameters).items() if _is_identifier(key)}
@@ -43,6 +45,11 @@ class Elements:
         if point.name is not None:
             self._elements[self._new_name(point.name, "point")] = point
         return point
+
+    def _in_the_plane(self, what: str) -> None:
+        """Refuses what there is in the plane alone."""
+        if self.dimension == 3:
+            raise ValueError(f"{what} is there for mechanisms in the plane, not yet in space")
 
     # ---- reading arguments ----
 
@@ -83,7 +90,7 @@ class Elements:
 
     def _particle_point(self, argument: str, particle: Particle) -> Point:
         self._body(argument, particle)
-        return Point(particle, np.zeros(2)) if particle.carrier is None else particle.carrier
+        return Point(particle, np.zeros(self.dimension)) if particle.carrier is None else particle.carrier
 
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
         """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
@@ -91,7 +98,7 @@ class Elements:
         _check.instance(argument, value, Joint, "a joint")
         if self._elements.get(value.name) is not value:
             raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism")
-        if value.coordinate not in coordinate:
+        if not set(value.coordinates) & set(coordinate):
             raise ValueError(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}")
         particle = next((body for body in value.bodies if not body.turns), None)
         if value.coordinate == "angle" and particle is not None:
@@ -122,8 +129,8 @@ class Elements:
         return first, self._body("second", second).point(at=first.drawn) if is_body[1] else self._point("second", second)
 
     def _drawn(self, argument: str, value: Any) -> np.ndarray:
-        """A place in the drawing, (2,): coordinates, or where a point is drawn."""
-        return place(argument, self._named(argument, value))
+        """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+        return place(argument, self._named(argument, value), self.dimension)
 
     def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
         if first.body is second.body:
@@ -137,9 +144,9 @@ class Elements:
                 raise ValueError(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none")
 
     def _direction(self, argument: str, value: Any) -> np.ndarray:
-        """A direction in the drawing, (2,) of length one."""
-        vector = _check.vector(argument, value, 2)
-        length = np.hypot(*vector)
+        """A direction in the drawing, (dimension,) of length one."""
+        vector = _check.vector(argument, value, self.dimension)
+        length = np.hypot(*vector) if self.dimension == 2 else np.linalg.norm(vector)
         if not length > 0:
             raise ValueError(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
         return vector / length

@@ -56,6 +56,7 @@ def taken(force: type[MadeForce]) -> dict[str, Any]:
 
 def _add(m: Elements, force: type[MadeForce], name: Any, *, first: Any, second: Any, at: Any, axis: Any = None,
          stiffness: Any = None, damping: Any = 0.0, length: Any = None, value: Any = None, of: Any = None) -> MadeForce:
+    m._in_the_plane(force.kind)
     name = m._new_name(name, force.kind)
     first, second = m._sides(name, first, second, at)
     if force.has("angle"):

@@ -32,6 +32,11 @@ class Motor:
         self.name, self.joint, self.drives, self.law = name, joint, drives, law
 
     @property
+    def coordinate(self) -> str:
+        """Which coordinate of the joint it drives, "angle" or "displacement"."""
+        return self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
+
+    @property
     def measured_name(self) -> str:
         """What its measures are called by."""
         return self.name
@@ -71,6 +76,11 @@ class Actuator:
         self.name, self.first, self.second, self.drives, self.law = name, first, second, drives, law
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
     def measured_name(self) -> str:
         """What its measures are called by."""
         return self.name
@@ -101,13 +111,19 @@ class Spring:
         self.stiffness, self.free_length, self.damping = stiffness, free_length, damping
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
     def measured_name(self) -> str:
         """What its measures are called by."""
         return self.name
 
     def free_length_with(self, numbers: Numbers) -> float:
         """The length at which it is slack; where none was given, the distance in the drawing."""
-        drawn = float(np.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))))
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        drawn = float(np.hypot(*apart) if len(apart) == 2 else np.linalg.norm(apart))
         return numbers(self, "length", drawn if self.free_length is None else self.free_length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
@@ -180,12 +196,13 @@ class Force:
 
 
 class Torque:
-    """A moment on a body, `Mechanism.torque`."""
+    """A moment on a body, `Mechanism.torque`; in space about an axis (3,) of `frame`, or of `against` where that is a body."""
 
     kind = "torque"
 
-    def __init__(self, name: str, body: Body, against: Body, law: Law) -> None:
-        self.name, self.body, self.against, self.law = name, body, against, law
+    def __init__(self, name: str, body: Body, against: Body, law: Law, *, axis: np.ndarray | None = None,
+                 frame: Body | None = None) -> None:
+        self.name, self.body, self.against, self.law, self.axis, self.frame = name, body, against, law, axis, frame
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """What can be addressed by path."""

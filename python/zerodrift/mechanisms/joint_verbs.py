@@ -58,6 +58,7 @@ def _signature(joint: type[Joint]) -> inspect.Signature:
 
 def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, second: Any = None, point: Any = None, at: Any = None,
          axis: Any = None, length: Any = None, damping: Any = 0.0, cut: Any = False) -> Joint:
+    m._in_the_plane(joint.kind)
     name = m._new_name(name, "joint")
     if joint.is_of_one_body:
         point = m._point("point", point, center=True)

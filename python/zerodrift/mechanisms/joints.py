@@ -41,6 +41,8 @@ class Joint:
 
     def __init_subclass__(cls) -> None:
         """What the row says; what a class says itself stays."""
+        if not cls.kind:        # those in space have a table of their own
+            return
         cls.row = JOINTS[cls.kind]
         cls.coordinate = cls.row.coordinate
         cls.is_of_one_body = all(each.gauge in ("glide", "skid") for each in cls.row.rows)
@@ -69,9 +71,19 @@ class Joint:
         return self.name
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
     def bodies(self) -> tuple[Any, Any]:
         """The two bodies."""
         return self.first.body, self.second.body
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """What motors and dampers may act along."""
+        return () if self.coordinate is None else (self.coordinate,)
 
     def length_with(self, numbers: Numbers) -> float:
         """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""

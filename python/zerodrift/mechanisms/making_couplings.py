@@ -91,7 +91,9 @@ class CouplingVerbs(Elements):
         ratio = _check.number(f"ratio of {name!r}", ratio)
         if not ratio:
             raise ValueError(f"ratio of {name!r} must not be 0")
-        return self._add(Coupling(name, kind, tuple(f"{joint.name}.{joint.coordinate}" for joint in joints), ratio=ratio))
+        return self._add(Coupling(name, kind, tuple(
+            f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
+            ratio=ratio))
 
     def coupler(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
         """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.

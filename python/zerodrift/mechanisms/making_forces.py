@@ -68,11 +68,14 @@ class ForceVerbs(Elements):
             raise TypeError(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
         drives = words[0]
         joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
+        if joint.coordinate is None and drives == "speed":
+            raise ValueError(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
         law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"))
         if drives in ("angle", "displacement") and law.measures:
             raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         motor = Motor(name, joint, drives, law)
-        rival = next((other for other in self.motors if other.joint is joint and other.prescribes), None)
+        rival = next((other for other in self.motors if other.joint is joint and other.prescribes
+                      and other.coordinate == motor.coordinate), None)
         if motor.prescribes and rival is not None:
             raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
         return self._add(motor)
@@ -186,6 +189,7 @@ class ForceVerbs(Elements):
         >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
         Measure('closer.torque')
         """
+        self._in_the_plane("torsion_spring")
         name = self._new_name(name, "torsion spring")
         joint = self._joint(f"joint of {name!r}", joint, ("angle",))
         stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
@@ -220,6 +224,7 @@ class ForceVerbs(Elements):
         >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
         <bushing mount: ground - engine>
         """
+        self._in_the_plane("bushing")
         name = self._new_name(name, "bushing")
         first, second = self._sides(name, first, second, at)
         self._turning(name, "bushing", first.body, second.body)
@@ -238,7 +243,7 @@ class ForceVerbs(Elements):
         name : str
         point : Point, Body or name
             Of a body without a point, its centre of mass.
-        along : array_like (2,)
+        along : array_like (2,) or (3,)
             Its direction in the drawing; the length of the vector is ignored.
         value : float, callable or SymPy expression
             In N, of t, parameters and measures of positions and velocities.
@@ -275,7 +280,7 @@ class ForceVerbs(Elements):
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
     def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
-               against: Body | str | None = None) -> Torque:
+               against: Body | str | None = None, axis: Any = None, frame: Body | str | None = None) -> Torque:
         """Let a moment act on a body.
 
         Parameters
@@ -283,11 +288,16 @@ class ForceVerbs(Elements):
         name : str
         body : Body or name
         value : float, callable or SymPy expression
-            In N m, counter-clockwise, of t, parameters and measures of positions and velocities.
+            In N m, counter-clockwise, in space right-handed about the axis; of t, parameters and measures of positions and
+            velocities.
         of : dict of str to measure
             Under which names a callable is handed which measures.
         against : Body or name, optional
             On which the opposite acts; left out: the ground.
+        axis : array_like (3,)
+            In space: its direction in the drawing. It stays, or turns with `frame` or `against`.
+        frame : Body or name, optional
+            In space: with which the axis turns, where nothing else acts on that body; may be the body itself.
 
         Returns
         -------
@@ -307,7 +317,23 @@ class ForceVerbs(Elements):
         self._turning(name, "torque", body, against)
         if body is against:
             raise ValueError(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
-        return self._add(Torque(name, body, against, self._law(f"value of torque {name!r}", value, of)))
+        law = self._law(f"value of torque {name!r}", value, of)
+        if self.dimension == 3:
+            return self._space_torque(name, body, against, law, axis, frame)
+        if axis is not None or frame is not None:
+            raise ValueError(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal")
+        return self._add(Torque(name, body, against, law))
+
+    def _space_torque(self, name: str, body: Body, against: Body, law: Any, axis: Any, frame: Any) -> Torque:
+        if axis is None:
+            raise TypeError(f"torque {name!r} needs axis=, the direction in the drawing about which it acts")
+        frame = self.ground if frame is None else self._body("frame", frame)
+        self._turning(name, "the frame of", frame)
+        if against is not self.ground and frame is not self.ground:
+            raise ValueError(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out")
+        turns_with = frame if against is self.ground else against
+        axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
+        return self._add(Torque(name, body, against, law, axis=axis, frame=frame))
 
 
 for _kind, _force in FORCES_BY_ROW.items():

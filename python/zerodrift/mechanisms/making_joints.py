@@ -6,14 +6,14 @@ from typing import Any
 
 from .. import _check
 from .bodies import Body, Particle, Point
-from .elements import Elements
 from .joint_verbs import verb
 from .joints import BY_ROW, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
+from .making_space_joints import SpaceJointVerbs
 
 Side = Body | Point | str
 
 
-class JointVerbs(Elements):
+class JointVerbs(SpaceJointVerbs):
     """Joints between bodies.
 
     Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
@@ -23,16 +23,18 @@ class JointVerbs(Elements):
 
     gravity: Any
 
-    def revolute(self, name: str, first: Side, second: Side, *, at: Any = None, damping: float = 0.0,
-                 cut: bool = False) -> Revolute:
+    def revolute(self, name: str, first: Side, second: Side, *, axis: Any = None, at: Any = None, damping: float = 0.0,
+                 cut: bool = False) -> Any:
         """Join two bodies by a hinge.
 
         Parameters
         ----------
         name : str
         first, second : Body, Point or name
-            Two points; a body and a point; or two bodies, and `at`. One of them may be a particle.
-        at : array_like (2,)
+            Two points; a body and a point; or two bodies, and `at`. In the plane one of them may be a particle.
+        axis : array_like (3,)
+            In space: about which direction of the drawing it turns.
+        at : array_like (2,) or (3,)
             Where the joint is in the drawing, in m.
         damping : float
             In N m s, at least 0.
@@ -41,7 +43,7 @@ class JointVerbs(Elements):
 
         Returns
         -------
-        Revolute
+        Revolute, in space SpaceJoint
 
         Raises
         ------
@@ -56,6 +58,10 @@ class JointVerbs(Elements):
         >>> m.revolute("A", m.ground, link.start)
         <revolute A: ground - link>
         """
+        axis = self._one_axis(name, axis)
+        if axis is not None:
+            _flag(name, cut)
+            return self._join("revolute", name, first, second, at, axis, damping=damping)
         name = self._new_name(name, "joint")
         sides = self._sides(name, first, second, at)
         damping = _check.number(f"damping of {name!r}", damping, least=0)
@@ -64,7 +70,7 @@ class JointVerbs(Elements):
         return self._add(Revolute(name, *sides, damping=damping, cut=_flag(name, cut)))
 
     def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
-                  cut: bool = False) -> Prismatic:
+                  cut: bool = False) -> Any:
         """Join two bodies by a slider, which keeps their angle.
 
         Parameters
@@ -72,9 +78,9 @@ class JointVerbs(Elements):
         name : str
         first, second : Body, Point or name
             As of `revolute`; two points may lie apart along the axis. Of two bodies without `at`, the second's origin is meant.
-        axis : array_like (2,)
+        axis : array_like (2,) or (3,)
             Its direction in the drawing; it turns with the first body.
-        at : array_like (2,)
+        at : array_like (2,) or (3,)
             Where the joint is in the drawing, in m.
         damping : float
             In N s/m, at least 0.
@@ -83,7 +89,7 @@ class JointVerbs(Elements):
 
         Returns
         -------
-        Prismatic
+        Prismatic, in space SpaceJoint
 
         Raises
         ------
@@ -98,6 +104,10 @@ class JointVerbs(Elements):
         >>> m.prismatic("rail", m.ground, drawer, axis=(1, 0)).displacement
         Measure('rail.displacement')
         """
+        if self.dimension == 3:
+            _flag(name, cut)
+            return self._join("prismatic", name, first, second, self._at_origin(at, first, second),
+                              self._direction(f"axis of {name!r}", axis), damping=damping)
         name = self._new_name(name, "joint")
         axis = self._direction(f"axis of {name!r}", axis)
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
@@ -108,7 +118,7 @@ class JointVerbs(Elements):
         return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=_flag(name, cut),
                                    damping=_check.number(f"damping of {name!r}", damping, least=0)))
 
-    def weld(self, name: str, first: Side, second: Side, *, at: Any = None) -> Weld:
+    def weld(self, name: str, first: Side, second: Side, *, at: Any = None) -> Any:
         """Join two bodies rigidly, as they are drawn.
 
         Parameters
@@ -116,12 +126,12 @@ class JointVerbs(Elements):
         name : str
         first, second : Body, Point or name
             As of `revolute`; the reaction is told at the second's point.
-        at : array_like (2,)
+        at : array_like (2,) or (3,)
             Where the joint is in the drawing, in m.
 
         Returns
         -------
-        Weld
+        Weld, in space SpaceJoint
 
         Raises
         ------
@@ -136,13 +146,15 @@ class JointVerbs(Elements):
         >>> m.weld("wall", m.ground, arm.start).torque
         Measure('wall.torque')
         """
+        if self.dimension == 3:
+            return self._join("weld", name, first, second, at)
         name = self._new_name(name, "joint")
         sides = self._sides(name, first, second, at)
         self._turning(name, "weld", *(side.body for side in sides))
         return self._add(Weld(name, *sides))
 
     def rod(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *,
-            length: float | None = None) -> Rod:
+            length: float | None = None) -> Any:
         """Keep two points at a distance, as a massless rod with a hinge at each end does.
 
         Parameters
@@ -154,7 +166,7 @@ class JointVerbs(Elements):
 
         Returns
         -------
-        Rod
+        Rod, in space SpaceJoint
 
         Raises
         ------
@@ -173,11 +185,13 @@ class JointVerbs(Elements):
         sides = self._different(name, self._point("first", first), self._point("second", second))
         if length is not None:
             length = _check.number(f"length of {name!r}", length, above=0)
+        if self.dimension == 3:
+            return self._fasten("rod", name, *sides, length=length)
         rod = Rod(name, *sides, length=length)
         _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
         return self._add(rod)
 
-    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any) -> Slot:
+    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any) -> Any:
         """Keep a point on a line of a body.
 
         Parameters
@@ -187,12 +201,12 @@ class JointVerbs(Elements):
             What the line belongs to; it goes, as drawn, through the point.
         second : Point, Particle or name
             What slides.
-        axis : array_like (2,)
+        axis : array_like (2,) or (3,)
             The line's direction in the drawing.
 
         Returns
         -------
-        Slot
+        Slot, in space SpaceJoint
 
         Raises
         ------
@@ -212,6 +226,8 @@ class JointVerbs(Elements):
         first, second = self._body("first", first), self._point("second", second)
         self._turning(name, "the line of", first)
         first, second = self._different(name, first.point(at=second.drawn), second)
+        if self.dimension == 3:
+            return self._fasten("slot", name, first, second, axis)
         return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
     def rolling(self, name: str, first: Body | str, second: Side, *, radius: float, at: Any = (0.0, 0.0),
@@ -249,6 +265,7 @@ class JointVerbs(Elements):
         >>> m.rolling("road", m.ground, wheel, radius=0.5).force
         VectorMeasure('road.force')
         """
+        self._in_the_plane("rolling")
         name = self._new_name(name, "joint")
         radius = _check.number(f"radius of {name!r}", radius, above=0)
         if normal is None:
@@ -290,6 +307,7 @@ class JointVerbs(Elements):
         >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
         <knife_edge blade: ground - sleigh>
         """
+        self._in_the_plane("knife_edge")
         name = self._new_name(name, "joint")
         along = self._direction(f"along of {name!r}", along)
         point = self._point("point", point, center=True)

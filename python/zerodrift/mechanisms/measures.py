@@ -48,6 +48,14 @@ class VectorMeasure(Measure):
     y = property(lambda self: Measure(f"{self.name}.y"), doc="The component along the drawing's y axis.")
 
 
+class VectorMeasure3(VectorMeasure):
+    """A measure with components in space: `x`, `y`, `z`."""
+
+    __slots__ = ()
+
+    z = property(lambda self: Measure(f"{self.name}.z"), doc="The component along the drawing's z axis.")
+
+
 def name_of(measure: Any, argument: str) -> str:
     """The name of a measure that is given as such or by name."""
     if isinstance(measure, Measure):
@@ -64,4 +72,7 @@ def scalar(quantity: str, doc: str) -> property:
 
 def vector(quantity: str, doc: str) -> property:
     """An attribute that is the vector measure of that name of its element."""
-    return property(lambda self: VectorMeasure(f"{self.measured_name}.{quantity}"), doc=doc)
+    def measure(self: Any) -> VectorMeasure:
+        return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else VectorMeasure)(f"{self.measured_name}.{quantity}")
+
+    return property(measure, doc=doc)

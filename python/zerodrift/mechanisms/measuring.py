@@ -15,13 +15,15 @@ from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
 from .joints import holds_angle, is_hinge
 from .readings import has_coordinate
+from .space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
+from .space_tables import SpaceTables
 from .tables import Tables
 
 
 class Position(NamedTuple):
     """A measure of positions, its first and second rate where these are measures, too, and what makes the gauges it reads."""
 
-    name: str
+    name: str | None        # None: what has a rate, and no value, as an angular velocity in space
     unit: str
     rate: str | None
     second_rate: str | None
@@ -36,7 +38,8 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
         if wanted is not None and position.name not in wanted and position.rate not in wanted:
             continue
         reads = position.gauges()
-        observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
+        if position.name:
+            observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
         if position.rate:
             observed.append(Observed(position.rate, f"{position.unit}/s", "rates", len(gauges), len(reads)))
         if position.second_rate and wanted is None:
@@ -49,6 +52,9 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
 
 def _positions(tables: Tables) -> Iterator[Position]:
     """What can be read of bodies, named points, joints and springs."""
+    if isinstance(tables, SpaceTables):
+        yield from _positions_in_space(tables)
+        return
     for body in tables.drawing.of(Body):
         if body is tables.drawing.ground:
             continue
@@ -72,6 +78,34 @@ def _positions(tables: Tables) -> Iterator[Position]:
                            lambda joint=joint: (tables.transmission_gauge(joint),))
         if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
+    yield from _lengths(tables)
+
+
+def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
+    """The same in space."""
+    for body in tables.drawing.of(Body):
+        if body is tables.drawing.ground:
+            continue
+        yield _place(tables, body.name, body)
+        if body.turns:
+            yield Position(f"{body.name}.rotation", "", None, None, partial(tables.rotation_gauges, body))
+            yield Position(None, "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
+                           partial(tables.spin_gauges, body))
+            for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
+                yield _place(tables, point.name, point)
+    for point in tables.drawing.of(Point):
+        yield _place(tables, point.name, point)
+    for joint in tables.joints:
+        for speed, coordinate in speeds(joint.row).items():
+            unit = "m" if dict(joint.row.coordinates)[coordinate] == "along" else "rad"
+            yield Position(f"{joint.name}.{coordinate}", unit, f"{joint.name}.{speed}", f"{joint.name}.{acceleration_of(speed)}",
+                           lambda joint=joint, coordinate=coordinate: (tables.coordinate_gauge_of(joint, coordinate),))
+        if is_at_point(joint.row):
+            yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
+    yield from _lengths(tables)
+
+
+def _lengths(tables: Tables) -> Iterator[Position]:
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
                        lambda actuator=actuator: (tables.length_gauge(actuator),))
@@ -86,8 +120,11 @@ def _place(tables: Tables, name: str, of: Body | Point) -> Position:
 def _of_joints(tables: Tables) -> Iterator[Observed]:
     """The reactions of joints."""
     for i, joint in enumerate(tables.joints):
-        yield Observed(f"{joint.name}.force", "N", "joint force", i, 2)
-        if holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
+        yield Observed(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
+        if isinstance(joint, SpaceJoint):
+            if has_torque(joint.row):
+                yield Observed(f"{joint.name}.torque", "N m", "joint torque", i, 3)
+        elif holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
             yield Observed(f"{joint.name}.torque", "N m", "joint torque", i)
         if joint.row.tension:
             yield Observed(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)

@@ -22,7 +22,7 @@ from .system import LAYOUTS, MechanismSystem
 
 
 class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Makes):
-    """A mechanism in the plane, from bodies and joints.
+    """A mechanism in the plane or in space, from bodies and joints.
 
     Bodies are drawn, joints join them where they are in the drawing, and lengths count where the drawing is a sketch. Where a
     verb takes a joint, a body or a point, it takes its name as well: ``"pin"``, ``"crank"``, ``"crank.end"``. Every function
@@ -33,8 +33,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     name : str
         For tables and plots.
     dimension : int
-        2, the plane; mechanisms in space are not there yet.
-    gravity : array_like (2,), optional
+        2, the plane, or 3, space: then points and directions have three components, and hinges and sliders an ``axis=``. In
+        space there are absolute coordinates, and not yet all elements: what is not there says so.
+    gravity : array_like (dimension,), optional
         In m/s^2, in the drawing's axes; left out: none.
     parameters : dict of str to float, optional
         Numbers of one's own, which callables and expressions may name.
@@ -72,10 +73,10 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
                  parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
             raise TypeError(f"name must be a string that is not empty, not {_check.shown(name)}")
-        if dimension != 2:
-            raise ValueError(f"dimension must be 2, not {_check.shown(dimension)}: mechanisms are in the plane, not yet in space")
-        self.name, self.dimension = name, 2
-        self.gravity = np.zeros(2) if gravity is None else _check.vector("gravity", gravity, 2)
+        if dimension not in (2, 3) or isinstance(dimension, bool):
+            raise ValueError(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}")
+        self.name, self.dimension = name, int(dimension)
+        self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
 
     def system(self, coordinates: str | None = None, compiled: bool = False) -> MechanismSystem:
@@ -114,6 +115,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         >>> m.system("absolute")
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
+        if self.dimension == 3 and (compiled or coordinates == "joint"):
+            raise ValueError(f"{self.name!r} is in space, where there are absolute coordinates, and nothing is written out yet: "
+                             "coordinates must be None or 'absolute', and compiled False")
         layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
         return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
 
@@ -157,7 +161,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         return self.system().v0
 
     def points(self, p: Any) -> np.ndarray | None:
-        """The drawing at p, as of its `system`: points (n, 2) in m, joined by lines where not NaN.
+        """The drawing at p, as of its `system`: points (n, dimension) in m, joined by lines where not NaN.
 
         Examples
         --------
@@ -210,6 +214,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         ...     zd.load(m.save(folder + "/pendulum")).bodies
         (<link link>,)
         """
+        self._in_the_plane("save()")
         path = Path(path)
         path = path if path.suffix == ".json" else path.with_name(path.name + ".json")
         path.write_text(text(described(self._drawing())), encoding="utf-8")

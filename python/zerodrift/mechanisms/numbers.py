@@ -18,10 +18,10 @@ class Numbers:
         return self.changed.get(f"{element.name}.{quantity}", given)
 
     def vector(self, name: str | None, quantity: str, given: np.ndarray) -> np.ndarray:
-        """A vector (2,), whose components have paths of their own, ``"gas.along.x"``."""
+        """A vector (2,) or (3,), whose components have paths of their own, ``"gas.along.x"``."""
         if not self.changed:
             return given
-        return np.array([self.changed.get(f"{name}.{quantity}.{axis}", value) for axis, value in zip("xy", given, strict=True)])
+        return np.array([self.changed.get(f"{name}.{quantity}.{axis}", value) for axis, value in zip("xyz", given, strict=False)])
 
 
 AS_GIVEN = Numbers()

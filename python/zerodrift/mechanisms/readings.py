@@ -12,6 +12,7 @@ from . import transmission
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring
 from .joints import Joint, is_hinge
+from .space_joints import SpaceJoint, is_at_point, speeds
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
 
@@ -32,6 +33,8 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
     if element is None or not rest:
         return None
     quantity, *component = rest
+    if getattr(element, "dimension", 2) == 3:
+        return _in_space(owner, element, quantity, component)
     base = element.coordinate if quantity == "speed" and isinstance(element, Joint | Actuator) else RATES.get(quantity, quantity)
     if name == f"{owner}.transmission_angle" and transmission.has_one(element, transmission.joints_by_body(elements)):
         return Reading((name,), False)
@@ -42,6 +45,30 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
             len(component) <= 1) else None
     return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> Reading | None:
+    """The same of an element in space, whose angular velocity is the rate of no position."""
+    rates = rates_of(element)
+    if quantity in quantities(element) and quantity != "position":
+        return None if component else Reading((f"{owner}.{quantity}",), False)
+    if quantity in rates and rates[quantity] not in ("position", "spin"):
+        return None if component else Reading((f"{owner}.{rates[quantity]}",), True)
+    axes = component or ["x", "y", "z"]
+    if len(component) > 1 or not set(axes) <= {"x", "y", "z"} or (quantity not in rates and quantity not in quantities(element)):
+        return None
+    base = "angular_velocity" if quantity == "angular_velocity" else "position"
+    return Reading(tuple(f"{owner}.{base}.{axis}" for axis in axes), quantity != "position")
+
+
+def rates_of(element: Any) -> dict[str, str]:
+    """The rates that can be read of an element in space, with what each is the rate of."""
+    if isinstance(element, SpaceJoint):
+        return {**speeds(element.row), **({"velocity": "position"} if is_at_point(element.row) else {})}
+    if isinstance(element, Body | Point):
+        spin = {"angular_velocity": "spin"} if isinstance(element, Body) and element.turns else {}
+        return {"velocity": "position", **spin}
+    return {"speed": "length"} if isinstance(element, Actuator) else {}
 
 
 def _points(element: Any) -> tuple[str, ...]:
@@ -72,6 +99,9 @@ def _closest_first(name: str, known: Sequence[str]) -> str:
 def readable(element: Any) -> list[str]:
     """The measures of positions and velocities of an element by name, each once and vectors whole."""
     named = getattr(element, "measured_name", element.name)
+    if getattr(element, "dimension", 2) == 3:
+        own = [f"{named}.{each}" for each in (*quantities(element), *rates_of(element))]
+        return own + [f"{named}.{point}.{each}" for point in _points(element) for each in ("position", "velocity")]
     rates = {"position": "velocity", "angle": "angular_velocity"}
     found = []
     for quantity in quantities(element):
@@ -84,8 +114,10 @@ def readable(element: Any) -> list[str]:
 
 def quantities(element: Any) -> tuple[str, ...]:
     """The positions that can be read of an element; all but lengths of springs have rates, too."""
+    if isinstance(element, SpaceJoint):
+        return (*element.coordinates, *(("position",) if is_at_point(element.row) else ()))
     if isinstance(element, Body):
-        return ("position", "angle") if element.turns else ("position",)
+        return ("position", "angle") if element.turns and element.dimension == 2 else ("position",)
     if isinstance(element, Point):
         return ("position",)
     if isinstance(element, Joint):

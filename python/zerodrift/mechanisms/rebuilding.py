@@ -62,6 +62,8 @@ def system(description: dict[str, Any], where: str) -> MechanismSystem:
 
 def _parts(where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any, gravity: Any, parameters: Any,
            elements: Any, start: Any, wish: Any) -> Mechanism:
+    if dimension != 2:
+        raise ValueError(f"{where}: dimension must be 2, not {dimension!r}: mechanisms in space cannot be saved yet")
     m = _at(where, Mechanism, name, dimension=dimension, gravity=gravity, parameters=parameters)
     for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
         _element(m, element, f"{where}, element {i}")

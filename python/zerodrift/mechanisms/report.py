@@ -19,9 +19,10 @@ def headline(drawing: Drawing) -> str:
     forces = [_several(len(drawing.of(kind)), word) for kind, word in (
         (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
         (MadeForce, "other force"), (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
-    gravity = f"gravity ({drawing.gravity[0]:g}, {drawing.gravity[1]:g})" if drawing.gravity.any() else "no gravity"
+    gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else "no gravity"
     said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
-    return f"<Mechanism {drawing.name}: plane, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
+    where = "space" if drawing.dimension == 3 else "plane"
+    return f"<Mechanism {drawing.name}: {where}, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
 
 
 def report(drawing: Drawing) -> str:
@@ -42,6 +43,8 @@ def report(drawing: Drawing) -> str:
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
+    if drawing.dimension == 3:
+        return "\n".join(lines)
     found = cost.cost(Tables(drawing, AS_GIVEN, in_tree=True), exact=True)
     lines.append(f" a simulation takes {found.cheaper} coordinates: {found.in_words}")
     return "\n".join(lines)
@@ -49,6 +52,9 @@ def report(drawing: Drawing) -> str:
 
 def _freedom(drawing: Drawing, counted: Count) -> str:
     """Freedom and coordinates of both kinds."""
+    if drawing.dimension == 3:
+        return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); {counted.velocities} velocities, "
+                f"{_several(counted.rows, 'row')}")
     tables = Tables(drawing, AS_GIVEN, in_tree=True)
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}

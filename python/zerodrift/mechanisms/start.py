@@ -47,7 +47,7 @@ class StartVerbs(Elements):
         >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
         """
         for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
-            checked = targets(given, what)
+            checked = targets(given, what, self.dimension)
             for name, value in checked.items():
                 self._check_start("start" if what == "held" else what, name, value)
             for name, value in checked.items():
@@ -68,7 +68,7 @@ class StartVerbs(Elements):
             raise ValueError(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
 
 
-def targets(given: Any, what: str) -> dict[str, Any]:
+def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
     """Measures and their values, checked: names to numbers, vectors or None."""
     if given is None:
         return {}
@@ -78,6 +78,7 @@ def targets(given: Any, what: str) -> dict[str, Any]:
     for measure, value in given.items():
         name = name_of(measure, f"a key of {what}")
         if value is not None:
-            value = _check.vector(f"{what}[{name!r}]", value, 2) if np.ndim(value) else _check.number(f"{what}[{name!r}]", value)
+            said = f"{what}[{name!r}]"
+            value = _check.vector(said, value, dimension) if np.ndim(value) else _check.number(said, value)
         read[name] = value
     return read

@@ -17,9 +17,9 @@ from .forces import Motor
 from .joints import Joint
 from .measuring import measuring
 from .numbers import Numbers
-from .plane import turned
 from .readings import Reading, checked_reading, reading
 from .tables import Tables
+from .tabulated import tables_of
 from .tree import loop
 
 MASSLESS = 1e-13        # of the largest: how little a motion may weigh
@@ -44,7 +44,7 @@ class Starting:
         if not self.has_speeds:
             return {}
         tables = self._tables({})
-        names = [f"{motor.joint.name}.{motor.joint.coordinate}" for motor in self.drawing.of(Motor) if _is_constant_speed(motor)]
+        names = [f"{motor.joint.name}.{motor.coordinate}" for motor in self.drawing.of(Motor) if _is_constant_speed(motor)]
         assembly = self._assembly(tables, 0.0, speeds=names)
         p = self._positions(tables, assembly)
         index = {row.name: i for i, row in enumerate(assembly.core.measures)}
@@ -78,7 +78,7 @@ class Starting:
 
     def _tables(self, starts: Mapping[str, float]) -> Tables:
         if self._known is None or starts:
-            return Tables(self.drawing, self.numbers, in_tree=False, starts=starts)
+            return tables_of(self.drawing, self.numbers, in_tree=False, starts=starts)
         return self._known.absolute()
 
     def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
@@ -90,14 +90,8 @@ class Starting:
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
         return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t)
 
-    def drawn(self, tables: Tables) -> np.ndarray:
-        """Poses (bodies, 3) of the mass centres as drawn."""
-        poses = [(*(body.pose.origin + turned(body.pose.angle, tables.inertias.of[body.name][2])), body.pose.angle)
-                 for body in tables.parts]
-        return np.array(poses, dtype=float).reshape(-1, 3)
-
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
-        p, _ = assembly.core.state(self.drawn(tables))
+        p, _ = assembly.core.state(tables.drawn())
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
         try:
             return assembly.positions(p, held, wished)
@@ -118,16 +112,18 @@ class Starting:
                 continue
             base, _, axis = name.rpartition(".")
             if name in index:
-                targets += [Target(name if np.ndim(value) == 0 else f"{name}.{'xy'[i]}", index[name], i, float(each))
+                targets += [Target(name if np.ndim(value) == 0 else f"{name}.{'xyz'[i]}", index[name], i, float(each))
                             for i, each in enumerate(np.atleast_1d(value))]
             else:
-                targets.append(Target(name, index[base], "xy".index(axis), float(value)))
+                targets.append(Target(name, index[base], "xyz".index(axis), float(value)))
         return targets
 
     # ---- what is wrong ----
 
     def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
         """Which loop does not close, and by how much: in joint coordinates only the joints that close loops are open."""
+        if self.drawing.dimension == 3:
+            return self._left_open(assembly, p)
         tables = Tables(self.drawing, self.numbers, in_tree=True)
         core = tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else "" for row in core.rows]
@@ -144,8 +140,23 @@ class Starting:
         return (f"{told}, cannot close: it stays open by "
                 f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
 
+    def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
+        """Which joints stay open where all of them are as nearly closed as can be."""
+        p = assembly.least_open(p)
+        Phi = assembly.core.evaluate(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
+        open_by: dict[str, float] = {}
+        for row, name, value in zip(assembly.core.rows, assembly.rows, Phi, strict=False):
+            if row.owner == "joint":
+                open_by[name] = max(open_by.get(name, 0.0), abs(float(value)))
+        worst = sorted(open_by, key=lambda name: -open_by[name])[:3]
+        told = ", ".join(f"{name!r} by {open_by[name]:.3g}" for name in worst)
+        return (f"the joints cannot all close: nearest to it there stay open {told} (m, or rad); look at the lengths, or draw it "
+                "nearer")
+
     def _loop_in_words(self) -> str:
         """Which loop something held or driven is in."""
+        if self.drawing.dimension == 3:
+            return ""
         tables = Tables(self.drawing, self.numbers, in_tree=True)
         owners = [self.drawing.elements[name.partition(".")[0]] for name in self.drawing.held]
         owners += [motor.joint for motor in self.drawing.of(Motor)]
@@ -160,8 +171,7 @@ class Starting:
 
     def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
         """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
-        if all(mass > 0 and (inertia > 0 or not body.turns) for body in tables.parts
-               for mass, inertia, _ in [tables.inertias.of[body.name]]):
+        if all(tables.inertias.is_massive(body) for body in tables.parts):
             return
         M, free = assembly.free_motions(p)
         if not free.shape[1]:
@@ -170,7 +180,7 @@ class Starting:
         if weights[0] > MASSLESS * max(np.abs(M).max(), 1e-300):
             return
         motion = np.abs(free @ motions[:, 0])
-        moved = {assembly.core.coordinates[i].body for i in np.flatnonzero(motion > 1e-6 * motion.max())}
+        moved = {assembly.core.motions[i].body for i in np.flatnonzero(motion > 1e-6 * motion.max())}
         names = ", ".join(repr(tables.parts[body - 1].name) for body in sorted(moved))
         raise SingularSystem(f"{names} can move without moving any mass: give it mass and inertia, or hold it by a joint")
 

@@ -26,9 +26,14 @@ from .numbers import Numbers
 from .outline import outline
 from .posed import Parts, Posed
 from .sketch import sketches
+from .space_joints import SpaceJoint
+from .space_measuring import orientation
+from .space_outline import space_outline
+from .space_tables import SpaceTables
 from .start import targets
 from .starting import Starting
 from .tables import Tables
+from .tabulated import tables_of
 
 LAYOUTS = ("joint", "absolute")
 MANY = 32       # joint coordinates: of fewer, none is told what they cost
@@ -56,7 +61,8 @@ class MechanismSystem(BaseSystem):
                  direct: tuple[str, DirectFunctions] | None = None) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
-        self._tables = Tables(drawing, self._numbers, in_tree=layout != "absolute")
+        layout = "absolute" if drawing.dimension == 3 else layout
+        self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
         self.layout = layout or ("joint" if compiled else cost.cost(self._tables).cheaper)
         if self.layout == "absolute":
             self._tables = self._tables.absolute()
@@ -75,10 +81,14 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def coordinates(self) -> tuple[Variable, ...]:
+        if isinstance(self._tables, SpaceTables):
+            return self._tables.coordinates()
         return tuple(position for position, _ in _variables(self._tables, self._first_core))
 
     @functools.cached_property
     def velocities(self) -> tuple[Variable, ...]:
+        if isinstance(self._tables, SpaceTables):
+            return self._tables.velocities()
         return tuple(rate for _, rate in _variables(self._tables, self._first_core))
 
     @functools.cached_property
@@ -98,7 +108,7 @@ class MechanismSystem(BaseSystem):
         """The tables with the places that drives of constant speed start from."""
         if not self._start.has_speeds:
             return self._tables
-        return Tables(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives)
+        return tables_of(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives)
 
     @functools.cached_property
     def _interpreted(self) -> MechanismCore:
@@ -169,7 +179,8 @@ class MechanismSystem(BaseSystem):
     def _assembled(self, held: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
         """The state at a time that holds and wishes more than the mechanism's own start does."""
         drawing = self._drawing
-        drawing = drawing._replace(held=drawing.held | targets(held, "held"), wished=drawing.wished | targets(wish, "wish"))
+        more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
+        drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
         start = Starting(drawing, self._numbers, self._tables)
         return self._core.state(*start.at(t, nudge=nudge))
 
@@ -214,13 +225,20 @@ class MechanismSystem(BaseSystem):
         return cost.of_a_run(self._cost, steps) if self._cost else None
 
     def points(self, p: Any) -> np.ndarray | None:
-        """The drawing at p: points (n, 2) in m, joined by lines where not NaN."""
+        """The drawing at p: points (n, dimension) in m, joined by lines where not NaN."""
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
-        return outline(self._drawing, self._numbers, poses)
+        return (space_outline if self._drawing.dimension == 3 else outline)(self._drawing, self._numbers, poses)
 
-    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]]:
+    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
+        if self._drawing.dimension == 3:
+            return None
         moments, others = ((self._first_core.poses(np.ascontiguousarray(p))[0] for p in those) for those in (positions, motion))
         return sketches(self._drawing, self._numbers, moments, others)
+
+    def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
+        """As of any system; of bodies in space their orientation, too, as matrices, quaternions and angles."""
+        found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
+        return super()._measured(name, solution) if found is None else found
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, parts = chosen(self._drawing, names), Parts(self._drawing, self._numbers)
@@ -261,6 +279,9 @@ def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
             named.append(Variable(tables.relation_names[row.index], ""))
             continue
         joint = tables.joints[row.index]
+        if isinstance(joint, SpaceJoint):
+            named.append(joint.row_named(row.component))
+            continue
         rows = joint.row.rows
         gauge = rows[row.component].gauge
         unit = "rad" if gauge == "angle" else "m"

@@ -17,6 +17,7 @@ from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpri
 from .joints import Coupling, Joint
 from .made_forces import ELEMENTS, MadeForce
 from .numbers import Numbers
+from .plane import turned
 from .readings import has_coordinate, reading
 from .tree import Edge, carriers
 
@@ -39,7 +40,7 @@ class Tables:
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
-        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), Inertias(drawing, numbers)
+        self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self._masses()
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
         self.gauges: list[Gauge] = []
@@ -59,6 +60,9 @@ class Tables:
             for element in drawing.of(kind):
                 add(element)
 
+    def _masses(self) -> Any:
+        return Inertias(self.drawing, self.numbers)
+
     def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> MechanismCore:
         """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
@@ -66,6 +70,12 @@ class Tables:
         tables = rows.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.efforts,
                              observed, self._gravity())
         return MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+
+    def drawn(self) -> np.ndarray:
+        """Poses (bodies, 3) of the mass centres as drawn."""
+        poses = [(*(body.pose.origin + turned(body.pose.angle, self.inertias.of[body.name][2])), body.pose.angle)
+                 for body in self.parts]
+        return np.array(poses, dtype=float).reshape(-1, 3)
 
     def absolute(self) -> Tables:
         """The same tables, of which nothing but the bodies differs: all of them are free."""
@@ -79,9 +89,9 @@ class Tables:
         free = sum(3 if body.turns else 2 for body, carrier in zip(self.parts, self.carrier, strict=True) if carrier < 0)
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
 
-    def _gravity(self) -> tuple[float, float]:
-        return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value)) for axis, value in zip("xy", self.drawing.gravity,
-                                                                                                     strict=True))
+    def _gravity(self) -> Any:
+        return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value))
+                     for axis, value in zip("xyz", self.drawing.gravity, strict=False))
 
     # ---- bodies and joints ----
 
@@ -186,8 +196,8 @@ class Tables:
         self.relations.append(relation)
 
     def _motor(self, motor: Motor) -> None:
-        joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.joint.coordinate}"
-        gauge, quantity = self._gauge_of(coordinate), "torque" if motor.joint.coordinate == "angle" else "force"
+        joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.coordinate}"
+        gauge, quantity = self._gauge_of(coordinate), "torque" if motor.coordinate == "angle" else "force"
         unit = {"torque": "N m", "force": "N"}[quantity]
         if motor.prescribes:
             index, words = len(self.relations), ("drive", "drive power")

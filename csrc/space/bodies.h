@@ -1,0 +1,36 @@
+/* Bodies in space: from coordinates to poses and twists, and from wrenches to generalized forces. */
+#ifndef ZD_SPACE_BODIES_H
+#define ZD_SPACE_BODIES_H
+
+#include "vectors.h"
+
+typedef struct zd_body3 {
+    double mass;
+    zd_vector3 inertia;
+    int turns;
+    int p, v;               /* where its coordinates and velocities begin */
+    int A, M;               /* and what is stored of A and M */
+} zd_body3;
+
+typedef struct zd_pose3 {   /* of a mass centre */
+    zd_vector3 at;
+    zd_rotation turned;
+} zd_pose3;
+
+typedef struct zd_twist3 {
+    zd_vector3 speed, spin; /* m/s of the mass centre, and rad/s: in the drawing's axes */
+} zd_twist3;
+
+enum { ZD_BODY_COORDINATES = 7, ZD_BODY_VELOCITIES = 6, ZD_POINT_COORDINATES = 3 };
+
+/* Arrays (bodies + 1,) begin with the ground. */
+void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose);
+void zd_bodies_move(int bodies, const zd_body3 *body, const zd_pose3 *pose, const double *v, zd_twist3 *twist);
+void zd_bodies_write_A(int bodies, const zd_body3 *body, const double *p, double *A);       /* (1), block after block */
+void zd_bodies_write_M(int bodies, const zd_body3 *body, double *M);        /* the diagonals, one after another */
+void zd_bodies_write_bias(int bodies, const zd_body3 *body, const double *v, double *d);    /* omega x (inertia omega) */
+void zd_bodies_gather(int bodies, const zd_body3 *body, const zd_pose3 *pose, const zd_wrench3 *wrench, double *f);
+/* own += what `scale` times the wrench on a body does to its velocities. */
+void zd_body_act(const zd_body3 *body, const zd_pose3 *pose, double scale, zd_wrench3 what, double *own);
+
+#endif

@@ -1,0 +1,158 @@
+/* Each primitive once: its value, what a unit force along it is for both bodies, and its bias.
+ *
+ * All are made of points and directions that move with bodies. With omega and the acceleration of mass centres as the drawing's axes have
+ * them, a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the mass
+ * centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
+ */
+#include "gauge.h"
+
+typedef struct moving {
+    zd_vector3 value, rate, second;     /* the second rate where no velocity changes */
+} moving;
+
+static zd_vector3 direction_of(const zd_pose3 *pose, const double *direction)
+{
+    return zd_rotated3(&pose->turned, zd_vector3_of(direction));
+}
+
+zd_vector3 zd_point3_of(const zd_pose3 *pose, const double *point) { return zd_plus3(pose->at, direction_of(pose, point)); }
+
+static moving turning(const zd_pose3 *pose, const zd_twist3 *twist, const double *direction)
+{
+    const zd_vector3 value = direction_of(pose, direction), rate = zd_cross3(twist->spin, value);
+    return (moving){value, rate, zd_cross3(twist->spin, rate)};
+}
+
+static moving point_moving(const zd_pose3 *pose, const zd_twist3 *twist, const double *point)
+{
+    const moving arm = turning(pose, twist, point);
+    return (moving){zd_plus3(pose->at, arm.value), zd_plus3(twist->speed, arm.rate), arm.second};
+}
+
+static moving difference(moving a, moving b)
+{
+    return (moving){zd_minus3(a.value, b.value), zd_minus3(a.rate, b.rate), zd_minus3(a.second, b.second)};
+}
+
+/* What the second derivative of a . b has. */
+static double bias_of_product(moving a, moving b)
+{
+    return zd_inner3(a.second, b.value) + 2 * zd_inner3(a.rate, b.rate) + zd_inner3(a.value, b.second);
+}
+
+/* ---- values, and what a unit force is ---- */
+
+/* A unit force along u on Q, and its opposite on P. */
+static void pull(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 u, zd_reading3 *to)
+{
+    to->second = (zd_wrench3){u, zd_cross3(direction_of(pose + gauge->second, gauge->point2), u)};
+    to->first = (zd_wrench3){zd_times3(-1, u), zd_cross3(u, direction_of(pose + gauge->first, gauge->point1))};
+}
+
+/* A torque on the second body, and its opposite on the first. */
+static void twist_both(zd_vector3 torque, zd_reading3 *to)
+{
+    to->second.torque = torque;
+    to->first.torque = zd_times3(-1, torque);
+}
+
+static void read_place(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 apart, zd_reading3 *to)
+{
+    const zd_vector3 u = {gauge->kind == ZD_SPACE_X, gauge->kind == ZD_SPACE_Y, gauge->kind == ZD_SPACE_Z};
+    to->value = zd_inner3(u, apart);
+    pull(gauge, pose, u, to);
+}
+
+/* a turns with the first body: what pulls at Q acts on it as if it were held there, too. */
+static void read_along(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 a, zd_vector3 apart, zd_reading3 *to)
+{
+    to->value = zd_inner3(a, apart);
+    pull(gauge, pose, a, to);
+    to->first.torque = zd_plus3(to->first.torque, zd_cross3(a, apart));
+}
+
+static void read_distance(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 apart, zd_reading3 *to)
+{
+    to->value = sqrt(zd_inner3(apart, apart));
+    pull(gauge, pose, zd_times3(1 / to->value, apart), to);
+}
+
+/* The angle of (a . b, o . b): see enum zd_space_gauge_kind. */
+static void read_angle(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 a, zd_reading3 *to)
+{
+    const zd_vector3 o = direction_of(pose + gauge->first, gauge->o), b = direction_of(pose + gauge->second, gauge->b);
+    const double x = zd_inner3(a, b), y = zd_inner3(o, b);
+    to->value = atan2(y, x);
+    twist_both(zd_times3(1 / (x * x + y * y), zd_cross3(b, zd_minus3(zd_times3(x, o), zd_times3(y, a)))), to);
+}
+
+zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose)
+{
+    const zd_pose3 *first = pose + gauge->first, *second = pose + gauge->second;
+    const zd_vector3 a = direction_of(first, gauge->a);
+    const zd_vector3 apart = zd_minus3(zd_point3_of(second, gauge->point2), zd_point3_of(first, gauge->point1));
+    zd_reading3 to = {.value = 0};
+    switch (gauge->kind) {
+    case ZD_SPACE_ALONG: read_along(gauge, pose, a, apart, &to); break;
+    case ZD_SPACE_COSINE: {
+        const zd_vector3 b = direction_of(second, gauge->b);
+        to.value = zd_inner3(a, b);
+        twist_both(zd_cross3(b, a), &to);
+        break;
+    }
+    case ZD_SPACE_ANGLE: read_angle(gauge, pose, a, &to); break;
+    case ZD_SPACE_DISTANCE: read_distance(gauge, pose, apart, &to); break;
+    case ZD_SPACE_GLIDE: to.second = (zd_wrench3){a, zd_cross3(direction_of(second, gauge->point2), a)}; break;
+    case ZD_SPACE_SPIN: to.second.torque = a; break;
+    case ZD_SPACE_TURN: twist_both(a, &to); break;
+    default: read_place(gauge, pose, apart, &to);
+    }
+    to.value -= gauge->zero;
+    return to;
+}
+
+/* ---- rates and biases ---- */
+
+static double work(zd_wrench3 what, const zd_twist3 *twist)
+{
+    return zd_inner3(what.force, twist->speed) + zd_inner3(what.torque, twist->spin);
+}
+
+static double bias_of_place(const zd_space_gauge *gauge, moving apart)
+{
+    return gauge->kind == ZD_SPACE_X ? apart.second.x : gauge->kind == ZD_SPACE_Y ? apart.second.y : apart.second.z;
+}
+
+static double bias_of_distance(moving apart, double rate)
+{
+    const double length = sqrt(zd_inner3(apart.value, apart.value));
+    return (zd_inner3(apart.rate, apart.rate) + zd_inner3(apart.value, apart.second) - rate * rate) / length;
+}
+
+static double bias_of_angle(moving a, moving o, moving b, double rate)
+{
+    const double x = zd_inner3(a.value, b.value), y = zd_inner3(o.value, b.value), size = x * x + y * y;
+    const double xdot = zd_inner3(a.rate, b.value) + zd_inner3(a.value, b.rate), ydot = zd_inner3(o.rate, b.value) + zd_inner3(o.value, b.rate);
+    return (x * bias_of_product(o, b) - y * bias_of_product(a, b) - 2 * rate * (x * xdot + y * ydot)) / size;
+}
+
+double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, double *bias)
+{
+    const zd_reading3 reading = zd_space_gauge_read(gauge, pose);
+    const zd_pose3 *first = pose + gauge->first, *second = pose + gauge->second;
+    const zd_twist3 *first_twist = twist + gauge->first, *second_twist = twist + gauge->second;
+    const double rate = work(reading.first, first_twist) + work(reading.second, second_twist);
+    const moving a = turning(first, first_twist, gauge->a), Q = point_moving(second, second_twist, gauge->point2);
+    const moving apart = difference(Q, point_moving(first, first_twist, gauge->point1)), b = turning(second, second_twist, gauge->b);
+    switch (gauge->kind) {
+    case ZD_SPACE_ALONG: *bias = bias_of_product(a, apart); break;
+    case ZD_SPACE_COSINE: *bias = bias_of_product(a, b); break;
+    case ZD_SPACE_ANGLE: *bias = bias_of_angle(a, turning(first, first_twist, gauge->o), b, rate); break;
+    case ZD_SPACE_DISTANCE: *bias = bias_of_distance(apart, rate); break;
+    case ZD_SPACE_GLIDE: *bias = zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); break;
+    case ZD_SPACE_SPIN:     /* of a turn the same, as the rate of a is perpendicular to the first body's own spin */
+    case ZD_SPACE_TURN: *bias = zd_inner3(a.rate, second_twist->spin); break;
+    default: *bias = bias_of_place(gauge, apart);
+    }
+    return rate;
+}

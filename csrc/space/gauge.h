@@ -1,0 +1,19 @@
+/* Reading gauges of space: what they say, how fast that changes, and what a unit force along them is for each body. */
+#ifndef ZD_SPACE_GAUGE_H
+#define ZD_SPACE_GAUGE_H
+
+#include "bodies.h"
+#include "tables.h"
+
+typedef struct zd_reading3 {
+    double value;
+    zd_wrench3 first, second;   /* value's rate = first . twist of the first body + second . twist of the second */
+} zd_reading3;
+
+zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose);
+/* Returns the rate, and in `bias` what its derivative by time has besides the accelerations of coordinates. */
+double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, double *bias);
+/* A point of a body, from the drawing's origin. */
+zd_vector3 zd_point3_of(const zd_pose3 *pose, const double *point);
+
+#endif

@@ -1,0 +1,73 @@
+/* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches. */
+#include "reactions.h"
+
+#include "efforts.h"
+#include "gauge.h"
+#include "rows.h"
+
+typedef struct place {
+    int body;               /* the joint's second */
+    zd_vector3 point;       /* its point of the joint */
+} place;
+
+static place place_of(const zd_space *self, const zd_frame3 *frame, int joint)
+{
+    const zd_space_joint *of = self->joint + joint;
+    return (place){of->second, zd_point3_of(frame->pose + of->second, of->point2)};
+}
+
+/* to += scale times what a unit force along a gauge is for a joint's second body, about the joint's point. */
+static void add_gauge(const zd_space *self, const zd_frame3 *frame, int index, place at, double scale, zd_wrench3 *to)
+{
+    const zd_space_gauge *gauge = self->gauge + index;
+    const zd_reading3 reading = zd_space_gauge_read(gauge, frame->pose);
+    zd_wrench3 what = gauge->second == at.body ? reading.second : reading.first;
+    what.torque = zd_plus3(what.torque, zd_cross3(zd_minus3(frame->pose[at.body].at, at.point), what.force));
+    zd_add_wrench3(to, scale, what);
+}
+
+static void of_rows(const zd_space *self, const zd_frame3 *frame, int joint, place at, const double *lambda, zd_wrench3 *to)
+{
+    for (int k = 0; k < self->planned[joint].row_count; k++) {
+        const int index = self->planned[joint].rows[k];
+        const zd_relation *row = self->row + index;
+        for (int i = row->first; i < row->first + row->terms; i++)
+            add_gauge(self, frame, self->term[i].gauge, at, -lambda[index] * self->coefficient[i], to);
+    }
+}
+
+int zd_space_drive_effort(const zd_space *self, const zd_frame3 *frame, int relation, int term, double t, const double *lambda,
+                          double *effort)
+{
+    const int row = self->row_of_relation[relation];
+    const double *factors = zd_space_row_factors(self, frame, self->row + row, t);
+    if (!factors) return ZD_CALLBACK;
+    *effort = -lambda[row] * factors[term];
+    return ZD_DONE;
+}
+
+/* Motors of the joint, by rows and by efforts, and its damping */
+static int of_drives(const zd_space *self, const zd_frame3 *frame, int joint, place at, double t, const double *lambda, zd_wrench3 *to)
+{
+    double value;
+    for (int i = 0; i < self->efforts; i++) {
+        if (self->effort[i].joint != joint) continue;
+        if (zd_space_effort_value(self, frame, self->effort + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->effort[i].gauge, at, value, to);
+    }
+    for (int i = 0; i < self->relations; i++) {
+        const zd_relation *row = self->row + self->row_of_relation[i];
+        if (row->joint != joint) continue;
+        if (zd_space_drive_effort(self, frame, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->term[row->first].gauge, at, value, to);
+    }
+    return ZD_DONE;
+}
+
+int zd_space_joint_reaction(const zd_space *self, const zd_frame3 *frame, int joint, double t, const double *lambda, zd_wrench3 *reaction)
+{
+    const place at = place_of(self, frame, joint);
+    *reaction = (zd_wrench3){{0, 0, 0}, {0, 0, 0}};
+    of_rows(self, frame, joint, at, lambda, reaction);
+    return of_drives(self, frame, joint, at, t, lambda, reaction);
+}

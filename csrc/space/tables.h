@@ -1,0 +1,70 @@
+/* Mechanisms in space from bodies and joints: the tables that describe one, and the system that is made from them.
+ *
+ * Coordinates are absolute. Each body has the position of its mass centre and a unit quaternion, scalar first, which turns its own axes
+ * into the drawing's; its velocities are that of its mass centre in the drawing's axes, and its angular velocity in its own. These are its
+ * principal axes, so that M is constant and diagonal. A particle has a position and a velocity alone. Body 0 is the ground; bodies given
+ * have the numbers from 1 on. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's axes, from its origin).
+ * Relations, efforts, measures and laws are those of the plane, of gauges in space; forces and torques have three components.
+ *
+ * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
+ */
+#ifndef ZD_SPACE_TABLES_H
+#define ZD_SPACE_TABLES_H
+
+#include "../mechanisms/mechanism.h"
+#include "../space_joints/joint.h"
+
+typedef struct zd_space_body {
+    double mass;                /* kg */
+    double inertia[3];          /* kg m^2, about its own axes through the mass centre */
+    int is_particle;            /* has no orientation */
+} zd_space_body;
+
+typedef struct zd_space_joint {
+    int kind;                   /* row of the table of joints in space */
+    int first, second;          /* bodies */
+    double point1[3], point2[3];
+    double frame1[3][3], frame2[3][3];  /* the directions of the joint's frame in the axes of each body; they coincide where it says zero */
+    double along;               /* m: what the distance along the axis is where the joint says zero */
+    double length;              /* m: of a rod; of a screw m for each rad */
+} zd_space_joint;
+
+typedef struct zd_space_gauge {
+    int kind;                   /* enum zd_space_gauge_kind */
+    int first, second;          /* bodies */
+    double point1[3], point2[3];
+    double a[3], o[3], b[3];    /* of length 1, in the axes of their body: see enum zd_space_gauge_kind */
+    double zero;                /* m or rad: taken from the reading */
+} zd_space_gauge;
+
+typedef struct zd_space_tables {
+    double gravity[3];          /* m/s^2 */
+    int bodies, joints, gauges, terms, relations, efforts, measures;
+    const zd_space_body *body;  /* (bodies,) from number 1 on */
+    const zd_space_joint *joint;
+    const zd_space_gauge *gauge;
+    const zd_gauge_term *term;
+    const zd_relation *relation;
+    const double *period;       /* (relations,) what makes no difference to a row, as a full turn does to an angle; 0: nothing */
+    const zd_effort *effort;
+    const zd_observed *measure;
+    zd_law *law;                /* NULL: there is none */
+    void *owner;                /* what it is called with */
+    int laws_know_time;         /* whether a law depends on t but through positions and velocities */
+} zd_space_tables;
+
+typedef struct zd_space zd_space;
+
+/* All memory is taken here, and the tables are copied but for names, which have to stay. On failure returns NULL and says why. */
+zd_space *zd_space_create(const zd_space_tables *tables, char *message, int message_size);
+void zd_space_free(zd_space *space);
+/* The system; it refers to the mechanism. */
+const zd_system *zd_space_system(const zd_space *space);
+const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
+/* The gauge that reads a coordinate of a joint, which its kind has to have. */
+zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate);
+/* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own. */
+int zd_space_data_size(void);
+void zd_space_with(const zd_space *space, void *owner, void *data);
+
+#endif

@@ -1,0 +1,236 @@
+"""Mechanisms in space: the core's table of joints in space, and the system it makes from tables of numbers."""
+
+from __future__ import annotations
+
+import copy
+import functools
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .._rotations import product, turn, turn_between
+from .base import MESSAGE_SIZE, Card, card_of, text
+from .law_owner import Law, LawOwner
+from .mechanisms import Coordinate, Effort, Observed, Relation, Row, law_sizes, rows_of, written_rows
+from .systems import CoreSystem
+
+GAUGES = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
+          "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
+          "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
+NAMES = {value: name for name, value in GAUGES.items()}
+BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
+
+Vector = tuple[float, float, float]
+Frame = tuple[Vector, Vector, Vector]
+NONE: Vector = (0.0, 0.0, 0.0)
+AS_DRAWN: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class JointKind(NamedTuple):
+    """A kind of joint in space; see `zd_space_joint_kind`. Each row is the gauge that is held, with which directions of the
+    frames of both bodies it is read.
+    """
+
+    number: int
+    card: Card
+    rows: tuple[tuple[str, int, int], ...]
+    coordinates: tuple[tuple[str, str], ...]    # by name, with the kind of the gauge
+    axes: int
+    takes_length: bool
+    tension: str | None
+
+
+class Body(NamedTuple):
+    """A row of `zd_space_body`; bodies have the numbers from 1 on, 0 is the ground."""
+
+    mass: float
+    inertia: Vector = NONE      # about its principal axes, which are those of the core
+    is_particle: bool = False
+
+
+class Joint(NamedTuple):
+    """A row of `zd_space_joint`. Points are in the axes of their body and from its mass centre; so are the rows of the frames."""
+
+    kind: int                   # JointKind.number
+    first: int
+    second: int
+    point1: Vector = NONE
+    point2: Vector = NONE
+    frame1: Frame = AS_DRAWN
+    frame2: Frame = AS_DRAWN
+    along: float = 0.0          # what the distance along the axis is where the joint says zero
+    length: float = 0.0         # of a rod; of a screw m for each rad
+
+
+class Gauge(NamedTuple):
+    """A row of `zd_space_gauge`; `kind` is a key of GAUGES."""
+
+    kind: str
+    first: int
+    second: int
+    point1: Vector = NONE
+    point2: Vector = NONE
+    a: Vector = AS_DRAWN[0]     # directions of the first body, and one of the second
+    o: Vector = AS_DRAWN[1]
+    b: Vector = AS_DRAWN[0]
+    zero: float = 0.0
+
+
+class Tables(NamedTuple):
+    """All that the core is told of a mechanism in space."""
+
+    bodies: Sequence[Body]
+    joints: Sequence[Joint] = ()
+    gauges: Sequence[Gauge] = ()
+    relations: Sequence[Relation] = ()
+    periods: Sequence[float] = ()       # of the relations: what makes no difference to one; 0: nothing
+    efforts: Sequence[Effort] = ()
+    measures: Sequence[Observed] = ()
+    gravity: Vector = NONE
+
+
+def _joint_kind(number: int) -> JointKind:
+    c = lib.zd_space_joint_kind_of(number)
+    rows = tuple((NAMES[row.pick.gauge], row.pick.of_first, row.pick.of_second) for row in (c.row[i] for i in range(c.rows)))
+    coordinates = tuple((text(each.name), NAMES[each.pick.gauge]) for each in c.coordinate if each.name)
+    tension = text(c.tension) if c.tension else None
+    return JointKind(number, card_of(c.card), rows, coordinates, c.axes, bool(c.takes_length), tension)
+
+
+def joint_kinds() -> dict[str, JointKind]:
+    """The core's table of joints in space by name."""
+    return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_space_joint_kinds()))}
+
+
+def coordinate_gauge(joint: Joint, coordinate: int) -> Gauge:
+    """The gauge that reads a coordinate of a joint."""
+    c = lib.zd_space_coordinate_gauge(ffi.new("zd_space_joint *", joint), coordinate)
+    return Gauge(NAMES[c.kind], c.first, c.second, *(tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b)), c.zero)
+
+
+class SpaceCore(CoreSystem):
+    """The core's system of a mechanism in space, in absolute coordinates.
+
+    Parameters
+    ----------
+    tables : Tables
+    law : callable, optional
+        As of `MechanismCore`.
+    laws_know_time : bool
+        Whether a law depends on t but through positions and velocities.
+
+    Attributes
+    ----------
+    measures : tuple of Observed
+
+    Raises
+    ------
+    ValueError
+        If the tables contradict themselves; the sentence says where.
+    """
+
+    def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
+        self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
+        self._owner: LawOwner | None = None
+        self._written = _write(tables)
+        self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
+        super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
+        self.measures = tuple(tables.measures)
+        sizes = np.array([PARTICLE if body.is_particle else BODY for body in tables.bodies])
+        self._at_p, self._at_v = (np.concatenate([[0], np.cumsum(column)[:-1]]) for column in sizes.T)
+        self._turning = np.array([not body.is_particle for body in tables.bodies])
+
+    @functools.cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """What each row of C is, holonomic ones first."""
+        return rows_of(lib.zd_space_rows(self._mechanism), self.m)
+
+    @functools.cached_property
+    def motions(self) -> tuple[Coordinate, ...]:
+        """What each entry of v is the rate of: a place, or an angle about an axis of a body."""
+        return tuple(Coordinate(i, kind) for i, turns in enumerate(self._turning, 1)
+                     for kind in ("x", "y", "z", *(("angle",) * 3 if turns else ()))[:6])
+
+    def for_run(self) -> SpaceCore:
+        """The same system; with laws, one that keeps what they raise for itself."""
+        if self._law is None:
+            return self
+        owner = LawOwner(self._law, law_sizes(self.tables))
+        handle, data = ffi.new_handle(owner), ffi.new("char[]", lib.zd_space_data_size())
+        lib.zd_space_with(self._mechanism, handle, data)
+        mine = copy.copy(self)
+        mine.c = ffi.new("zd_system *", self.c[0])
+        mine.c.data, mine._data, mine._owner = data, (*self._data, handle, data), owner
+        return mine
+
+    @property
+    def error(self) -> BaseException | None:
+        """What a law raised."""
+        return self._owner.error if self._owner else None
+
+    # ---- between the state and bodies ----
+
+    def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
+        """Poses (bodies, 7) of the mass centres, place and unit quaternion, and their rates (bodies, 6) where v is given."""
+        poses = np.zeros((len(self._at_p), 7))
+        poses[:, :3] = np.asarray(p)[self._at_p[:, None] + np.arange(3)]
+        poses[:, 3] = 1.0
+        poses[self._turning, 3:] = np.asarray(p)[self._at_p[self._turning, None] + np.arange(3, 7)]
+        return poses, None if v is None else self._rates(np.asarray(v))
+
+    def _rates(self, v: np.ndarray) -> np.ndarray:
+        rates = np.zeros((len(self._at_v), 6))
+        rates[:, :3] = v[self._at_v[:, None] + np.arange(3)]
+        rates[self._turning, 3:] = v[self._at_v[self._turning, None] + np.arange(3, 6)]
+        return rates
+
+    @property
+    def origin(self) -> np.ndarray:
+        """Positions (nq,) in which all bodies are at the drawing's origin, with its axes."""
+        return self.state(np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(self._at_p), 1)))[0]
+
+    def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions (nq,) after a step (nv,): places go on, and bodies turn about an axis of their own."""
+        poses, rates = self.poses(p)[0], self._rates(step)
+        turned = product(poses[:, 3:], turn(rates[:, 3:]))
+        turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+        return self.state(np.hstack([poses[:, :3] + rates[:, :3], turned]))[0]
+
+    def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """The step (nv,) that leads to p from other positions, by the shorter turn of each body."""
+        to, start = self.poses(p)[0], self.poses(other)[0]
+        rates = np.hstack([to[:, :3] - start[:, :3], turn_between(start[:, 3:], to[:, 3:])])
+        return self.state(start, rates)[1]
+
+    def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(p, v) of such poses and rates."""
+        p = np.concatenate([pose if turns else pose[:3] for pose, turns in zip(poses, self._turning, strict=True)])
+        if rates is None:
+            return p, np.zeros(self.nv)
+        return p, np.concatenate([rate if turns else rate[:3] for rate, turns in zip(rates, self._turning, strict=True)])
+
+
+def _write(tables: Tables) -> dict[str, Any]:
+    """All tables but that of the bodies as arrays of C, by their names in `zd_space_tables`."""
+    return {
+        **written_rows(tables), "joint": ffi.new("zd_space_joint[]", list(tables.joints)),
+        "gauge": ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),
+        "period": ffi.new("double[]", list(tables.periods) or [0.0] * len(tables.relations))}
+
+
+def _create(tables: Tables, written: dict[str, Any], has_laws: bool, laws_know_time: bool) -> Any:
+    """The core's mechanism. The words of `written` have to live as long."""
+    bodies = ffi.new("zd_space_body[]", list(tables.bodies))
+    arrays = {"body": bodies, **{name: array for name, array in written.items() if name != "words"}}
+    counts = {f"{name}s" if name != "body" else "bodies": len(arrays[name])
+              for name in ("body", "joint", "gauge", "term", "relation", "effort", "measure")}
+    c = ffi.new("zd_space_tables *", {
+        "gravity": tables.gravity, **counts, **arrays,
+        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time})
+    message = ffi.new("char[]", MESSAGE_SIZE)
+    mechanism = lib.zd_space_create(c, message, MESSAGE_SIZE)
+    if not mechanism:
+        raise ValueError(text(message))
+    return ffi.gc(mechanism, lib.zd_space_free)

@@ -1,0 +1,253 @@
+"""The verbs of a mechanism that make joints of space, and what its other verbs share with them there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .bodies import Body, Point
+from .elements import Elements
+from .space import perpendicular
+from .space_joints import BY_KIND, SpaceJoint, has_torque
+
+Side = Body | Point | str
+RIGHT_ANGLE = 1e-9      # of the cosine
+
+
+class SpaceJointVerbs(Elements):
+    """Joints that there are in space alone. Their axes are directions in the drawing."""
+
+    def spherical(self, name: str, first: Side, second: Side, *, at: Any = None) -> SpaceJoint:
+        """Join two bodies by a ball.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `revolute`; one of them may be a particle.
+        at : array_like (3,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and in the plane, where `revolute` is meant.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", dimension=3, gravity=(0, 0, -9.81))
+        >>> link = m.link("link", (0, 0, 0), (1, 0, 0), mass=1.0)
+        >>> m.spherical("A", m.ground, link.start).force
+        VectorMeasure3('A.force')
+        """
+        self._in_space("spherical", "revolute")
+        return self._join("spherical", name, first, second, at)
+
+    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[Any, Any], at: Any = None) -> SpaceJoint:
+        """Join two bodies by a cross, as Hooke's or Cardan's joint does.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `revolute`.
+        axes : tuple of array_like (3,)
+            The arm of the cross that belongs to the first body, and that which belongs to the second: perpendicular.
+        at : array_like (3,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        SpaceJoint
+            ``angle1`` is how far the cross has turned about the first arm, ``angle2`` how far the second body has about the
+            other, in (-pi, pi].
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and if the axes are not perpendicular in the drawing, or in the plane.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("shafts", dimension=3)
+        >>> one = m.link("one", (0, 0, 0), (1, 0, 0), mass=1.0)
+        >>> other = m.link("other", (1, 0, 0), (2, 0.5, 0), mass=1.0)
+        >>> m.universal("cross", one.end, other.start, axes=((0, 0, 1), (-0.5, 1, 0))).angle1
+        Measure('cross.angle1')
+        """
+        self._in_space("universal", "revolute")
+        if len(axes) != 2:
+            raise ValueError(f"axes of {name!r} must be two directions, one of the first body and one of the second")
+        first_axis, second_axis = (self._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(axes))
+        cosine = float(first_axis @ second_axis)
+        if abs(cosine) > RIGHT_ANGLE:
+            raise ValueError(f"axes of {name!r} must be perpendicular in the drawing, and are "
+                             f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
+        return self._join("universal", name, first, second, at, first_axis, second_axis)
+
+    def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None) -> SpaceJoint:
+        """Join two bodies by an axis about which and along which one moves on the other.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `prismatic`.
+        axis : array_like (3,)
+            Its direction in the drawing.
+        at : array_like (3,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        SpaceJoint
+            With ``angle``, ``displacement`` and their rates, ``angle_speed`` and ``displacement_speed``.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `prismatic`; and in the plane.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bolt", dimension=3)
+        >>> bolt = m.body("bolt", 1.0, (0.1, 0.2, 0.2))
+        >>> m.cylindrical("hole", m.ground, bolt, axis=(1, 0, 0)).displacement
+        Measure('hole.displacement')
+        """
+        self._in_space("cylindrical", "prismatic")
+        return self._join("cylindrical", name, first, second, self._at_origin(at, first, second),
+                          self._direction(f"axis of {name!r}", axis))
+
+    def screw(self, name: str, first: Side, second: Side, *, axis: Any, pitch: float, at: Any = None) -> SpaceJoint:
+        """Join two bodies by a screw.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `prismatic`.
+        axis : array_like (3,)
+            Its direction in the drawing.
+        pitch : float
+            How far the second body advances along the axis for each turn about it, in m; positive of a right-handed screw.
+        at : array_like (3,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        SpaceJoint
+            With ``angle``, ``displacement`` and their rates, ``angle_speed`` and ``displacement_speed``.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `prismatic`; for a pitch of zero; and in the plane.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bolt", dimension=3)
+        >>> bolt = m.body("bolt", 1.0, (0.1, 0.2, 0.2))
+        >>> m.screw("thread", m.ground, bolt, axis=(1, 0, 0), pitch=0.002)
+        <screw thread: ground - bolt>
+        """
+        self._in_space("screw", "prismatic")
+        pitch = _check.number(f"pitch of {name!r}", pitch)
+        if not pitch:
+            raise ValueError(f"pitch of {name!r} must not be 0: take revolute")
+        return self._join("screw", name, first, second, self._at_origin(at, first, second),
+                          self._direction(f"axis of {name!r}", axis), length=pitch)
+
+    def planar(self, name: str, first: Side, second: Side, *, normal: Any, at: Any = None) -> SpaceJoint:
+        """Let one body slide on a plane of another, and turn about its normal.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `prismatic`.
+        normal : array_like (3,)
+            Of the plane, in the drawing.
+        at : array_like (3,)
+            Where the joint is in the drawing, in m.
+
+        Returns
+        -------
+        SpaceJoint
+            With ``angle``, that about the normal.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `prismatic`; and in the plane.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("puck", dimension=3)
+        >>> puck = m.body("puck", 1.0, (0.1, 0.1, 0.2))
+        >>> m.planar("ice", m.ground, puck, normal=(0, 0, 1)).angle
+        Measure('ice.angle')
+        """
+        self._in_space("planar", "a free body")
+        return self._join("planar", name, first, second, self._at_origin(at, first, second),
+                          self._direction(f"normal of {name!r}", normal))
+
+    # ---- what all share ----
+
+    def _in_space(self, verb: str, instead: str) -> None:
+        if self.dimension == 2:
+            raise ValueError(f"{verb} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
+
+    def _one_axis(self, name: str, axis: Any) -> Any:
+        """The axis of a joint of which the plane's has none."""
+        if self.dimension == 2 and axis is not None:
+            raise ValueError(f"axis of {name!r} is for mechanisms in space: in the plane bodies turn about its normal")
+        if self.dimension == 3 and axis is None:
+            raise TypeError(f"{name!r} needs axis=, the direction in the drawing about which it turns")
+        return None if axis is None else self._direction(f"axis of {name!r}", axis)
+
+    def _at_origin(self, at: Any, first: Any, second: Any) -> Any:
+        """Of two bodies without a place, the second's origin is meant."""
+        first, second = self._named("first", first), self._named("second", second)
+        if at is None and all(isinstance(side, Body) and side.turns for side in (first, second)):
+            return second.pose.origin
+        return at
+
+    def _join(self, kind: str, name: str, first: Side, second: Side, at: Any, axis: Any = None, normal: Any = None, *,
+              length: float | None = None, damping: Any = 0.0) -> SpaceJoint:
+        """A joint of space between two sides, with the frame that its axis and normal in the drawing make."""
+        name = self._new_name(name, "joint")
+        return self._fasten(kind, name, *self._sides(name, first, second, at), axis, normal, length=length, damping=damping)
+
+    def _fasten(self, kind: str, name: str, first: Point, second: Point, axis: Any = None, normal: Any = None, *,
+                length: float | None = None, damping: Any = 0.0) -> SpaceJoint:
+        """The same between two points."""
+        joint = BY_KIND[kind]
+        if has_torque(joint.row):
+            self._turning(name, kind, first.body, second.body)
+        elif joint.row.axes:
+            self._turning(name, "the axis of", first.body)
+        frame = np.eye(3) if axis is None else _frame(axis, normal)
+        frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
+        damping = _check.number(f"damping of {name!r}", damping, least=0)
+        made = joint(name, first, second, frames=frames, length=length, damping=damping)
+        if kind == "rod":
+            _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
+        return self._add(made)
+
+
+def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
+    """The rows axis, normal and third direction (3, 3), right-handed."""
+    normal = perpendicular(axis, normal)
+    return np.stack([axis, normal, np.cross(axis, normal)])

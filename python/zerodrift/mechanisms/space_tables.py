@@ -1,0 +1,169 @@
+"""From a drawing in space to the tables of numbers that the core makes a system from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from .._gateway import Variable, space
+from .._gateway import mechanisms as rows
+from .._gateway.space import AS_DRAWN, Gauge, SpaceCore
+from .._rotations import AXES, quaternion_of
+from .bodies import Body, Particle, Point
+from .drawing import Drawing
+from .forces import Actuator, Force, Spring, Torque
+from .numbers import Numbers
+from .space import triple
+from .space_bodies import SpaceInertias
+from .space_joints import SpaceJoint
+from .tables import Tables
+
+QUATERNION = ("e0", "e1", "e2", "e3")
+TURN = 2 * np.pi
+MOST_TEETH = 10000      # of a gear's ratio as a fraction: what counts as one
+SAME = 1e-12
+
+
+class SpaceTables(Tables):
+    """The tables of a mechanism in space: those of the plane, with gauges, joints and bodies of space."""
+
+    joints: list[SpaceJoint]    # type: ignore[assignment]
+    inertias: SpaceInertias     # type: ignore[assignment]
+    gauges: list[Gauge]         # type: ignore[assignment]
+
+    def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
+                 starts: Mapping[str, float] | None = None) -> None:
+        self.periods: list[float] = []
+        super().__init__(drawing, numbers, in_tree=False, starts=starts)
+
+    def _masses(self) -> Any:
+        return SpaceInertias(self.drawing, self.numbers)
+
+    def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[rows.Observed] = ()) -> SpaceCore:     # type: ignore[override]
+        """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
+        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns)
+                  for body in self.parts for mass in [self.inertias.of[body.name]]]
+        tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.periods,
+                              self.efforts, observed, self._gravity())
+        return SpaceCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+
+    def absolute(self) -> SpaceTables:
+        """These."""
+        return self
+
+    def drawn(self) -> np.ndarray:
+        """Poses (bodies, 7) of the mass centres as drawn, with the principal axes."""
+        poses = []
+        for body in self.parts:
+            known = self.inertias.of[body.name]
+            poses.append([*body.pose.point(known.com), *quaternion_of(body.pose.rotation @ known.axes)])
+        return np.array(poses, dtype=float).reshape(-1, 7)
+
+    def coordinates(self) -> tuple[Variable, ...]:
+        """The entries of p: places of mass centres, and the quaternions that turn principal axes into the drawing's."""
+        return tuple(Variable(f"{body.name}.{word}", unit) for body in self.parts
+                     for words, unit in ((AXES, "m"), (QUATERNION if body.turns else (), "")) for word in words)
+
+    def velocities(self) -> tuple[Variable, ...]:
+        """The entries of v: velocities of mass centres, and angular velocities about the body's own principal axes."""
+        return tuple(Variable(f"{body.name}.{word}{end}", unit) for body in self.parts
+                     for words, end, unit in ((AXES, "_dot", "m/s"), (AXES if body.turns else (), "_spin", "rad/s"))
+                     for word in words)
+
+    # ---- joints ----
+
+    def _place(self, point: Point) -> tuple[int, Any]:
+        return self.number[point.body.name], triple(self.inertias.local(point, self.numbers))
+
+    def _direction(self, body: Body, local: np.ndarray) -> Any:
+        return triple(self.inertias.direction(body, local))
+
+    def _joint(self, joint: SpaceJoint) -> space.Joint:     # type: ignore[override]
+        """A row of the table of joints."""
+        (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
+        frames = (tuple(self._direction(body, row) for row in frame)
+                  for body, frame in zip(joint.bodies, joint.frames, strict=True))
+        along = joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
+        return space.Joint(joint.row.number, first, second, point1, point2, *frames, along, joint.length_with(self.numbers))
+
+    # ---- gauges ----
+
+    def _reading_of(self, name: str) -> Gauge:     # type: ignore[override]
+        owner, _, quantity = name.rpartition(".")
+        if quantity in AXES:
+            owner, _, vector = owner.rpartition(".")
+            element, _, end = owner.partition(".")
+            of = self.drawing.elements[element]
+            of = of.second if isinstance(of, SpaceJoint) else getattr(of, end) if end else of
+            found = self.place_gauges(of) if vector == "position" else self.spin_gauges(of)
+            return found[AXES.index(quantity)]
+        of = self.drawing.elements[owner]
+        return self.coordinate_gauge_of(of, quantity) if isinstance(of, SpaceJoint) else self.length_gauge(of)
+
+    def place_gauges(self, of: Body | Point) -> tuple[Gauge, ...]:     # type: ignore[override]
+        """What reads x, y and z of a point, or of the origin of a body's frame."""
+        if isinstance(of, Body):
+            of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
+        body, local = self._place(of)
+        return tuple(Gauge(axis, 0, body, point2=local) for axis in AXES)
+
+    def spin_gauges(self, body: Body) -> tuple[Gauge, ...]:
+        """What reads the angular velocity of a body, in the drawing's axes."""
+        return tuple(Gauge("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
+
+    def rotation_gauges(self, body: Body) -> tuple[Gauge, ...]:
+        """What reads the rotation of a body, row by row: the cosines of its axes to those of the drawing."""
+        own = [self._direction(body, axis) for axis in np.eye(3)]
+        return tuple(Gauge("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
+
+    def coordinate_gauge_of(self, joint: SpaceJoint, coordinate: str) -> Gauge:
+        """What reads a coordinate of a joint."""
+        return space.coordinate_gauge(self.joint_rows[self.joint_number[joint.name]], joint.coordinates.index(coordinate))
+
+    def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
+        """What reads the length of a spring or an actuator."""
+        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        return Gauge("distance", first, second, point1, point2)
+
+    # ---- drives and couplings ----
+
+    def _relation(self, name: str, relation: rows.Relation) -> None:
+        """Adds a row. A full turn of an angle makes no difference to a drive, or to a gear, whose ratio says what does not."""
+        super()._relation(name, relation)
+        self.periods.append(self._period(name, relation))
+
+    def _period(self, name: str, relation: rows.Relation) -> float:
+        turning = [i for i, gauge in enumerate(relation.gauges) if self.gauges[gauge].kind == "angle"]
+        if not turning:
+            return 0.0
+        if relation.joint >= 0:
+            return TURN
+        if len(turning) == 1 and relation.law < 0:
+            return TURN * abs(relation.coefficients[turning[0]])
+        ratio = abs(relation.coefficients[0]) if relation.law < 0 else np.nan
+        teeth = Fraction(ratio).limit_denominator(MOST_TEETH) if np.isfinite(ratio) else None
+        if teeth is None or abs(float(teeth) - ratio) > SAME * ratio:
+            raise ValueError(f"{name!r} couples angles of joints, which in space count no turns: a gear's ratio must be that "
+                             f"of two whole numbers up to {MOST_TEETH}, and laws cannot depend on angles")
+        return TURN / teeth.denominator
+
+    # ---- forces ----
+
+    def _force(self, force: Force) -> None:
+        body, local = self._place(force.point)
+        along = self._direction(force.frame, force.along)
+        gauge = self._gauge(force.name, Gauge("glide", self.number[force.frame.name], body, point2=local, a=along))
+        self._effort(force.name, "value", gauge, force)
+        self._observe_effort(force)
+
+    def _torque(self, torque: Torque) -> None:
+        """About an axis that turns with a frame on which nothing acts, or with the body on which the opposite acts."""
+        turns_with = torque.frame if torque.against is self.drawing.ground else torque.against
+        kind = "spin" if torque.against is self.drawing.ground else "turn"
+        axis = self._direction(turns_with, torque.axis)
+        gauge = self._gauge(torque.name, Gauge(kind, self.number[turns_with.name], self.number[torque.body.name], a=axis))
+        self._effort(torque.name, "value", gauge, torque)
+        self._observe_effort(torque)

@@ -1,0 +1,157 @@
+"""What there is not in space, and what cannot be: sentences that name the element and say what is allowed."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from zerodrift.mechanisms.space import about
+
+
+def drawing():
+    m = zd.Mechanism("m", dimension=3, gravity=(0, 0, -9.81))
+    link = m.link("link", (0, 0, 0), (1, 0, 0), 1.0)
+    wheel = m.body("wheel", 1.0, (0.1, 0.1, 0.2), at=(2, 0, 0))
+    bead = m.particle("bead", 0.1, at=(0, 1, 0))
+    return m, link, wheel, bead
+
+
+@pytest.mark.parametrize(("add", "error", "message"), [
+    (lambda m, *_: m.body("b", 1.0, (1, 1, 3)), ValueError, "inertia of 'b' is that of no body: its largest moment, 3 kg m"),
+    (lambda m, *_: m.body("b", 1.0, [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]), ValueError, r"symmetric, and \[0, 1\] is 0.5 where"),
+    (lambda m, *_: m.body("b", 1.0, [[1, 2, 0], [2, 1, 0], [0, 0, 2]]), ValueError, "must have no negative moment"),
+    (lambda m, *_: m.body("b", 1.0, 0.3), ValueError, r"inertia of 'b' must be a tensor \(3, 3\) or its diagonal"),
+    (lambda m, *_: m.body("b", 1.0, angle=0.3), ValueError, "angle of 'b' is for the plane: in space take rotation="),
+    (lambda m, *_: m.body("b", 1.0, rotation=np.diag([1, 1, -1.0])), ValueError, "rotation of 'b' must be a rotation"),
+    (lambda m, *_: m.body("b", 1.0, rotation=(1, 1, 0, 0)), ValueError, r"of length 1, and .* has length 1\.41"),
+    (lambda m, *_: m.body("b", 1.0, rotation=(1, 0)), ValueError, r"must be a \(3, 3\) matrix or a quaternion"),
+    (lambda m, *_: m.body("b", 1.0, at=(1, 0)), ValueError, "at of 'b'"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 0, 0)), ValueError, "start and end of 'l' must be two places"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), normal=(0, 1, 0)), ValueError, "normal of 'l' must not be parallel"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), thickness=0), ValueError, "thickness of 'l'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start), TypeError, "'A' needs axis=, the direction in the drawing"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 0, 0)), ValueError, "axis of 'A' must be a direction"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1)), ValueError, "axis of 'A'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1, 0), damping=-1), ValueError, "damping of 'A'"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 1, 1))), ValueError, "45 degrees"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1),)), ValueError, "must be two directions"),
+    (lambda m, link, *_: m.screw("A", m.ground, link.start, axis=(0, 0, 1), pitch=0), ValueError, "pitch of 'A' must not be 0"),
+    (lambda m, *_: m.rod("A", m.ground.point((0, 1, 0)), "bead"), ValueError, "length of 'A', as drawn"),
+    (lambda m, *_: m.revolute("A", m.ground, "bead", axis=(0, 0, 1)), ValueError, "'bead' is a particle"),
+    (lambda m, link, *_: m.slot("A", "bead", link.end, axis=(0, 0, 1)), ValueError, "'bead' is a particle"),
+    (lambda m, link, *_: m.spherical("A", link, link.end), ValueError, "'A' joins 'link' to itself"),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", radius=1.0), ValueError, "rolling is there for mechanisms in the plane"),
+    (lambda m, *_: m.knife_edge("A", "wheel", along=(1, 0, 0)), ValueError, "knife_edge is there for mechanisms in the plane"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0)), ValueError, "bushing is there for mechanisms in the plane"),
+    (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), ValueError, "torsion_spring is there for mechanisms in the plane"),
+    (lambda m, *_: m.torque("A", "wheel", value=1.0), TypeError, "torque 'A' needs axis="),
+    (lambda m, *_: m.torque("A", "wheel", value=1.0, axis=(1, 0, 0), against="link", frame="link"), ValueError, "frame out"),
+    (lambda m, *_: m.save("x"), ValueError, r"save\(\) is there for mechanisms in the plane"),
+    (lambda m, *_: m.system("joint"), ValueError, "'m' is in space, where there are absolute coordinates"),
+    (lambda m, *_: m.system(compiled=True), ValueError, "'m' is in space, where there are absolute coordinates"),
+    (lambda m, link, *_: link.angle, AttributeError, "'link' is a body in space, which has a rotation and no angle"),
+    (lambda m, link, *_: link.rotation.euler("zzx"), ValueError, "order must name three axes"),
+    (lambda m, *_: m.start({"link.angle": 1.0}), ValueError, "of 'link' these can be given: link.angular_velocity"),
+    (lambda m, *_: m.start({"link.angular_velocity": (1.0, 2.0)}), ValueError, "angular_velocity"),
+])
+def test_what_there_is_not(add, error, message):
+    m, *rest = drawing()
+    with pytest.raises(error, match=message):
+        add(m, *rest)
+
+
+@pytest.mark.parametrize(("add", "message"), [
+    (lambda m, link: m.spherical("A", m.ground, link.start), "spherical is a joint of space"),
+    (lambda m, link: m.universal("A", m.ground, link.start, axes=((1, 0), (0, 1))), "universal is a joint of space"),
+    (lambda m, link: m.cylindrical("A", m.ground, link.start, axis=(1, 0)), "cylindrical is a joint of space"),
+    (lambda m, link: m.screw("A", m.ground, link.start, axis=(1, 0), pitch=1), "screw is a joint of space"),
+    (lambda m, link: m.planar("A", m.ground, link.start, normal=(1, 0)), "planar is a joint of space"),
+    (lambda m, link: m.revolute("A", m.ground, link.start, axis=(1, 0)), "axis of 'A' is for mechanisms in space"),
+    (lambda m, link: m.body("b", 1.0, rotation=np.eye(3)), "rotation of 'b' is for mechanisms in space"),
+    (lambda m, link: m.link("l", (0, 0), (1, 0), thickness=0.1), "thickness and normal of 'l' are for mechanisms in space"),
+    (lambda m, link: m.torque("t", link, value=1.0, axis=(1, 0)), "axis and frame of 't' are for mechanisms in space"),
+])
+def test_what_there_is_in_space_alone(add, message):
+    m = zd.Mechanism("m")
+    link = m.link("link", (0, 0), (1, 0), 1.0)
+    with pytest.raises(ValueError, match=message):
+        add(m, link)
+
+
+@pytest.mark.parametrize("dimension", [1, 4, True, "3", None])
+def test_a_dimension_that_there_is_not(dimension):
+    with pytest.raises(ValueError, match="dimension must be 2, the plane, or 3, space"):
+        zd.Mechanism("m", dimension=dimension)
+
+
+def joined(axis=(0, 0, 1)):
+    m, link, wheel, _ = drawing()
+    m.revolute("A", m.ground, link.start, axis=axis)
+    m.cylindrical("B", m.ground, wheel, axis=(0, 0, 1))
+    return m
+
+
+def test_motors_say_which_coordinate():
+    m = joined()
+    with pytest.raises(ValueError, match="'B' has angle and displacement: motor 'drive' must say which, not speed"):
+        m.motor("drive", "B", speed=1.0)
+    m.motor("turn", "B", angle=lambda t: t)
+    m.motor("push", "B", displacement=lambda t: t**2)
+    with pytest.raises(ValueError, match="both prescribe 'B'"):
+        m.motor("again", "B", angle=1.0)
+    m.spherical("C", "link", "bead")
+    with pytest.raises(ValueError, match="must be a joint with angle or displacement"):
+        m.motor("ball", "C", speed=1.0)
+
+
+def test_angles_that_count_no_turns_are_refused_where_they_would_have_to():
+    m = joined()
+    m.gear("teeth", "A", "B", ratio=np.sqrt(2))
+    with pytest.raises(ValueError, match="'teeth' couples angles of joints, which in space count no turns"):
+        m.system()
+    m = joined()
+    m.coupler("law", lambda a: a**2 - 1, of={"a": "A.angle"})
+    with pytest.raises(ValueError, match="laws cannot depend on angles"):
+        m.system()
+
+
+def test_a_loop_that_does_not_close_says_where():
+    m = zd.Mechanism("open", dimension=3)
+    one, two = m.link("one", (0, 0, 0), (1, 0, 0), 1.0), m.link("two", (1, 0, 0), (2, 0, 0), 1.0, length=0.4)
+    m.spherical("A", m.ground, one.start)
+    m.spherical("B", one.end, two.start)
+    m.spherical("C", two.end, m.ground.point((3, 0, 0)))
+    with pytest.raises(zd.CorrectionFailed, match=r"cannot all close: nearest to it there stay open '[ABC]' by 0\.\d+, "):
+        zd.simulate(m, 1.0, step=0.1)
+
+
+def test_a_drawing_may_be_rough():
+    """Lengths count: the loop is closed from a sketch that is some centimetres off."""
+    R = about((1, 1, 0), 0.4)
+    m = zd.Mechanism("sketch", dimension=3)
+    crank = m.link("crank", R @ (0, 0, 0), R @ (0, 0.3, 0), 1.0)
+    rod = m.link("rod", R @ (0.02, 0.33, 0.05), R @ (0.9, 0.1, 0.3), 1.0, length=1.0)
+    slider = m.body("slider", 1.0, (0.1, 0.1, 0.1), at=R @ (0.9, 0, 0.3))
+    m.revolute("A", m.ground, crank.start, axis=R @ (0, 0, 1))
+    m.spherical("B", crank.end, rod.start)
+    m.universal("C", rod.end, slider.point((0, 0, 0)), axes=(R @ (0, 0, 1), R @ (0, 1, 0)))
+    m.prismatic("D", m.ground, slider, axis=R @ (1, 0, 0))
+    m.start({"A.angle": 0.2})
+    system = m.system()
+    assert np.abs(system.evaluate().Phi).max() < 1e-12
+    sol = zd.simulate(system, 0.1, step=0.01)
+    assert abs(sol["A.angle"][0] - 0.2) < 1e-12
+    assert "freedom 1 (Gruebler 1)" in str(m)
+
+
+def test_a_body_without_inertia_is_named():
+    m = zd.Mechanism("m", dimension=3)
+    m.body("light", 1.0)
+    with pytest.raises(zd.SingularSystem, match="'light' can move without moving any mass"):
+        zd.simulate(m, 1.0, step=0.1)
+
+
+def test_start_and_motor_in_each_others_way():
+    m = joined()
+    m.motor("drive", "A", angle=lambda t: t)
+    with pytest.raises(ValueError, match=r"start holds 'A\.speed', which motor 'drive' prescribes"):
+        m.start({"A.speed": 1.0})

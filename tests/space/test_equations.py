@@ -1,0 +1,157 @@
+"""The terms of mechanisms in space: against differences along exact motions, and against an independent model of bodies."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from space_tables import KINDS, exactly_moved, random_frame, random_state, unit
+from support import assert_close
+from zerodrift._gateway.mechanisms import Effort, Observed, Relation
+from zerodrift._gateway.space import GAUGES, Body, Gauge, Joint, SpaceCore, Tables
+
+H = 1e-5            # s: of central differences, whose error is some H^2 and round-off over H
+NEAR = 3e-8         # that error, of terms of order one to ten
+SPEEDS = ("glide", "spin", "turn")
+
+
+def gauges(rng):
+    made = []
+    for kind in GAUGES:
+        a, o, _ = random_frame(rng)
+        made.append(Gauge(kind, 1, 2, tuple(rng.normal(size=3)), tuple(rng.normal(size=3)), a, o, unit(rng), 0.1))
+    return made
+
+
+def everything(rng):
+    """Three bodies with a joint of each kind between any two of them, relations, efforts, and each gauge as a measure."""
+    bodies = [Body(rng.uniform(1, 2), tuple(rng.uniform(1, 1.5, 3))) for _ in range(3)]
+    joints = [Joint(kind.number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), 0.3, 0.2)
+              for kind in KINDS.values() for ends in ((0, 1), (1, 2), (3, 2))]
+    place = {kind: i for i, kind in enumerate(GAUGES)}
+    efforts = [Effort("spring", place["distance"], 3.0, 0.2), Effort("spring", place["along"], 2.0),
+               *(Effort("constant", place[kind], value=value) for kind, value in zip(SPEEDS, (2.0, -1.5, 0.7), strict=True))]
+    relations = [Relation([place["angle"], place["along"]], [0.3, 1.0], 0.1, 0.2),
+                 Relation([place["turn"], place["glide"]], [1.0, 0.5], 0.3, nonholonomic=True)]
+    measures = [Observed(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(GAUGES)
+                for quantity in ("values", "rates")]
+    return SpaceCore(Tables(bodies, joints, gauges(rng), relations, (), efforts, measures, (0.3, -0.2, -9.81)))
+
+
+def derivative(function, core, p, v):
+    """By time, along a motion whose velocities do not change."""
+    return (function(exactly_moved(core, p, H * v)) - function(exactly_moved(core, p, -H * v))) / (2 * H)
+
+
+@pytest.fixture(params=range(3))
+def case(request):
+    rng = np.random.default_rng(request.param)
+    core = everything(rng)
+    return core, *random_state(core, rng)
+
+
+def test_rows_are_derivatives(case):
+    """Of what has a value: Phi. And xi is what C v changes by while v does not."""
+    core, p, v = case
+    terms = core.evaluate(0.3, p, v)
+    values = derivative(lambda p: core.evaluate(0.3, p, v)["Phi"], core, p, v)
+    assert_close((terms["C"] @ v)[: core.mh], values, NEAR)
+    assert_close(-terms["xi"], derivative(lambda p: core.evaluate(0.3, p, v)["C"] @ v, core, p, v), NEAR)
+
+
+def test_kinematics_are_those_of_quaternions(case):
+    core, p, v = case
+    pdot = core.evaluate(0.0, p, v)["A"] @ v
+    assert_close(pdot, derivative(lambda p: p, core, p, v), NEAR)
+
+
+def test_forces_do_the_work_that_energy_says(case):
+    core, p, v = case
+    terms = core.evaluate(0.0, p, v)
+    assert_close(terms["f"] @ v, terms["power"] - derivative(lambda p: core.evaluate(0.0, p, v)["V"], core, p, v), NEAR)
+    assert abs(terms["d"] @ v) < 1e-12      # gyroscopic forces do none
+
+
+def test_mass_and_bias_are_those_of_euler(case):
+    core, p, v = case
+    terms = core.evaluate(0.0, p, v)
+    momentum = (np.diag(terms["M"]) * v).reshape(-1, 6)
+    assert_close(terms["d"].reshape(-1, 6)[:, 3:], np.cross(v.reshape(-1, 6)[:, 3:], momentum[:, 3:]), 1e-14)
+    assert_close(np.diag(terms["M"]), np.concatenate([[body.mass] * 3 + list(body.inertia) for body in core.tables.bodies]), 0.0)
+
+
+@pytest.mark.parametrize("kind", GAUGES)
+def test_gauges(case, kind):
+    core, p, v = case
+    index = {measure.name: i for i, measure in enumerate(core.measures)}
+    value, rate = (core.measure_at(index[f"{kind} {quantity}"], 0.0, p, v) for quantity in ("values", "rates"))
+
+    def read(quantity):
+        return derivative(lambda p: core.measure_at(index[f"{kind} {quantity}"], 0.0, p, v)["value"], core, p, v)
+
+    assert_close(rate["value"], value["row"] @ v, 1e-13, scale=1.0)
+    assert_close(rate["bias"], read("rates"), NEAR, scale=1.0)
+    if kind not in SPEEDS:
+        assert_close(value["rate"], read("values"), NEAR, scale=1.0)
+
+
+def test_gauges_say_what_they_are(case):
+    """From poses alone, by other means."""
+    core, p, v = case
+    poses, _ = core.poses(p)
+    R = [Rotation.identity(), *(Rotation.from_quat(q, scalar_first=True) for q in poses[:, 3:])]
+    at = [np.zeros(3), *poses[:, :3]]
+    for i, gauge in enumerate(core.tables.gauges):
+        P = at[gauge.first] + R[gauge.first].apply(gauge.point1)
+        Q = at[gauge.second] + R[gauge.second].apply(gauge.point2)
+        a, o, b = R[gauge.first].apply(gauge.a), R[gauge.first].apply(gauge.o), R[gauge.second].apply(gauge.b)
+        expected = {"x": (Q - P)[0], "y": (Q - P)[1], "z": (Q - P)[2], "along": a @ (Q - P), "cosine": a @ b,
+                    "angle": np.arctan2(o @ b, a @ b), "distance": np.linalg.norm(Q - P)}.get(gauge.kind)
+        if expected is not None:
+            assert_close(core.measure_at(2 * i, 0.0, p, v)["value"][0] + gauge.zero, expected, 1e-13, scale=1.0)
+
+
+def test_particles_have_places_alone():
+    rod = Joint(KINDS["rod"].number, 0, 1, length=1.0)
+    ball = Joint(KINDS["spherical"].number, 2, 1, point1=(0.0, 0.0, 0.5))
+    core = SpaceCore(Tables([Body(2.0, is_particle=True), Body(1.0, (1.0, 1.0, 1.0))], [rod, ball], gravity=(0.0, 0.0, -1.0)))
+    assert (core.nq, core.nv, core.m, core.quaternions) == (10, 9, 4, (6,))
+    p = np.array([0.6, 0.0, -0.8, 0.6, 0.0, -1.3, 1.0, 0.0, 0.0, 0.0])
+    terms = core.evaluate(0.0, p, np.zeros(9))
+    assert_close(terms["Phi"], np.zeros(4), 1e-15, scale=1.0)
+    assert_close(terms["C"][0], np.array([0.6, 0.0, -0.8, *np.zeros(6)]), 1e-15)
+    assert_close(terms["f"], np.array([0.0, 0, -2, 0, 0, -1, 0, 0, 0]), 1e-15)
+
+
+@pytest.mark.parametrize(("change", "message"), [
+    ({"bodies": []}, "at least one body"),
+    ({"bodies": [Body(-1.0)]}, "body 1: its mass must not be negative, and is -1"),
+    ({"bodies": [Body(1.0, (1.0, -2.0, 1.0))]}, "body 1: its inertia must not be negative, and is -2"),
+    ({"bodies": [Body(1.0, (1.0, 2.0, 1.0), True)]}, "body 1: a particle has no inertia"),
+    ({"joints": [Joint(99, 0, 1)]}, "joint 0: there is no kind 99"),
+    ({"joints": [Joint(0, 0, 3)]}, "joint 0: it joins bodies 0 and 3, and the last one is 1"),
+    ({"joints": [Joint(0, 1, 1)]}, "joint 0: it joins body 1 to itself"),
+    ({"bodies": [Body(1.0, is_particle=True)], "joints": [Joint(KINDS["spherical"].number, 0, 1, point2=(1.0, 0, 0))]},
+     "joint 0: a particle has no points but its own"),
+    ({"gauges": [Gauge("x", 0, 2)]}, "gauge 0: it is read off bodies 0 and 2, and the last one is 1"),
+    ({"bodies": [Body(1.0, is_particle=True)], "gauges": [Gauge("x", 0, 1, point2=(1.0, 0, 0))]},
+     "gauge 0: a particle has no points"),
+    ({"relations": [Relation([0], [1.0])]}, "relation 0: its gauges, law or joint are not there"),
+    ({"gauges": [Gauge("x", 0, 1)], "relations": [Relation([0], [1.0], joint=4)]}, "relation 0: its gauges, law or joint"),
+    ({"gauges": [Gauge("x", 0, 1)], "relations": [Relation([0], law=0)]}, "relation 0: its gauges, law or joint"),
+    ({"gauges": [Gauge("x", 0, 0)], "relations": [Relation([0], [1.0])]}, "row 0: it is about the ground alone"),
+    ({"efforts": [Effort("constant", 1)]}, "effort 0: its kind, gauges, law or joint are not there"),
+    ({"measures": [Observed("wrong", "", "joint force", 0)]}, "measure wrong: what it is of is not there"),
+    ({"measures": [Observed("wrong", "", "effort force", 0)]}, "measure wrong: what it is of is not there"),
+    ({"measures": [Observed("wrong", "", "drive power", 0)]}, "measure wrong: what it is of is not there"),
+    ({"measures": [Observed("wrong", "", "effort", 0)]}, "measure wrong: what it is of is not there"),
+    ({"measures": [Observed("wrong", "", "values", 0)]}, "measure wrong: what it is of is not there"),
+])
+def test_tables_that_contradict_themselves(change, message):
+    with pytest.raises(ValueError, match=message):
+        SpaceCore(Tables(**{"bodies": [Body(1.0, (1.0, 1.0, 1.0))]} | change))
+
+
+def test_a_kind_of_gauge_that_there_is_not(monkeypatch):
+    monkeypatch.setitem(GAUGES, "none", 99)
+    with pytest.raises(ValueError, match="gauge 0: there is no kind 99"):
+        SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))], gauges=[Gauge("none", 0, 1)]))

@@ -1,0 +1,113 @@
+"""Each joint in space against what it is for: the motions that it leaves free, and no others."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from zerodrift._core import ffi, lib
+
+from space_tables import KINDS, random_frame
+from support import assert_close
+from zerodrift._gateway.mechanisms import Observed
+from zerodrift._gateway.space import Body, Joint, SpaceCore, Tables, coordinate_gauge
+
+PITCH = 0.4         # m for each turn
+LENGTH = 0.7        # m: of a rod
+AXIS, NORMAL = np.eye(3)[:2]
+
+
+def turned(axis, angle):
+    return Rotation.from_rotvec(np.asarray(axis) * angle)
+
+
+def still(*_):
+    return Rotation.identity()
+
+
+# By kind: how many numbers a motion has; from them the rotation and the way of the second body's frame in the first's, whose axes
+# are the joint's axis, normal and third direction; and what its coordinates are.
+MOTIONS = {
+    "revolute": (1, lambda x: (turned(AXIS, x[0]), np.zeros(3)), lambda x: {"angle": x[0]}),
+    "prismatic": (1, lambda x: (still(), x[0] * AXIS), lambda x: {"displacement": x[0]}),
+    "weld": (0, lambda x: (still(), np.zeros(3)), lambda x: {}),
+    "cylindrical": (2, lambda x: (turned(AXIS, x[0]), x[1] * AXIS), lambda x: {"angle": x[0], "displacement": x[1]}),
+    "screw": (1, lambda x: (turned(AXIS, x[0]), PITCH / (2 * np.pi) * x[0] * AXIS),
+              lambda x: {"angle": x[0], "displacement": PITCH / (2 * np.pi) * x[0]}),
+    "universal": (2, lambda x: (turned(AXIS, x[0]) * turned(NORMAL, x[1]), np.zeros(3)),
+                  lambda x: {"angle1": x[0], "angle2": x[1]}),
+    "spherical": (3, lambda x: (Rotation.from_rotvec(x), np.zeros(3)), lambda x: {}),
+    "planar": (3, lambda x: (turned(AXIS, x[0]), np.array([0.0, x[1], x[2]])), lambda x: {"angle": x[0]}),
+    "rod": (5, lambda x: (Rotation.from_rotvec(x[:3]), LENGTH * (turned([0, 0, 1], x[3]) * turned(NORMAL, x[4])).apply(AXIS)),
+            lambda x: {}),
+    "slot": (4, lambda x: (Rotation.from_rotvec(x[:3]), x[3] * AXIS), lambda x: {"displacement": x[3]}),
+}
+
+
+def test_all_are_here():
+    assert MOTIONS.keys() == KINDS.keys()
+
+
+def drawn(kind, rng, along=0.0):
+    """A joint between two bodies, anywhere on them."""
+    length = {"rod": LENGTH, "screw": PITCH / (2 * np.pi)}.get(kind, 0.0)
+    return Joint(KINDS[kind].number, 1, 2, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), along, length)
+
+
+def placed(core, joint, first, rotation, way):
+    """Positions in which the first body is somewhere, and the frames of the joint are so to each other."""
+    at, R = first
+    F1, F2 = (np.array(frame).T for frame in (joint.frame1, joint.frame2))
+    second = R * Rotation.from_matrix(F1) * rotation * Rotation.from_matrix(F2).inv()
+    point = at + R.apply(np.array(joint.point1) + F1 @ way)
+    poses = [[*at, *R.as_quat(scalar_first=True)], [*(point - second.apply(joint.point2)), *second.as_quat(scalar_first=True)]]
+    return core.state(np.array(poses))[0]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_leaves_its_motions_free_and_no_others(kind):
+    rng = np.random.default_rng(7)
+    count, motion, coordinates = MOTIONS[kind]
+    for _ in range(5):
+        joint = drawn(kind, rng)
+        names = [name for name, _ in KINDS[kind].coordinates]
+        read = [coordinate_gauge(joint, i) for i in range(len(names))]
+        core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint], read))
+        first = rng.normal(size=3), Rotation.random(random_state=rng)
+        for x in rng.uniform(-1.4, 1.4, size=(4, count)):
+            p = placed(core, joint, first, *motion(x))
+            terms = core.evaluate(0.0, p, np.zeros(core.nv))
+            assert_close(terms["Phi"], np.zeros(core.m), 1e-14, scale=5.0)
+            assert np.linalg.matrix_rank(terms["C"]) == core.m == 6 - count
+            measured = {name: measure(core.tables.gauges[i], core, p) for i, name in enumerate(names)}
+            assert measured == pytest.approx(coordinates(x), abs=1e-13)
+
+
+def measure(gauge, core, p):
+    """What a gauge reads, by a system that has it as a measure."""
+    reader = SpaceCore(core.tables._replace(gauges=[gauge], measures=[Observed("it", "", "values", 0)]))
+    return float(reader.measure_at(0, 0.0, p, np.zeros(core.nv))["value"][0])
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_its_zero_is_along_the_axis(kind):
+    """Where a joint counts a displacement, it is from where it was drawn."""
+    rng = np.random.default_rng(8)
+    joint = drawn(kind, rng, along=0.25)
+    core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))
+    count, motion, _ = MOTIONS[kind]
+    rotation, way = motion(rng.uniform(-1, 1, size=count))
+    shift = 0.25 * AXIS if kind in ("prismatic", "cylindrical", "screw", "slot") else np.zeros(3)
+    p = placed(core, joint, (rng.normal(size=3), Rotation.random(random_state=rng)), rotation, way + shift)
+    assert_close(core.evaluate(0.0, p, np.zeros(core.nv))["Phi"], np.zeros(core.m), 1e-14, scale=5.0)
+
+
+@pytest.mark.parametrize("turns", [0.9, 1.5, -3.3])
+def test_a_screw_goes_on_through_all_turns(turns):
+    rng = np.random.default_rng(9)
+    joint = drawn("screw", rng)
+    core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))
+    p = placed(core, joint, (rng.normal(size=3), Rotation.random(random_state=rng)), *MOTIONS["screw"][1]([2 * np.pi * turns]))
+    assert_close(core.evaluate(0.0, p, np.zeros(core.nv))["Phi"], np.zeros(5), 1e-14, scale=5.0)
+
+
+def test_there_are_no_other_rows():
+    assert lib.zd_space_joint_kind_of(-1) == lib.zd_space_joint_kind_of(lib.zd_space_joint_kinds()) == ffi.NULL
