@@ -19,7 +19,7 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
 from measuring import least, record
-from zerodrift.symbolics import compiling
+from zerodrift.symbolics import compilers, compiling
 from zerodrift.symbolics.blocks import Blocks
 from zerodrift.symbolics.definition import Definition
 from zerodrift.symbolics.derivation import Derivation
@@ -84,7 +84,7 @@ def costs(n, relative, rounds=3):
         times.append(time.perf_counter())
         source, _, _ = CWriter(blocks).source([], len(definition.values))
         times.append(time.perf_counter())
-        compiling._build(source, compiling.compiler())
+        compiling._build(source, compilers.find().line(compiling.SOURCE, compiling.PRODUCT, zd.get_include(), ["-O3"], []))
         times.append(time.perf_counter())
         best = [min(a, after - before) for a, before, after in zip(best, times, times[1:], strict=False)]
     return *best, sum(1 for terms in blocks.users if terms)

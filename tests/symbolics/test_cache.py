@@ -12,7 +12,7 @@ import sympy as sp
 import zerodrift as zd
 from caching import GIVEN, A, Q, elsewhere, made, said
 from zerodrift.symbolics import cache as kept
-from zerodrift.symbolics import compiling, define, direct, direct_emission
+from zerodrift.symbolics import compilers, compiling, define, direct, direct_emission
 
 # ---- what is kept ----
 
@@ -52,7 +52,8 @@ def test_a_changed_compiler_and_changed_flags_compile_anew(cache_folder, compile
     monkeypatch.setenv("CC", f"{compiler.script} -O1")
     made()
     assert compiler.calls == 4
-    monkeypatch.setattr(compiling, "FLAGS", (*compiling.FLAGS, "-g"))
+    line = compilers.Compiler.line
+    monkeypatch.setattr(compilers.Compiler, "line", lambda *arguments: [*line(*arguments), "-g"])
     made()
     assert compiler.calls == 5
     made()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import importlib
+import os
 import re
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -85,6 +87,9 @@ def check_version(version: Any, what: str, *, required: bool = False) -> None:
 
 # ---- libraries ----
 
+COPIES = "zerodrift-library-"
+OLD = 3600.0            # s, after which what was copied has been loaded
+
 _loaded: dict[str, ctypes.CDLL] = {}    # by digest
 
 
@@ -98,19 +103,24 @@ def load_library(path: str | Path) -> ctypes.CDLL:
     return load_data(_content(path), path)  # it may look for others beside it, or nothing be executed from where the copy is
 
 
-def load_data(data: bytes, otherwise: str | Path | None = None) -> ctypes.CDLL:
-    """A shared library that is these bytes, from a copy that nobody else can change; where that fails, from a path."""
+def load_data(data: bytes, otherwise: str | Path | None = None, *, copied: bool = True) -> ctypes.CDLL:
+    """A shared library that is these bytes, from a copy that nobody else can change; where that fails, from a path.
+
+    `copied` False: from the path at once, where it is known that nobody changes what is there.
+    """
     digest = fingerprint(data)
     if digest not in _loaded:
-        _loaded[digest] = _load_copy(data, otherwise)
+        _loaded[digest] = _load_copy(data, otherwise) if copied else ctypes.CDLL(str(otherwise))
     return _loaded[digest]
 
 
 def _load_copy(data: bytes, otherwise: str | Path | None) -> ctypes.CDLL:
     import tempfile  # slow to import
 
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        copy = Path(folder) / "library.so"
+    if os.name == "nt":
+        _remove_old_copies(Path(tempfile.gettempdir()))
+    with tempfile.TemporaryDirectory(prefix=COPIES, ignore_cleanup_errors=True) as folder:
+        copy = Path(folder) / ("library.dll" if os.name == "nt" else "library.so")
         try:
             copy.write_bytes(data)
             return ctypes.CDLL(str(copy))
@@ -118,6 +128,17 @@ def _load_copy(data: bytes, otherwise: str | Path | None) -> ctypes.CDLL:
             if otherwise is None:
                 raise
             return ctypes.CDLL(str(otherwise))
+
+
+def _remove_old_copies(temporary: Path) -> None:
+    """Removes copies that their processes, which have ended, could not: Windows keeps what is loaded."""
+    import shutil
+    import time
+
+    for folder in temporary.glob(f"{COPIES}*"):
+        with contextlib.suppress(OSError):      # it has gone meanwhile
+            if time.time() - folder.stat().st_mtime > OLD:
+                shutil.rmtree(folder, ignore_errors=True)       # what is loaded stays
 
 
 def _content(path: Path) -> bytes:

@@ -22,7 +22,7 @@ from .._gateway.mechanisms import MechanismCore
 from .._gateway.plans import plan_of
 from ..errors import NoCompilerWarning
 from ..symbolics import cache as kept
-from ..symbolics import compiling
+from ..symbolics import compilers, compiling
 from ..symbolics.direct_functions import DIRECT, DirectFunctions
 from ..symbolics.plain import Plain
 from . import nodes
@@ -80,7 +80,7 @@ class Written:
         self._library = compiling.library(self._code.c_source)
         self.is_compiled = self._library is not None
         if not self.is_compiled:
-            warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): the tables of {name} are interpreted",
+            warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
                           NoCompilerWarning, stacklevel=6)
         self.core = self._compiled(None) if self.is_compiled else core
 

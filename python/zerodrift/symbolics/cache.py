@@ -83,8 +83,8 @@ def drop(name: str) -> None:
 def place(name: str, data: bytes) -> Iterator[str | None]:
     """A path by which the system's loader finds the file that was looked at, if it holds this; None where there is none."""
     with _usable() as folder:
-        there = folder is not None and folder.descriptor is not None and os.path.isdir(OPENED) and folder.read(name) == data
-        yield f"{OPENED}/{folder.descriptor}/{name}" if there else None
+        where = None if folder is None else folder.seen_by_loader()
+        yield f"{where}/{name}" if where is not None and folder.read(name) == data else None
 
 
 # ---- what JSON can say ----
@@ -229,6 +229,12 @@ class Folder(NamedTuple):
     def _at(self, name: str) -> str:
         return name if self.descriptor is not None else str(self.path / name)
 
+    def seen_by_loader(self) -> str | None:
+        """A path to this very folder; None where there is none."""
+        if self.descriptor is None:
+            return str(self.path)
+        return f"{OPENED}/{self.descriptor}" if os.path.isdir(OPENED) else None
+
     def read(self, name: str) -> bytes | None:
         """What a file holds, whose owner and permissions were looked at when it was open."""
         try:
@@ -253,9 +259,11 @@ class Folder(NamedTuple):
                 if self.descriptor is not None:
                     os.fchmod(fresh, 0o600 | os.fstat(self.descriptor).st_mode & 0o044)
             os.replace(self._at(temporary), self._at(name), src_dir_fd=self.descriptor, dst_dir_fd=self.descriptor)
-        except BaseException:
+        except BaseException as error:
             self.remove(temporary)
-            raise
+            # Windows replaces no file that somebody has loaded or reads. It mostly is the same, from another process.
+            if not (AS_WINDOWS and isinstance(error, PermissionError) and self.read(name) == data):
+                raise
 
     def sweep(self) -> None:
         """Remove the temporary files of processes that ended while they wrote."""

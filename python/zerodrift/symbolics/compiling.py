@@ -9,8 +9,8 @@ from __future__ import annotations
 import ctypes
 import os
 import platform
+import re
 import shlex
-import shutil
 import signal
 import subprocess
 import sys
@@ -24,52 +24,13 @@ from .. import _gateway
 from .._fingerprint import fingerprint
 from ..errors import CompilationFailed
 from ..systems.native import get_include
-from . import cache
+from . import cache, compilers
 
 OPTIMIZED = ("-O3",)
-FLAGS = ("-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaration", "-shared", "-fPIC")
-CANDIDATES = ("cc", "gcc", "clang")
 SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
-
-
-def compiler() -> list[str] | None:
-    """The command of the C compiler: what `CC` says, or the first there is; None: there is none.
-
-    Raises
-    ------
-    CompilationFailed
-        If `CC` cannot be read as a command.
-    """
-    for command in [_given()] if _said() else [[name] for name in CANDIDATES]:
-        program = shutil.which(command[0]) if command else None
-        if program:
-            return [os.path.abspath(program), *command[1:]]     # it is run in another folder
-    return None
-
-
-def _said() -> str:
-    return os.environ.get("CC", "").strip()
-
-
-def _given() -> list[str]:
-    try:
-        return shlex.split(_said())
-    except ValueError as error:
-        raise CompilationFailed(f"CC={_said()} is no command ({str(error)[:1].lower()}{str(error)[1:]}): {ADVICE}") from None
-
-
-ADVICE = ("CC has to be the command of a C compiler that makes shared libraries for this machine, such as gcc or clang; without "
-          f"it, the first of {', '.join(CANDIDATES)} is taken")
-
-
-def looked_for() -> str:
-    """Where `compiler` looks, for messages."""
-    if not _said():
-        return ", ".join(CANDIDATES)
-    program = Path(next(iter(_given()), ""))
-    why = ", which is a folder" if program.is_dir() else ", which may not be executed" if program.is_file() else ""
-    return f"CC={_said()}{why if len(program.parts) > 1 else ''}"
+SOURCE, PRODUCT = "system.c", "system.dll" if cache.AS_WINDOWS else "system.so"
+PLACE = re.compile(rf"{re.escape(SOURCE)}[:(](\d+)")     # of what a compiler complains about
 
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None,
@@ -84,24 +45,25 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     CompilationFailed
         If `CC` cannot be run, the compiler refuses the source, or what it writes cannot be loaded.
     """
-    command = compiler()
-    if command is None:
+    compiler = compilers.find()
+    if compiler is None:
         return None
-    flags = (*optimized, *FLAGS, *(f"-D{each}" for each in defined))
-    note = _note(source, command, flags)
+    source = compilers.exporting(source, symbols)
+    line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, defined)
+    note = _note(source, line)
     found = _kept(note)
     if found is None:
         progress("compiling")
-        found = _made(source, command, flags, note, symbols)
+        found = _made(source, line, compiler.environment, note, symbols)
     return found
 
 
-def _note(source: str, command: list[str], flags: tuple[str, ...]) -> str:
+def _note(source: str, line: list[str]) -> str:
     """The name of what the cache says of a source: whatever the library depends on is in it."""
-    program = Path(command[0]).resolve()
+    program = Path(line[0]).resolve()
     stamp = program.stat()
-    headers = [path.read_text() for path in sorted((Path(get_include()) / "zerodrift").glob("*.h"))]
-    return cache.digest_of("library", source, headers, command, str(program), stamp.st_size, stamp.st_mtime_ns, flags,
+    headers = [path.read_text(encoding="utf-8") for path in sorted((Path(get_include()) / "zerodrift").glob("*.h"))]
+    return cache.digest_of("library", source, headers, line, str(program), stamp.st_size, stamp.st_mtime_ns,
                            sys.platform, platform.machine())
 
 
@@ -117,10 +79,9 @@ def _kept(note: str) -> ctypes.CDLL | None:
         return None
 
 
-def _made(source: str, command: list[str], flags: tuple[str, ...], note: str, symbols: Sequence[str]) -> ctypes.CDLL:
+def _made(source: str, line: list[str], environment: dict[str, str] | None, note: str, symbols: Sequence[str]) -> ctypes.CDLL:
     """Compile, load and keep."""
-    line = [*command, *flags, f"-I{get_include()}", "-o", "system.so", "system.c", "-lm"]
-    data = _build(source, line)
+    data = _build(source, line, environment)
     digest = _digest(data)
     cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from
     try:
@@ -130,7 +91,7 @@ def _made(source: str, command: list[str], flags: tuple[str, ...], note: str, sy
     except (OSError, ValueError) as error:
         cache.drop(f"{digest}.so")
         elsewhere = f"if nothing may be executed in {tempfile.gettempdir()}, let TMPDIR name another folder"
-        raise _failure(line, f"wrote what cannot be loaded here ({error})", f". {ADVICE}; {elsewhere}") from None
+        raise _failure(line, f"wrote what cannot be loaded here ({error})", f". {compilers.advice()}; {elsewhere}") from None
     cache.write(note, digest)
     return found
 
@@ -140,7 +101,14 @@ def _digest(data: bytes) -> str:
 
 
 def _load(name: str, data: bytes) -> ctypes.CDLL:
-    """A library that is these bytes, from a copy in a folder of this process alone, else from the cache."""
+    """A library that is these bytes, from a copy in a folder of this process alone, else from the cache.
+
+    On Windows nobody changes a file that is loaded, and nobody could remove the copy.
+    """
+    if cache.AS_WINDOWS:
+        with cache.place(name, data) as path:
+            if path is not None:
+                return _gateway.load_data(data, path, copied=False)
     try:
         return _gateway.load_data(data)
     except OSError:     # from some folders nothing is executed
@@ -153,14 +121,14 @@ def _load(name: str, data: bytes) -> ctypes.CDLL:
 # ---- the compiler ----
 
 
-def _build(source: str, line: list[str]) -> bytes:
+def _build(source: str, line: list[str], environment: dict[str, str] | None = None) -> bytes:
     """Compile; what the library holds."""
     try:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
             folder = Path(name)
-            (folder / "system.c").write_text(source, encoding="utf-8")
-            status, said = _run(line, folder)
-            product = folder / "system.so"
+            (folder / SOURCE).write_text(source, encoding="utf-8")
+            status, said = _run(line, folder, environment)
+            product = folder / PRODUCT
             if status or not product.is_file():
                 raise _complaint(line, status, said, source)
             return product.read_bytes()
@@ -169,19 +137,19 @@ def _build(source: str, line: list[str]) -> bytes:
                                 "and write permission") from None
 
 
-def _run(line: list[str], folder: Path) -> tuple[int, str]:
+def _run(line: list[str], folder: Path, environment: dict[str, str] | None) -> tuple[int, str]:
     """The status of a command in a folder, and what it said; it reads nothing, and is ended with all it started."""
     with open(folder / "said", "w+b") as said:
         try:
-            process = subprocess.Popen(line, cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=said,
-                                       start_new_session=True)
+            process = subprocess.Popen(line, cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=said, env=environment,
+                                       start_new_session=True, creationflags=compilers.QUIETLY)
         except OSError as error:
             why = "it, or the program that its first line names, is missing or for another machine"
-            raise _failure(line, f"cannot be run ({error.strerror})", f": {why}. {ADVICE}") from None
+            raise _failure(line, f"cannot be run ({error.strerror})", f": {why}. {compilers.advice()}") from None
         try:
             status = process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
-            raise _failure(line, f"did not end within {PATIENCE:g} s", f". {ADVICE}") from None
+            raise _failure(line, f"did not end within {PATIENCE:g} s", f". {compilers.advice()}") from None
         finally:
             _end(process)
         said.seek(0)
@@ -194,7 +162,9 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         with suppress(OSError):
             if hasattr(os, "killpg"):
                 os.killpg(process.pid, signal.SIGKILL)
-            else:
+            else:       # Windows
+                subprocess.run(["taskkill", "/t", "/f", "/pid", str(process.pid)], capture_output=True, check=False,
+                               creationflags=compilers.QUIETLY)
                 process.kill()
         process.wait()
 
@@ -204,13 +174,12 @@ def _complaint(line: list[str], status: int, said: str, source: str) -> Compilat
     spoken = said.strip().splitlines()
     first = next((each for each in spoken if "error" in each), spoken[-1] if spoken else f"status {status}")
     if not status:
-        return _failure(line, f"wrote no library{f': {first}' if spoken else ''}", f". {ADVICE}")
-    numbers = [int(part) for part in first.split(":")[1:2] if part.isdigit()]
+        return _failure(line, f"wrote no library{f': {first}' if spoken else ''}", f". {compilers.advice()}")
     lines = source.splitlines()
-    where = "".join(f"\n  line {n}: {lines[n - 1].strip()}" for n in numbers if 0 < n <= len(lines))
-    return _failure(line, f"refused the C source: {first}", where or f". {ADVICE}")
+    where = "".join(f"\n  line {n}: {lines[n - 1].strip()}" for n in map(int, PLACE.findall(first)[:1]) if 0 < n <= len(lines))
+    return _failure(line, f"refused the C source: {first}", where or f". {compilers.advice()}")
 
 
 def _failure(line: list[str], what: str, advice: str) -> CompilationFailed:
-    said = f"CC={_said()}" if _said() else "CC is not set"
+    said = f"CC={compilers.said()}" if compilers.said() else "CC is not set"
     return CompilationFailed(f"{line[0]} {what}; {said}, it was run as `{shlex.join(line)}`{advice}")

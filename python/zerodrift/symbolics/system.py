@@ -18,7 +18,7 @@ from ..errors import NoCompilerWarning
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from ..systems.structure import Structure, checked
 from ..systems.tables import NumberTables, not_finite, refusals
-from . import compiling
+from . import compilers, compiling
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
 
 
@@ -76,7 +76,7 @@ class SymbolicSystem(BaseSystem):
         self._library = compiling.library(code.c_source, progress)
         self.compiled = self._library is not None
         if not self.compiled:
-            warnings.warn(f"there is no C compiler (looked for {compiling.looked_for()}): {self.name} is evaluated in Python, "
+            warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
                           f"some hundred times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._in_python()
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
