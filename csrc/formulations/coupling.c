@@ -109,6 +109,7 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     zd_pivots pivots;
     if (!self->weighted) self->weighted = zd_weighted_create(point->rank->store, point->layout);
     if (!self->weighted) return ZD_NO_MEMORY;
+    self->weighted->blocks->unit = point->vector;
     self->layout = point->layout;
     self->C = point->terms.C;
     self->products = zd_weighted_products(self->weighted, point->system);
@@ -175,8 +176,7 @@ static void subtract_weighted(zd_coupling *self, const double *y, double *x)
         zd_strips_subtract_weighted(strips, self->C, self->W, y, x);
         return;
     }
-    zd_strips_scatter(strips, y, self->lambda);
-    self->products->subtract_weighted(self->data, &self->terms, self->W, self->lambda, x);
+    self->products->subtract_weighted(self->data, &self->terms, self->W, y, strips->place, x);
 }
 
 /* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */

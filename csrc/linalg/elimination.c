@@ -11,7 +11,8 @@
 #include <math.h>
 
 #include "blocks.h"
-#include "small.h"
+#include "elimination_on_avx2.h"
+#include "pivot.h"
 
 /* kernel(n, is_same, is_whole, ...), with sizes known to the compiler for which that is worth it */
 #define FOR_SIZE(kernel, size, is_whole, ...)             \
@@ -40,17 +41,6 @@ ZD_INLINE double *entry_of(const int n, const int is_whole, const zd_blocks *sel
 
 /* ---- factors ---- */
 
-/* Whether this pivot is positive; keeps the smallest share. Compared by products, as divisions would be waited for. */
-ZD_INLINE int judge(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)
-{
-    if (!(pivot > rounding * diagonal) || !(pivot < INFINITY)) {
-        if (pivots->failed < 0) pivots->failed = row;
-        return 0;
-    }
-    if (pivot * pivots->diagonal < pivots->pivot * diagonal) pivots->smallest = row, pivots->pivot = pivot, pivots->diagonal = diagonal;
-    return 1;
-}
-
 /* P (n, n) <- L^-T D^-1 L^-1, where its lower triangle is L D L^T; what is left out has no part in it. `row` is that of its first one. */
 ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, unsigned char *left_out, double least, zd_pivots *pivots)
 {
@@ -63,7 +53,7 @@ ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, un
             pivot -= P[i * n + j] * scaled;
         }
         if (left_out && least >= 0) left_out[row + i] = !(pivot > least * self->diagonal[row + i]);
-        const int is_pivot = !(left_out && left_out[row + i]) && judge(pivots, row + i, pivot, self->diagonal[row + i], rounding);
+        const int is_pivot = !(left_out && left_out[row + i]) && zd_judge_pivot(pivots, row + i, pivot, self->diagonal[row + i], rounding);
         P[i * n + i] = is_pivot ? 1 / pivot : 0;
         for (int k = i + 1; k < n; k++) {
             double sum = P[k * n + i];
@@ -72,26 +62,6 @@ ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, un
         }
     }
     zd_invert(n, P);
-}
-
-typedef struct inverse_of_two {  /* symmetric, in registers */
-    double aa, ab, bb;
-} inverse_of_two;
-
-/* The same of two rows, by one division: both pivots would take one each, and the second would wait for the first. What both are of their
- * diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are judged. */
-ZD_INLINE inverse_of_two invert_two(const double *diagonal, int row, double *P, zd_pivots *pivots)
-{
-    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;
-    int are_pivots = 1;
-    if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
-        are_pivots = judge(pivots, row, a, diagonal[0], rounding) & judge(pivots, row + 1, determinant, a * diagonal[1], rounding);
-    const double scale = are_pivots ? 1 / determinant : 0;
-    const inverse_of_two it = {c * scale, -b * scale, a * scale};
-    P[0] = it.aa;
-    P[1] = P[2] = it.ab;
-    P[3] = it.bb;
-    return it;
 }
 
 /* to (a, b) <- to - A B^T, A (a, n), B (b, n) */
@@ -120,7 +90,11 @@ ZD_INLINE void multiply(const int a, const int n, const double *B, const double 
 ZD_INLINE void eliminate_two(const int is_whole, const zd_blocks *self, int k, zd_pivots *pivots)
 {
     const int first = self->begin[k], end = self->begin[k + 1], *target = self->target + self->target_begin[k], at = at_of(2, is_whole, self, k);
-    const inverse_of_two P = invert_two(self->diagonal + at, at, pivot_of(2, is_whole, self, k), pivots);
+    double *pivot = pivot_of(2, is_whole, self, k);
+    const zd_inverse_of_two P = zd_invert_two(self->diagonal + at, at, pivot, pivots);
+    pivot[0] = P.aa;
+    pivot[1] = pivot[2] = P.ab;
+    pivot[3] = P.bb;
     for (int e = first; e < end; e++) {
         double *B = entry_of(2, is_whole, self, e), *D = pivot_of(2, is_whole, self, self->row[e]);
         const double b0 = B[0], b1 = B[1], b2 = B[2], b3 = B[3];
@@ -191,7 +165,8 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
     zd_pivots pivots = {-1, 0, 1, 1};
     if (self->uniform && !left_out) {
         FOR_SIZE(keep_diagonals, self->uniform, 1, self)
-        FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
+        if (zd_is_on_avx2(self)) zd_eliminate_on_avx2(self, &pivots);
+        else FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
         return pivots;
     }
     keep_diagonals_of_any(self);
@@ -272,7 +247,8 @@ ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, con
 void zd_blocks_solve(const zd_blocks *self, double *x)
 {
     if (self->uniform) {
-        if (self->uniform == 2) solve_two(self, x);
+        if (zd_is_on_avx2(self)) zd_solve_on_avx2(self, x);
+        else if (self->uniform == 2) solve_two(self, x);
         else FOR_SIZE(solve_all, self->uniform, 1, self, x)
         return;
     }

@@ -22,8 +22,11 @@ static void times_C(const void *data, const zd_terms *terms, const double *x, do
 
 static int has_angle(const zd_pins *self, const zd_link *link) { return self->have_angles || link->hang == ZD_HANGS_FREE; }
 
+/* Of both ends of a pin, and of two ends that are on one side or not */
+static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
+
 /* Body by body, so that nothing is added up in memory. */
-static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *y, double *x)
+static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
@@ -34,8 +37,8 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
         const double *w = W + link->coordinate;
         double *own = x + link->coordinate, forward = 0, upward = 0, torque = 0;
         for (const int last = end_at[i + 1]; k < last; k++) {
-            const int end = ends[k], row = end & ~1;
-            const double sign = 2 * (end & 1) - 1, y0 = sign * y[row], y1 = sign * y[row + 1];
+            const int end = ends[k];
+            const double *of = y + place[end & ~1], sign = SIGN[end & 1], y0 = sign * of[0], y1 = sign * of[1];
             forward += y0;
             upward += y1;
             torque += arm[end].x * y1 - arm[end].y * y0;
@@ -56,6 +59,14 @@ ZD_INLINE void add_product(double *to, int turned, double sign, const double *w,
     to[3] += yy;
 }
 
+/* The same of one end with itself */
+ZD_INLINE void add_square(double *to, const double *w, zd_vector a, zd_vector b)
+{
+    to[0] += w[0] + b.y * a.y;
+    to[2] -= b.x * a.y;
+    to[3] += w[1] + b.x * a.x;
+}
+
 static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *S)
 {
     const zd_mechanism *mechanism = data;
@@ -69,8 +80,8 @@ static void add_weighted(const void *data, const zd_terms *terms, const double *
             const int end = ends[k];
             const zd_vector u = zd_times(w[2], arm[end]);
             for (int j = first; j < k; j++, at++)
-                add_product(S + (*at >> 1), *at & 1, 1 - 2 * ((end ^ ends[j]) & 1), w, arm[ends[j]], u);
-            add_product(S + (*at++ >> 1), 0, 1, w, arm[end], u);
+                add_product(S + (*at >> 1), *at & 1, SIGN_OF_TWO[(end ^ ends[j]) & 1], w, arm[ends[j]], u);
+            add_square(S + (*at++ >> 1), w, arm[end], u);
         }
     }
 }

@@ -48,9 +48,11 @@ zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
         .column = layout->column,
         .rows = rows,
         .place = zd_take(arena, (size_t)rows * sizeof(int)),
+        .are_pairs = 1,
     };
     for (int g = 0; arena->base && g < layout->groups; g++) {
         self.strip[g] = strip_of(layout, g, y[g]);
+        self.are_pairs &= self.strip[g].rows == 2;
         for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++) self.place[k] = y[g] + k - layout->row_at[g];
     }
     return self;
@@ -143,10 +145,18 @@ void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const d
         FOR_SIZES(subtract, subtract_any(strip, self->column, C, W, y, x), strip, C, W, y, x)
 }
 
+/* `step` rows at once, which stand together on both sides */
+ZD_INLINE void gather(const int step, const zd_strips *self, const double *a, const double *b, double *y)
+{
+    for (int k = 0; k < self->rows; k += step)
+        for (int i = 0; i < step; i++) y[self->place[k] + i] = a ? a[k + i] - b[k + i] : -b[k + i];
+}
+
 void zd_strips_gather(const zd_strips *self, const double *a, const double *b, double *y)
 {
-    for (int k = 0; a && k < self->rows; k++) y[self->place[k]] = a[k] - b[k];
-    for (int k = 0; !a && k < self->rows; k++) y[self->place[k]] = -b[k];
+    if (!self->are_pairs) gather(1, self, a, b, y);
+    else if (a) gather(2, self, a, b, y);
+    else gather(2, self, NULL, b, y);
 }
 
 void zd_strips_scatter(const zd_strips *self, const double *y, double *rows)

@@ -17,6 +17,7 @@ typedef struct zd_strips {
     zd_strip *strip;
     const int *column;      /* those of the layout */
     int rows, *place;       /* (rows,) where each row of C is in the order of S */
+    int are_pairs;          /* whether each group has two */
 } zd_strips;
 
 /* `y` (groups,): where the rows of each begin in the order of S. */

@@ -63,7 +63,7 @@ class Steps:
 
     def measure(self, windows):
         options = handed(formulation=list(zd.formulations()).index("schur"), integrator=list(zd.integrators()).index("rk4"),
-                         step=STEP, t1=windows * self.steps * STEP, save_every=self.steps)
+                         step=STEP, t1=windows * self.steps * STEP, save_every=self.steps, vector=_gateway.PROCESSOR_UNIT)
         run, row = _gateway.Run(self.system._core, options, *self.start), _gateway.Record(self.system._core, 1)
         for _ in range(windows):
             begin = time.process_time()

@@ -146,11 +146,11 @@ typedef struct zd_structure {
 typedef struct zd_operations {
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
-    /* x <- x - W C^T y, W (nv,) diagonal */
-    void (*subtract_weighted)(const void *data, const zd_terms *terms, const double *W, const double *y, double *x);
+    /* x <- x - W C^T y, W (nv,) diagonal; row k of C has entry place[k] of y, and rows of a group stand together there, too */
+    void (*subtract_weighted)(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x);
     /* S <- S + C W C^T: for each block in order, the products of its columns in the groups that touch it, of each group g and all h <= g, increasing
      * both. The block (rows[g], rows[h]) of the next of them begins in S at half of the next entry of `at`; it is stored transposed where that entry
-     * is odd. */
+     * is odd. Of those with g = h, nothing but the lower triangle is read. */
     void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 

@@ -1,0 +1,37 @@
+/* Pivots of a matrix of blocks, and the inverse of a block of two rows. */
+#ifndef ZD_PIVOT_H
+#define ZD_PIVOT_H
+
+#include "blocks.h"
+#include "small.h"
+
+/* Whether this pivot is positive; keeps the smallest share. Compared by products, as divisions would be waited for. */
+ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)
+{
+    if (!(pivot > rounding * diagonal) || !(pivot < INFINITY)) {
+        if (pivots->failed < 0) pivots->failed = row;
+        return 0;
+    }
+    if (pivot * pivots->diagonal < pivots->pivot * diagonal) pivots->smallest = row, pivots->pivot = pivot, pivots->diagonal = diagonal;
+    return 1;
+}
+
+typedef struct zd_inverse_of_two {  /* symmetric, in registers */
+    double aa, ab, bb;
+} zd_inverse_of_two;
+
+/* Of a block whose lower triangle is given, by one division: both pivots would take one each, and the second would wait for the first. What
+ * both are of their diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are
+ * judged. `row` is that of its first one. */
+ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const double *P, zd_pivots *pivots)
+{
+    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;
+    int are_pivots = 1;
+    if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
+        are_pivots = zd_judge_pivot(pivots, row, a, diagonal[0], rounding)
+                   & zd_judge_pivot(pivots, row + 1, determinant, a * diagonal[1], rounding);
+    const double scale = are_pivots ? 1 / determinant : 0;
+    return (zd_inverse_of_two){c * scale, -b * scale, a * scale};
+}
+
+#endif
