@@ -104,7 +104,7 @@ void zd_rank_set_basis(const zd_point *point);
 void zd_rank_share_out(zd_selection *self, double *lambda);
 /* The rows that are redundant, increasing; their number. */
 int zd_rank_redundant(const zd_rank *self, int *rows);
-/* "row 2 follows", "rows 0 and 2 follow": those that do not count, at the point */
+/* "row 2 follows", "rows 0 'A.x' and 2 'B.x' follow": those that do not count, at the point */
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
 
 #endif

@@ -8,6 +8,7 @@
 #include "../constraints/rank.h"
 #include "../integrators/integrator.h"
 #include "../point/matrices.h"
+#include "../point/row_name.h"
 #include "blame.h"
 #include "status.h"
 
@@ -25,14 +26,17 @@ static void describe_jacobian(const zd_run *run, char *to, size_t size)
     const zd_consistency *found = &run->safeguards.consistency;
     char of[48] = "Phi_t";
     if (found->column < run->motion.system.nv) snprintf(of, sizeof of, "the Jacobian, for velocity %d,", found->column);
-    snprintf(to, size, "row %d of %s is not the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
-             found->row, of, found->given, found->found);
+    char row[ZD_ROW_NAME];
+    snprintf(to, size, "row %s of %s is not the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
+             zd_name_row(&run->motion.system, found->row, row), of, found->given, found->found);
 }
 
 /* What the mass matrix or the constraints have; returns whether it was that. */
 static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
-    int failed_index = run->motion.point->failed_index;
+    const zd_point *point = run->motion.point;
+    const int failed_index = point->failed_index;
+    char row[ZD_ROW_NAME];
     switch (status) {
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "%s (first seen at velocity %d)%s", zd_sentence(status), failed_index,
@@ -43,7 +47,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     case ZD_NOT_SYMMETRIC: describe_asymmetry(run->motion.point, to, size); break;
     case ZD_NOT_JACOBIAN: describe_jacobian(run, to, size); break;
     case ZD_DEPENDENT_ROWS:
-        snprintf(to, size, "the constraints are dependent (row %d follows from those before it)", failed_index);
+        snprintf(to, size, "the constraints are dependent (row %s follows from those before it)",
+                 zd_name_row(point->system, zd_rank_row(point, failed_index), row));
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
@@ -55,8 +60,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         snprintf(to, size, "%s; a smaller step shows which, " ON_SINGULAR, zd_sentence(status));
         break;
     case ZD_CONTRADICTION:
-        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %d asks for another acceleration at this "
-                 "velocity)", rows, failed_index);
+        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %s asks for another acceleration at this "
+                 "velocity)", rows, zd_name_row(point->system, failed_index, row));
         break;
     case ZD_SINGULAR:
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name,
@@ -147,7 +152,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->motion.point;
     const char *failure = run->watch.failed ? "the evaluation of an event failed" : run->motion.system.failure;
-    char rows[96] = "";
+    char rows[192] = "";
     const int are_fewer = point->rank->selection && point->rows < zd_constraints(point->system);
     if (are_fewer || point->rank->left_out) zd_rank_name_rows(point, rows, sizeof rows);
     if (describe_matrices(run, status, rows, to, size) || describe_method(run, status, to, size)) return;

@@ -10,7 +10,7 @@
 #include "../stepping/course.h"
 #include "../stepping/step.h"
 
-enum { ZD_MESSAGE = 400 };
+enum { ZD_MESSAGE = 500 };
 
 typedef struct zd_outcome { /* how the run has ended, if it has */
     int status;

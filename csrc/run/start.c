@@ -12,6 +12,7 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 #include "../point/quaternions.h"
+#include "../point/row_name.h"
 #include "../point/units.h"
 #include "../registry.h"
 #include "../stepping/adaptive.h"
@@ -26,29 +27,40 @@ typedef struct workspace {
     double *states;     /* (3, size): for the choice of the first step */
 } workspace;
 
+typedef struct violation {  /* the largest of all rows, and which has it */
+    double size;
+    int row;
+} violation;
+
+static void note(violation *largest, double size, int row)
+{
+    if (!(size <= largest->size)) *largest = (violation){size, row};
+}
+
 /* Largest |Phi| in units of its rows' sizes. Where a row all but vanishes, as of links that are drawn in line, that would be a rounding of
  * lengths over next to nothing: what rounding leaves of the largest row is no violation of any. */
-static double position_violation(const zd_point *point)
+static violation position_violation(const zd_point *point)
 {
     const int mh = point->system->mh;
-    double rounding = ROUNDING * zd_max_abs(mh, point->size), largest = 0;
+    const double rounding = ROUNDING * zd_max_abs(mh, point->size);
+    violation largest = {0, 0};
     for (int k = 0; k < mh; k++) {
-        double size = fabs(point->terms.Phi[k]);
-        if (!(size < INFINITY)) return INFINITY;
-        if (size > rounding) largest = fmax(largest, size * point->inverse_size[k]);
+        const double size = fabs(point->terms.Phi[k]);
+        if (!(size < INFINITY)) return (violation){INFINITY, k};
+        if (size > rounding) note(&largest, size * point->inverse_size[k], k);
     }
     return largest;
 }
 
 /* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
-static double velocity_violation(const zd_run *run, const double *Psi)
+static violation velocity_violation(const zd_run *run, const double *Psi)
 {
     const zd_point *point = run->motion.point;
-    double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->course.end - run->settings.t0);
-    double largest = 0;
+    const double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->course.end - run->settings.t0);
+    violation largest = {0, 0};
     for (int k = 0; k < zd_constraints(&run->motion.system); k++) {
-        double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
-        largest = fmax(largest, fabs(Psi[k]) / size);
+        const double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
+        note(&largest, fabs(Psi[k]) / size, k);
     }
     return largest;
 }
@@ -57,17 +69,19 @@ static double velocity_violation(const zd_run *run, const double *Psi)
 static int check_constraints(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
-    int mh = run->motion.system.mh, m = zd_constraints(&run->motion.system);
-    double allowed = fmax(run->motion.hold.tolerance, START_TOLERANCE);
+    const zd_system *system = &run->motion.system;
+    const double allowed = fmax(run->motion.hold.tolerance, START_TOLERANCE);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
-    if (status || !m) return status;
+    if (status || !zd_constraints(system)) return status;
     zd_point_velocity_violation(point, Psi);
-    double position = mh ? position_violation(point) : 0, velocity = velocity_violation(run, Psi);
-    if (position <= allowed && velocity <= allowed) return ZD_DONE;
-    if (zd_first_not_finite(&run->motion.system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
+    const violation position = position_violation(point), velocity = velocity_violation(run, Psi);
+    if (position.size <= allowed && velocity.size <= allowed) return ZD_DONE;
+    if (zd_first_not_finite(system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
+    char row[ZD_ROW_NAME];
     snprintf(run->outcome.message, sizeof run->outcome.message,
-             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g); "
-             "zd.assemble finds a consistent start nearby", position, velocity, allowed);
+             "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g), most in row %s; "
+             "zd.assemble finds a consistent start nearby", position.size, velocity.size, allowed,
+             zd_name_row(system, position.size > allowed ? position.row : velocity.row, row));
     return ZD_BAD_START;
 }
 

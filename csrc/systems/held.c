@@ -6,6 +6,7 @@
  */
 #include "held.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "../point/layout.h"
@@ -29,6 +30,21 @@ static int blocks_of(const zd_system *system) { return system->structure ? syste
 static int coordinates_of(const zd_system *system, int b) { return system->structure ? system->structure->coordinates[b] : system->nq; }
 static int velocities_of(const zd_system *system, int b) { return system->structure ? system->structure->velocities[b] : system->nv; }
 static int size_of_A(const zd_system *system) { return system->structure ? zd_packed_size(system, ZD_A) : system->nq * system->nv; }
+
+/* Rows of the inner system have its names; what is held of positions or velocities is told by its place there. */
+static void name_row(const void *names, int row, char *to, int size)
+{
+    const zd_held *held = names;
+    const zd_system *inner = held->inner;
+    const int rows = held->of_positions ? inner->mh : zd_constraints(inner);
+    if (row < rows) {
+        if (inner->name_row) inner->name_row(inner->names, row, to, size);
+        return;
+    }
+    int i = 0;
+    for (int left = row - rows; !held->hold[i] || left-- > 0;) i++;
+    snprintf(to, (size_t)size, "%s[%d] is held", held->of_positions ? "p" : "v", i);
+}
 
 static int count(const int *hold, int n)
 {
@@ -163,9 +179,10 @@ static void *take(zd_arena *arena, const void *of)
     const zd_system *inner = it->inner;
     const int rows = it->of_positions ? inner->mh : zd_constraints(inner);
     system_that_holds nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .size_of_C = rows * inner->nv};
+    self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .of_positions = it->of_positions, .size_of_C = rows * inner->nv};
     self->system = *inner;
-    self->system.data = &self->held;
+    self->system.data = self->system.names = &self->held;
+    self->system.name_row = name_row;
     self->system.operations = NULL;         /* these two are of the inner system alone */
     self->system.direct = NULL;
     self->system.directs = 0;

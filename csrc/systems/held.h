@@ -9,6 +9,7 @@ typedef struct zd_held {
     const zd_system *inner;
     const int *hold;        /* nonzero where held; NULL: nowhere */
     const double *value;    /* what is held */
+    int of_positions;       /* or of velocities */
     int size_of_C;          /* how many entries the rows of `inner` have that count here; those of what is held stand behind them */
     zd_structure structure; /* that of `inner`, where it has one, and a group more for each body of which something is held */
 } zd_held;

@@ -1,10 +1,13 @@
 """Each failure of a run, reached: its exception, its sentence with numbers, and what was computed before it."""
 
+import re
+
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from large_mechanisms import four_bars
 from support import assert_close, motion
 from zerodrift import _gateway
 
@@ -60,8 +63,8 @@ def test_a_failed_run_is_saved_like_others(bar, tmp_path):
 
 
 def test_an_inconsistent_start(bar):
-    message = (r"^the start violates the constraints: max \|Phi\| = 0\.\d+, max \|Psi\| = .* of their sizes \(allowed: 1e-10\); "
-               r"zd\.assemble finds a consistent start nearby$")
+    message = (r"^the start violates the constraints: max \|Phi\| = 0\.\d+, max \|Psi\| = .* of their sizes \(allowed: 1e-10\), "
+               r"most in row \d 'closure_[xy]'; zd\.assemble finds a consistent start nearby$")
     with pytest.raises(zd.InconsistentStart, match=message):
         zd.simulate(bar, 1, bar.p0 + 0.1, step=0.1)
     with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = 0, max \|Psi\| = 0\.\d+ "):
@@ -108,13 +111,13 @@ def test_links_that_cannot_close(bar):
 
 
 def test_too_much_is_held(bar):
-    with pytest.raises(zd.CorrectionFailed, match=r"; rows . and . follow from the others, and may contradict them$"):
+    with pytest.raises(zd.CorrectionFailed, match=r"; rows \d '.*' and \d 'p.* is held' follow from the others, and may contradict them$"):
         zd.assemble(bar, bar.p0 + 0.1, hold=("alpha1", "alpha2", "alpha3"))
 
 
 def test_constraints_that_are_dependent(bar, formulation):
     """All links along the x axis: none of them can move its end along x."""
-    with pytest.raises(zd.Bifurcation, match=r"^at t = 0 .*\(a bifurcation: row 0 follows from the others\)"):
+    with pytest.raises(zd.Bifurcation, match=r"^at t = 0 .*\(a bifurcation: row 0 'closure_x' follows from the others\)"):
         zd.acceleration(bar, [0, 0, 0], [0, 0, 0], formulation=formulation)
 
 
@@ -146,3 +149,57 @@ def test_every_error_is_one_of_ours():
     assert issubclass(zd.SingularSystem, ArithmeticError)
     assert isinstance(_gateway.error_of(-10, "unknown"), zd.ZerodriftError)
     assert zd.ZerodriftError.solution is None
+
+
+# ---- rows by their names ----
+
+
+def in_line(cells):
+    """Cranks and couplers of a row of parallelograms, drawn along one line: as many rows follow from others there."""
+    m = zd.Mechanism("in line", gravity=(0, 0))
+    cranks = [m.link(f"crank{i}", (2 * i, 0), (2 * i + 1, 0), mass=1.0) for i in range(cells + 1)]
+    for i, crank in enumerate(cranks):
+        m.revolute(f"A{i}", m.ground, crank.start)
+    for i in range(cells):
+        bar = m.link(f"bar{i}", (2 * i + 1, 0), (2 * i + 3, 0), mass=1.0)
+        m.revolute(f"B{i}", cranks[i].end, bar.start)
+        m.revolute(f"C{i}", bar.end, cranks[i + 1].end)
+    return m.system("absolute")
+
+
+CELLS = [2, 14]     # 14 rows, whose matrices may be dense, and 86
+
+
+@pytest.mark.parametrize("cells", CELLS)
+def test_a_start_that_is_inconsistent_names_the_row(cells):
+    system = four_bars(cells).system("absolute")
+    size = zd.simulate(system, 1e-3, step=1e-3).position_size
+    p = system.p0 + 1e-3 * np.random.default_rng(1).normal(size=system.nq)
+    worst = int(np.argmax(np.abs(system.evaluate(p, system.v0).Phi) / size))
+    with pytest.raises(zd.InconsistentStart, match=f"most in row {worst} '{system.constraints[worst].name}';"):
+        zd.simulate(system, 0.1, p, step=0.01)
+
+
+@pytest.mark.parametrize("cells", CELLS)
+def test_rows_that_follow_from_others_are_named(cells):
+    system = in_line(cells)
+    with pytest.raises(zd.Bifurcation, match=r"rows \d+ '[ABC]\d+\.[xy]'(, \d+ '[ABC]\d+\.[xy]')* and .* follow") as caught:
+        zd.simulate(system, 0.1, step=0.01)
+    for row, name in re.findall(r"(\d+) '([ABC]\d+\.[xy])'", str(caught.value)):
+        assert system.constraints[int(row)].name == name
+
+
+def test_what_is_held_is_named():
+    system = four_bars(2).system("absolute")
+    with pytest.raises(zd.CorrectionFailed, match=r"rows \d+ .*\d+ 'p\[\d+\] is held' .* follow from the others") as caught:
+        zd.assemble(system, system.p0 + 0.1 * np.arange(system.nq) ** 2, hold=[each.name for each in system.coordinates])
+    assert " 'p[15] is held'" not in str(caught.value)      # there are 15 of them
+
+
+def test_names_that_are_too_long_are_cut():
+    m = zd.Mechanism("long names")
+    bar = m.link("bar", (0, 0), (1, 0), mass=1.0)
+    m.revolute("long" * 25, m.ground, bar.start)
+    system = m.system("absolute")
+    with pytest.raises(zd.InconsistentStart, match=r"row 0 '(long){10,15}[long]*';"):
+        zd.simulate(system, 0.1, system.p0 + np.array([0.1, 0, 0]), step=0.01)

@@ -261,6 +261,9 @@ typedef struct zd_system {
                              * numbers such as angles */
     double length;          /* m: it is at least so large, which lengths are compared to; 0: as its coordinates and rows tell at the start */
     const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
+    /* Writes what a row of C is called into `to` (size,), "" where it has no name; NULL: none has. Asked for messages alone. */
+    void (*name_row)(const void *names, int row, char *to, int size);
+    const void *names;
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
     const zd_direct *direct;        /* (directs,) at most one for each unit and number of lanes; those for one lane serve single runs */

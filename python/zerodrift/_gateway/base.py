@@ -96,8 +96,8 @@ def check_fingerprint() -> None:
 
 
 def text(characters: Any) -> str:
-    """A C string as a Python string."""
-    return ffi.string(characters).decode()
+    """A C string as a Python string; a message may end within a character."""
+    return ffi.string(characters).decode(errors="replace")
 
 
 def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:

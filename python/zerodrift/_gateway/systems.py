@@ -10,6 +10,7 @@ from .._core import ffi, lib
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
 from .measures import Measuring
 from .packing import PACKED, Packing
+from .row_names import RowNames
 
 MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
 
@@ -71,7 +72,15 @@ class CoreSystem(Measuring):
         self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
     error: BaseException | None = None      # what a system written in Python raised
+    row_names: RowNames | None = None
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
+
+    def name_rows(self, system: Any) -> None:
+        """Has the core tell of rows of C by the names that they have in a system whose core this is."""
+        if self.row_names is None:
+            self.row_names = RowNames()
+            self.c.name_row, self.c.names = lib.zd_name_row_in_python, self.row_names.handle
+        self.row_names.take_from(system)
 
     def structure_count(self) -> float:
         """Multiplications in C W C^T of a declared structure, in its factors and in a solve with them; 0 where there is none."""

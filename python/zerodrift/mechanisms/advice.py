@@ -20,16 +20,15 @@ MOST_ROWS = 300     # whose singular values take a moment
 
 
 def at_start(error: str, drawing: Drawing, numbers: Numbers, constraints: Sequence[Variable]) -> str | None:
-    """Of an error at the start: bodies without mass, or the names of the rows that it counts."""
+    """Of an error at the start: bodies without mass, or rows that are singular as drawn."""
     if "mass matrix" in error:
         return _of_mass(drawing, numbers)
     rows = sorted(set(map(int, re.findall(r"\brow (\d+)", error))))
-    if not rows:
+    if not rows or "follow" not in error:
         return None
-    named = ", ".join(f"row {row} is {constraints[row].name!r}" for row in rows)
     is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor | Actuator) for row in rows)
     helps = "start a little aside, or drive another joint" if is_driven else "zd.assemble(m, nudge=True) starts beside it"
-    return f"{named}. In this pose {drawing.name!r} is singular, as links in line are: {helps}"
+    return f"in this pose {drawing.name!r} is singular, as links in line are: {helps}"
 
 
 def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:

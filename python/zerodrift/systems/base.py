@@ -333,6 +333,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
         raise TypeError(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
+    core.name_rows(system)
     return core
 
 
@@ -352,7 +353,9 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
 def direct_core_of(system: Any, vector: str) -> _gateway.CoreSystem:
     """The same with the system's direct functions for a vector unit, where it has any: made when they are first wanted."""
     core_of(system)
-    return system._direct_core(vector)
+    core = system._direct_core(vector)
+    core.name_rows(system)
+    return core
 
 
 def with_units(names: Sequence[str], rates: Sequence[str], units: Any,

@@ -1,0 +1,36 @@
+"""Names of rows of C, which the core asks for where it tells of one: then they are looked up, and not before."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+from weakref import ref
+
+from .._core import ffi
+from .base import Variable
+
+
+class RowNames:
+    """What the rows of a system are called; it is the system that has the names, for as long as there is one."""
+
+    def __init__(self) -> None:
+        self.handle = ffi.new_handle(self)
+        self._system: Any = None
+
+    def take_from(self, system: Any) -> None:
+        """Takes them from a system's `constraints`, unless another one's, which are alike, are there."""
+        if self._system is None or self._system() is None:
+            self._system = ref(system)
+
+    def of(self, row: int) -> str:
+        """That of a row; nothing where that is only its number."""
+        system = self._system and self._system()
+        names: Sequence[Variable] = system.constraints if system is not None else ()
+        name = names[row].name if row < len(names) else ""
+        return "" if name == f"constraint{row}" else name
+
+
+@ffi.def_extern()
+def zd_name_row_in_python(names, row, to, size):
+    name = ffi.from_handle(names).of(row).encode()[: size - 1].decode(errors="ignore").encode()
+    ffi.memmove(to, name + b"\0", len(name) + 1)
