@@ -118,7 +118,8 @@ def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = Non
     there = np.isfinite(values)
     colors |= {"c": colors["c"][there]} if colors else {"color": _style.COLOURS[0]}
     drawn = ax.scatter(x[there], values[there], **{"s": 12} | colors | style)
-    ax.plot(x[~there], np.zeros((~there).sum()), "x", transform=ax.get_xaxis_transform(), clip_on=False, **CROSS)
+    if not there.all():
+        ax.plot(x[~there], np.zeros((~there).sum()), "x", transform=ax.get_xaxis_transform(), clip_on=False, **CROSS)
     if color_by is not None:
         ax.figure.colorbar(drawn, ax=ax, label=_labelled(ens, color_by))
     ax.set(xlabel=_labelled(ens, parameter), ylabel=label)
