@@ -214,13 +214,16 @@ typedef struct zd_batch {
     const zd_settings *settings;    /* without events */
     int64_t runs;
     const double *data;             /* (runs, doubles): in the place of the system's; NULL: that is the same for all */
-    int64_t doubles;
+    int64_t doubles;                /* that this is; 0: it consists of others, and is the same for all */
     const double *p0, *v0;          /* (runs, nq), (runs, nv) */
     const zd_settings *assembly;    /* starts are put onto the constraints first, as zd_project() does it by these; NULL: they are not */
     const int *hold_p, *hold_v;     /* (nq,), (nv,): what that holds; NULL: nothing */
+    int lanes;                      /* whether runs are made in vector lanes where they can */
     const int *stop;                /* no run goes on once this is not 0; NULL: all do */
     int64_t capacity;               /* rows of a run that there is room for */
     double *t, *p, *v, *multipliers;        /* (runs, capacity), (runs, capacity, nq), (runs, capacity, nv), (runs, capacity, m) */
+    double *input;                  /* (runs, capacity) J */
+    int *iterations;                /* (runs, capacity) */
     double *outputs;                /* (runs, capacity, components of all outputs) */
     int64_t *rows;                  /* (runs,) that were saved */
     int *status;                    /* (runs,) ZD_PAUSED where it was stopped */
@@ -231,9 +234,14 @@ typedef struct zd_batch {
     int message_size;
 } zd_batch;
 
+int zd_lanes_of_unit(enum zd_unit unit);     /* how many runs are made side by side with it; 0: the core is compiled without it */
 /* What is wrong with a run is said of that run; only where there is no memory for any it is returned. Calls for other batches may be made at the
  * same time. */
 int zd_batch_run(const zd_batch *batch);
+
+/* Rows of a run that was made in lanes, with what these leave out, from the states that they keep: (rows, nq), (rows, nv), and what has come in
+ * of energy. The run has to be one from the same start, and is of no other use then. */
+int zd_run_record_states(zd_run *run, int64_t rows, const double *t, const double *p, const double *v, const double *input, zd_record *record);
 
 /* The tables of a batch from the parameters of a kind of system (runs, all parameters): constants (runs, kind->constants), starts (runs, nq),
  * (runs, nv). The number of the first run whose parameters are refused, and why; or `runs`. */

@@ -45,11 +45,6 @@ static const double e3[STAGES + 1] = {
     -0.1521609496625161, 0.20136540080403034, 0.02265179219836082, 0,
 };
 
-static const zd_tableau tableau = {.stages = STAGES, .a = a, .b = b, .c = c, .e = e5, .e3 = e3, .more = MORE};
-
-ZD_RUNGE_KUTTA_STEP
-ZD_RUNGE_KUTTA_ERROR
-
 /* Of the stages for values between, and of the polynomial */
 static const double more_a[MORE * ALL] = {
     [0 * ALL + 0] = 0.056167502283047954, [0 * ALL + 6] = 0.25350021021662483, [0 * ALL + 7] = -0.2462390374708025,
@@ -81,6 +76,13 @@ static const double d[4 * ALL] = {
     [3 * ALL + 10] = 104.0996495089623, [3 * ALL + 11] = 29.8402934266605, [3 * ALL + 12] = -43.53345659001114,
     [3 * ALL + 13] = 96.32455395918828, [3 * ALL + 14] = -39.17726167561544, [3 * ALL + 15] = -149.72683625798564,
 };
+
+static const zd_tableau tableau = {
+    .stages = STAGES, .a = a, .b = b, .c = c, .e = e5, .e3 = e3, .more = MORE, .more_a = more_a, .more_c = more_c, .d = d,
+};
+
+ZD_RUNGE_KUTTA_STEP
+ZD_RUNGE_KUTTA_ERROR
 
 /* to <- h sum_j weight_j k_j, over all stages there are */
 ZD_INLINE void add_up(const int size, const double *weight, double h, const double *restrict k, double *restrict to)

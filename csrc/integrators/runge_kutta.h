@@ -16,6 +16,7 @@ typedef struct zd_tableau {
     const double *e;        /* NULL: there is none */
     const double *e3;       /* weights of a second estimate that DOP853 blends in; NULL: there is none */
     int more;               /* stages more that values between the ends of a step need, whose polynomial has as many coefficients as DOP853's */
+    const double *more_a, *more_c, *d;      /* (more, all), (more,), (4, all), all of them being stages + 1 + more: see dop853.c */
 } zd_tableau;
 
 enum { ZD_COEFFICIENTS = 7 };   /* of the polynomial */

@@ -63,6 +63,11 @@ static void measure(const zd_motion *motion, const zd_elimination *order)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
 }
 
+void zd_direct_measure(zd_motion *motion)
+{
+    for (int i = 0; i < motion->road.direct->orders; i++) measure(motion, motion->road.direct->order + i);
+}
+
 /* The smallest pivot of the rows at the point, in parts of what it is measured by; 0: D^T M D has lost too much, or one is no number */
 static double smallest_pivot(const zd_motion *motion)
 {

@@ -152,6 +152,8 @@ void zd_direct_leave(zd_motion *motion);
 /* What the energy correction has counted in a step goes with it: as it stands where the step begins. */
 void zd_direct_remember_energy(zd_motion *motion);
 void zd_direct_forget_energy(zd_motion *motion);
+/* By what the pivots of all orders are measured. */
+void zd_direct_measure(zd_motion *motion);
 /* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);

@@ -246,6 +246,47 @@ static int start(zd_run *run, int status, const workspace *work, const double *p
     return status;
 }
 
+/* What else is checked of a start follows from its pivots being large. */
+static int check_elsewhere(zd_run *run, const workspace *work, const double *p0, const double *v0)
+{
+    zd_motion *motion = &run->motion;
+    int status = zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+    if (!status) status = check_mass(run, work->factor);
+    if (!status) status = check_tolerance(run);
+    if (!status) status = zd_motion_start_energy(motion);
+    if (status) return status;
+    zd_direct_choose(motion);
+    if (!zd_is_direct(motion)) return ZD_SINGULAR;
+    status = choose_step(run, work->states, p0, v0);
+    return status ? status : zd_motion_accelerate(motion);
+}
+
+static void forget(zd_run *run, const void *data)
+{
+    zd_motion *motion = &run->motion;
+    zd_road *road = &motion->road;
+    zd_direct_leave(motion);
+    motion->system.data = data;
+    motion->point->known = motion->point->measured = motion->in_run = 0;
+    motion->balance.initial = 0;
+    for (int i = motion->formulation_size; i < motion->rate.size; i++) run->stepper.y[i] = 0;
+    for (int i = 0; i < road->direct->orders * motion->system.nv; i++) road->scale[i] = 0;
+}
+
+int zd_run_start_elsewhere(zd_run *run, const void *data, const double *p0, const double *v0)
+{
+    zd_arena arena = {NULL, 0};
+    forget(run, data);
+    lay_out(&arena, &run->motion);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) return ZD_NO_MEMORY;
+    const workspace work = lay_out(&arena, &run->motion);
+    int status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
+    if (!status) status = check_elsewhere(run, &work, p0, v0);
+    zd_release(arena.base);
+    return status;
+}
+
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)
 {
     zd_arena arena = {NULL, 0};

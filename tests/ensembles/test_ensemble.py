@@ -56,7 +56,8 @@ def test_starts_vary_too():
     ens = zd.ensemble(bar, 0.5, v0=[v for _, v in starts], step=0.01)
     for i, (_, v) in enumerate(starts):
         sol = zd.simulate(bar, 0.5, bar.p0, v, step=0.01)
-        assert np.array_equal(ens["alpha2"][i], sol["alpha2"])
+        assert np.abs(ens["alpha2"][i] - sol["alpha2"]).max() < 1e-12       # in vector lanes, rounded otherwise
+        assert np.array_equal(ens["alpha2"][i], ens[i]["alpha2"])
     held = zd.ensemble(zd.models.four_bar(), 0.5, start={"crank.angular_velocity": speeds, "crank.angle": 1.0}, step=0.01,
                        outputs=["crank.angle", "crank.angular_velocity"])
     assert np.abs(held["crank.angular_velocity"][:, 0] - speeds).max() < 1e-13

@@ -55,24 +55,28 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
          "energy_error": "double[]"}
 
 
-def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, p0: np.ndarray, v0: np.ndarray, capacity: int,
-              wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None) -> BatchResults:
-    """Runs of systems that have their own data (k, doubles), from their own starts p0 (k, nq), v0 (k, nv).
+def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray, v0: np.ndarray, capacity: int,
+              wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
+              lanes: bool = True) -> BatchResults:
+    """Runs of systems that have their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
 
+    Where data is None, that of the core serves all; it consists of `size` doubles, or of something else where that is 0.
     The interpreter is free for other threads meanwhile. The system must not be written in Python.
     """
-    k, shapes = len(p0), {"t": (), "p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,)}
-    columns = {name: np.full((k, capacity, *shapes[name]), np.nan) for name in wanted}
+    k, shapes = len(p0), {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,)}
+    columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name == "iterations" else float)
+               for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
     messages = np.zeros((k, MESSAGE_SIZE), np.int8)
     options.given_jacobian = core.given_jacobian
     members: dict[str, Any] = {
         "system": core.c, "settings": options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
+        "doubles": size, "lanes": lanes,
         "p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv), "message": ffi.from_buffer("char[]", messages),
-        **{name: doubles(array, array.size, writable=True) for name, array in columns.items()},
+        **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
         **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
     if data is not None:
-        members |= {"data": doubles(data, data.size), "doubles": data.shape[1]}
+        members |= {"data": doubles(data, data.size)}
     if assembly is not None:
         members |= {"assembly": assembly.options, "hold_p": ffi.new("int[]", assembly.hold_p),
                     "hold_v": ffi.new("int[]", assembly.hold_v)}
@@ -106,3 +110,8 @@ def tables_of_kind(kind: Kind, parameters: np.ndarray) -> tuple[np.ndarray, np.n
 def derive(address: int, data: np.ndarray) -> None:
     """Calls a compiled function, which takes one row, for each row of data (k, doubles)."""
     lib.zd_batch_derive(ffi.cast("void(*)(double *)", address), *data.shape, doubles(data, data.size, writable=True))
+
+
+def has_lanes(unit: str) -> bool:
+    """Whether the compiler of the core could write functions for several trajectories at once."""
+    return bool(lib.zd_lanes_of_unit({"baseline": lib.ZD_BASELINE, "avx2": lib.ZD_AVX2, "avx512": lib.ZD_AVX512}[unit]))

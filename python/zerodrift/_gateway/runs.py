@@ -7,7 +7,7 @@ import functools
 import itertools
 import math
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -227,6 +227,13 @@ class Run:
     def advance(self, record: Record, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
         return lib.zd_run_advance(self._run, record.c, seconds)
+
+    def record_states(self, record: Record, columns: Mapping[str, np.ndarray]) -> None:
+        """Records rows of which "t" (k,), "p", "v", and "input" (k,) are known; the run is of no other use then."""
+        given = (doubles(columns[name], columns[name].size) for name in ("t", "p", "v", "input"))
+        status = lib.zd_run_record_states(self._run, len(columns["t"]), *given, record.c)
+        if status:
+            raise self.error(status)
 
     def error(self, status: int) -> BaseException:
         """The exception that stands for a failed status: what was raised in Python, or our own."""

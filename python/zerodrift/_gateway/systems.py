@@ -19,7 +19,7 @@ class Kind:
     """A kind of system: what it needs to be made, and what its instances consist of."""
 
     def __init__(self, c: Any) -> None:
-        self.c, self.card = c, card_of(c.card)
+        self.c, self.card, self.constants = c, card_of(c.card), c.constants
         system = self.c.system
         self.parameters = tuple(parameter_of(self.c.parameter[i]) for i in range(self.c.parameters))
         self.coordinates = self._variables(self.c.coordinate, system.nq)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,7 +10,9 @@ import numpy as np
 from .. import _check, _gateway
 from ..runs import diagnosis, settings
 from ..runs.operations import assembly
-from ..systems.base import BaseSystem
+from ..runs.simulate import solution_of_rows
+from ..runs.solution import Solution
+from ..systems.base import BaseSystem, direct_core_of
 from ..systems.tables import NumberTables
 from .part import ROADS, Part, nothing
 from .plan import OPTIONS, Plan
@@ -26,7 +29,7 @@ class Batch(NamedTuple):
     columns: dict[str, tuple[str, int]]     # where each output is: in "p", "v" or "multipliers"
     vector: str | None                      # the unit of direct functions; None: none are taken
     assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
-    times: np.ndarray | None                # t_eval, whose memory the options refer to
+    chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
 
     @property
     def runs_at_once(self) -> int:
@@ -54,7 +57,7 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     return Batch(system, found.options, found.rows, columns,
                  found.chosen["vector"] if _gateway.takes_direct(found.options) else None,
-                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen.get("t_eval"))
+                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen)
 
 
 def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str, int]] | None:
@@ -70,16 +73,50 @@ def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str,
 
 def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> Part:
     """The runs first ... last - 1; fewer where they are stopped."""
-    system, runs = batch.system, plan.runs
-    tables = system._number_tables(runs.parameters_from(first, last), last - first, batch.vector)
-    p0, v0 = runs.starts(tables, first, last)
-    wanted = tuple(dict.fromkeys(["t", *(group for group, _ in batch.columns.values())]))
-    made = _gateway.run_batch(tables.core, batch.options, tables.data, p0, v0, batch.rows, wanted, batch.assembly, stop)
+    made, tables = _make(plan, batch, first, last, ("t", *(group for group, _ in batch.columns.values())), stop)
     count = int(np.argmax(paused)) if (paused := made.status == _gateway.PAUSED).any() else last - first
     if not count:
         return nothing(0)
     doubtful = ~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)
     return _part(plan, batch, made, _messages(made, tables), doubtful[:count])
+
+
+def _make(plan: Plan, batch: Batch, first: int, last: int, wanted: tuple[str, ...],
+          stop: _gateway.Stop | None = None) -> tuple[_gateway.BatchResults, NumberTables]:
+    tables = batch.system._number_tables(plan.runs.parameters_from(first, last), last - first, batch.vector)
+    p0, v0 = plan.runs.starts(tables, first, last)
+    made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
+                              tuple(dict.fromkeys(wanted)), batch.assembly, stop)
+    return made, tables
+
+
+STATES = ("t", "p", "v", "input", "multipliers", "iterations")
+
+
+def made_again(plan: Plan, run: int) -> Solution:
+    """One run by itself, with the bits that it has among others."""
+    return _solution_in_lanes(plan, run) or plan.solution(run)
+
+
+def _solution_in_lanes(plan: Plan, run: int) -> Solution | None:
+    """None where it is not made in lanes."""
+    batch, begin = batch_of(plan), time.perf_counter()
+    if batch is None:
+        return None
+    made, _ = _make(plan, batch, run, run + 1, STATES)
+    if made.way[0] != _gateway.IN_LANES:
+        return None
+    states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}
+    system, span = plan.runs.system(run), _check.span(plan.t_span)
+    core = direct_core_of(system, batch.vector)
+    p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
+    again, record = _gateway.Run(core, batch.options, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
+    again.record_states(record, states)
+    rows = record.take()
+    rows["multipliers"][:], rows["iterations"][:] = states["multipliers"], states["iterations"]
+    results = again.results()._replace(statistics=_gateway.Statistics(*made.statistics[0].tolist()),
+                                       largest_kinetic=float(made.kinetic[0]))
+    return solution_of_rows(system, span, batch.chosen, record, results, time.perf_counter() - begin)
 
 
 def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:

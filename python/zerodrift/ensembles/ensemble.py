@@ -16,6 +16,7 @@ from ..runs.progress import progress_of
 from ..runs.solution import Solution
 from . import executors
 from . import store as stores
+from .batch import batch_of
 from .part import Part, filled
 from .plan import Plan, checked
 from .result import Ensemble
@@ -23,7 +24,8 @@ from .runs import Runs
 from .threads import Threads, processors
 
 SHARES = 16         # ranges for each thread, so that all end at about the same time
-LONGEST = 1024      # runs of a range, at most
+LONGEST = 1024      # runs of a range, at most; and at least, where they are made side by side: lanes stand still at its end
+SHORTEST = 32
 TOLD = 3            # doubtful runs that are looked at, to tell of the first that deserves it
 
 
@@ -36,6 +38,11 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
 
     Runs go side by side in threads, or wherever an executor makes them, each with the bits that it has by itself. A run that
     fails is data: its rows end, `failed` says so, and `messages` why.
+
+    Where direct functions serve a built-in system, and outputs are coordinates, velocities and multipliers at times that are
+    known before, several runs are made at once in the lanes of the processor's vector unit: those of `simulate` but for
+    rounding. What a lane cannot make, energy corrections, events, and a run whose elimination is not sound somewhere, is made by
+    `simulate`'s own steps; `repr` says how many runs took which road.
 
     Parameters
     ----------
@@ -127,7 +134,8 @@ class _Work:
         self._count = sum(len(part.rows) for part in self._parts.values())
         runs = plan.runs.count
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
-        ranges = stores.missing(self._parts, runs, chunk or min(LONGEST, -(-runs // (SHARES * workers))))
+        least = SHORTEST if batch_of(plan) else 1
+        ranges = stores.missing(self._parts, runs, chunk or min(LONGEST, max(-(-runs // (SHARES * workers)), least)))
         maker = Threads(plan, ranges, self._finished) if executor is None else (
             executors.Elsewhere(plan, ranges, self._finished, executor))
         self._make, self._where = maker.run, _where(executor, threads)

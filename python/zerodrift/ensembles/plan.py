@@ -73,6 +73,10 @@ class Plan:
     def __getstate__(self) -> dict[str, Any]:
         return vars(self) | {"remembered": {}}
 
+    def to_run(self, run: int) -> Plan:
+        """By which a run can be made: this one."""
+        return self
+
     def solution(self, run: int, **options: Any) -> Solution:
         """One run, by `simulate`."""
         system = self.runs.system(run)

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _check
 from ..systems.watching import AXES
 from . import exporting, saving
+from .batch import made_again
 from .part import NOT_STARTED, ROADS, Part
 from .plan import Plan
 
@@ -91,7 +92,7 @@ class Ensemble:
         if not -len(self) <= key < len(self):
             raise IndexError(f"there are {len(self)} runs, and none of number {key}")
         run = int(key) % len(self)
-        return self._part.solutions[run] or self._plan.solution(run)
+        return self._part.solutions[run] or made_again(self._plan.to_run(run), run)
 
     def _component(self, name: str) -> Any:
         """A component of an output that is a vector; None: it is something else."""

@@ -13,7 +13,6 @@ import numpy as np
 from .. import _check
 from ..errors import ZerodriftError
 from ..runs import saving
-from ..runs.solution import Solution
 from ..systems.base import BaseSystem
 from .part import Part
 from .plan import Plan
@@ -153,11 +152,11 @@ class Kept(NamedTuple):
         """The times that are saved; None: each run has its own."""
         return self.options.get("t_eval")
 
-    def solution(self, run: int, **options: Any) -> Solution:
-        """One run, by `simulate`."""
+    def to_run(self, run: int) -> Plan:
+        """By which a run can be made."""
         if self.why_not:
             raise ZerodriftError(f"run {run} cannot be made again, as {self.why_not}: call zd.ensemble again")
-        return Plan(self.runs, self.t_span, self.options, self.names).solution(run, **options)
+        return Plan(self.runs, self.t_span, self.options, self.names)
 
 
 def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Kept:

@@ -315,6 +315,13 @@ def _solution(system, span, chosen, run, record, results, watcher, outcome, reco
         system=system, t_span=span, **_events_found(watcher))
 
 
+def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
+                     results: _gateway.Results, seconds: float) -> Solution:
+    """That of a run which was not driven here, and has reached its end."""
+    return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
+                            status=_gateway.DONE, success=True, message="done", settings=chosen, system=system, t_span=span)
+
+
 def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
                       recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
     """What a solution has of them, under its own names."""

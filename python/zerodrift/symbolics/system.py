@@ -131,7 +131,8 @@ class SymbolicSystem(BaseSystem):
         _gateway.derive(_gateway.address_of(self._library, "zd_symbolic_constants"), data)
         if library is not self._library:
             _gateway.derive(_gateway.address_of(library, f"{DIRECT}_constants"), data)
-        return NumberTables(core, data, self.p0, self.v0, refusals(self._with, parameters, not_finite(parameters, count)))
+        refused = refusals(self._with, parameters, not_finite(parameters, count))
+        return NumberTables(core, data, data.shape[1], self.p0, self.v0, refused)
 
     def _in_python(self) -> _gateway.PythonCore:
         code, written = self._code, _InPython(self._code.python_source, self._values.tolist())

@@ -214,7 +214,7 @@ class BaseSystem:
         core = getattr(self, "_core", None)
         if parameters or core is None or core.for_run() is not core:
             return None
-        return NumberTables(core if vector is None else self._direct_core(vector), None, self.p0, self.v0, {})
+        return NumberTables(core if vector is None else self._direct_core(vector), None, 0, self.p0, self.v0, {})
 
     def _why_not_direct(self) -> str | None:
         """Why it has no direct functions, as far as is known; empty: it has some; None: systems of its kind have none."""

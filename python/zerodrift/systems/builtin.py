@@ -42,7 +42,7 @@ class SystemOfKind(BaseSystem):
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
         if not parameters:
-            return super()._number_tables(parameters, count, vector)
+            return NumberTables(self._core, None, self._kind.constants, self.p0, self.v0, {})
         columns, wrong = [], not_finite(parameters, count)
         for parameter in self._kind.parameters:
             own = _as_numbers(parameter, self._given.get(parameter.name))
@@ -54,7 +54,7 @@ class SystemOfKind(BaseSystem):
             columns.append(values)
         data, p0, v0, reasons = _gateway.tables_of_kind(self._kind, np.ascontiguousarray(np.concatenate(columns, axis=1), float))
         wrong[list(reasons)] = True
-        return NumberTables(self._core, data, p0, v0, refusals(self._with, parameters, wrong))
+        return NumberTables(self._core, data, data.shape[1], p0, v0, refusals(self._with, parameters, wrong))
 
 
 class BuiltIn(SystemOfKind):

@@ -14,7 +14,8 @@ class NumberTables(NamedTuple):
     """k systems."""
 
     core: CoreSystem                # whose functions all of them have
-    data: np.ndarray | None         # (k, doubles): what these are handed; None: the core's own
+    data: np.ndarray | None         # (k, size): what these are handed; None: the core's own
+    size: int                       # of that, in doubles; 0: it consists of something else
     p0: np.ndarray | None           # (k, nq) or (nq,): their starts; None: they have none
     v0: np.ndarray | None           # (k, nv) or (nv,)
     refused: dict[int, str]         # why some of them cannot be

@@ -1,0 +1,90 @@
+/* What is looked at in one lane: long steps, and the energy at both ends of a run. */
+#include <math.h>
+
+#include "../point/matrices.h"
+#include "group.h"
+
+/* Of the warnings that a single run gives: it then gets the chance to give them. */
+static const double LARGEST_ENERGY_ERROR = 0.005;   /* of the kinetic energy */
+static const double ROUNDING = 1e-10;               /* of all the energy there is */
+
+static void gather(const zd_lanes *lanes, int lane, const double *y, double *p, double *v)
+{
+    for (int i = 0; i < lanes->nq; i++) p[i] = zd_lane_number(lanes, y, i, lane);
+    for (int i = 0; i < lanes->nv; i++) v[i] = zd_lane_number(lanes, y, lanes->nq + i, lane);
+}
+
+static const void *data_of(const zd_lane_group *self, int lane)
+{
+    return zd_single_system(self->batch, self->run_of[lane].number).data;
+}
+
+/* C (mh, nv) in natural units at y; returns whether that is known. */
+static int evaluate_rows(zd_lane_group *self, int lane, double t, const double *y, double *C)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_system *system = &self->run->motion.system;
+    gather(lanes, lane, y, self->p, self->v);
+    self->terms.C = C;
+    if (system->evaluate(data_of(self, lane), ZD_C | ZD_MOVED, t, self->p, self->v, &self->terms)) return 0;
+    for (int k = 0; k < lanes->mh; k++)
+        for (int i = 0; i < lanes->nv; i++) C[k * lanes->nv + i] /= zd_lane_number(lanes, lanes->inverse_unit, i, lane);
+    return 1;
+}
+
+/* By more than 60 degrees or so: see guard.c. */
+static int is_turned(int n, const double *before, const double *after)
+{
+    double turned = 0, a = 0, b = 0;
+    for (int i = 0; i < n; i++) {
+        turned += (after[i] - before[i]) * (after[i] - before[i]);
+        a += before[i] * before[i];
+        b += after[i] * after[i];
+    }
+    return !(turned <= fmax(a, b));
+}
+
+int zd_lane_group_is_turned(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_run *run = &self->run_of[lane];
+    int known = run->number_of_C == lanes->number[lane] - 1 || evaluate_rows(self, lane, lanes->t_before[lane], lanes->y0, run->C);
+    known = known && evaluate_rows(self, lane, lanes->t[lane], lanes->y, self->C);
+    int turned = !known;
+    for (int k = 0; k < lanes->mh; k++) turned |= is_turned(lanes->nv, run->C + k * lanes->nv, self->C + k * lanes->nv);
+    double *now = self->C;
+    self->C = run->C;
+    run->C = now;
+    run->number_of_C = lanes->number[lane];
+    return turned;
+}
+
+void zd_lane_group_note_start(zd_lane_group *self, int lane)
+{
+    zd_motion *motion = &self->run->motion;
+    zd_lane_run *run = &self->run_of[lane];
+    run->number_of_C = -1;
+    run->kinetic = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
+    run->energy = motion->balance.initial;
+}
+
+int zd_lane_group_keeps_energy(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_lane_run *run = &self->run_of[lane];
+    zd_motion *motion = &self->run->motion;
+    double violation, kinetic;
+    if (!zd_has_energy(&motion->system)) return 1;
+    gather(lanes, lane, lanes->y, self->p, self->v);
+    motion->system.data = data_of(self, lane);
+    motion->point->known = 0;
+    zd_point_move(motion->point, lanes->t[lane], self->p, self->v);
+    motion->balance.initial = run->energy;
+    self->run->stepper.y[lanes->size - 1] = zd_lane_number(lanes, lanes->y, lanes->size - 1, lane);
+    if (zd_motion_energy_violation(motion, &violation, &kinetic)) return 0;
+    const double potential = zd_point_potential(motion->point), exchanged = fabs(potential - (run->energy - run->kinetic));
+    const double largest = fmax(fmax(kinetic, run->kinetic), exchanged);
+    self->batch->kinetic[run->number] = largest;
+    self->batch->energy_error[run->number] = fabs(violation);
+    return fabs(violation) < fmax(LARGEST_ENERGY_ERROR * largest, ROUNDING * (largest + fabs(potential))) || violation == 0;
+}

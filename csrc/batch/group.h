@@ -1,0 +1,60 @@
+/* Runs in lanes, with what is looked at lane by lane. */
+#ifndef ZD_BATCH_GROUP_H
+#define ZD_BATCH_GROUP_H
+
+#include "../run/run.h"
+#include "lane_numbers.h"
+#include "single.h"
+
+typedef struct zd_lane_run {    /* in a lane */
+    int64_t number;         /* of the batch; -1: none */
+    int64_t rows;           /* saved so far */
+    int64_t next;           /* of t_eval */
+    double kinetic, energy; /* J: at its start; the energy without what has come in since */
+    double *C;              /* (m, nv): in natural units, at the end of the step */
+    double number_of_C;     /* whose number this is; -1: of none */
+} zd_lane_run;
+
+typedef struct zd_lane_group {
+    const zd_batch *batch;
+    const zd_single *own;
+    const zd_lane_functions *functions;
+    zd_run *run;            /* looks at starts and at ends */
+    zd_lanes lanes;
+    zd_lane_run run_of[ZD_MOST_LANES];
+    int64_t next, active;   /* the run that begins next; how many are in lanes */
+    double *p, *v, *C;      /* (nq,), (nv,), (m, nv): of one lane */
+    zd_terms terms;         /* of the system, for C alone */
+} zd_lane_group;
+
+/* lanes.c: lays out the lanes of a run; done twice as ever. */
+void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
+                   int64_t doubles);
+/* The functions for the unit, and those of the system that go with them; NULL: there are none. */
+const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_direct **direct);
+/* Everything of a lane, from another one or from the run, which stands at its start. */
+void zd_lanes_copy(zd_lanes *self, int from, int to);
+void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles);
+
+/* rows.c: saves what is due in the lanes, at the end of the last step and within it. */
+void zd_lane_group_save(zd_lane_group *self);
+/* When somebody has to look at the lane again. */
+void zd_lane_group_set_next(zd_lane_group *self, int lane);
+
+/* ends.c: whether the rows of C have turned by so much in a long step that it is not believed */
+int zd_lane_group_is_turned(zd_lane_group *self, int lane);
+/* Whether the run in the lane, which has ended, keeps its energy as well as runs do that nobody is warned of. */
+int zd_lane_group_keeps_energy(zd_lane_group *self, int lane);
+void zd_lane_group_note_start(zd_lane_group *self, int lane);
+
+static inline double zd_lane_number(const zd_lanes *self, const double *numbers, int64_t i, int lane)
+{
+    return numbers[i * self->lanes + lane];
+}
+
+static inline void zd_lane_set(const zd_lanes *self, double *numbers, int64_t i, int lane, double value)
+{
+    numbers[i * self->lanes + lane] = value;
+}
+
+#endif

@@ -1,0 +1,82 @@
+/* Runs side by side in the lanes of a vector unit: each has its own time, step and order of elimination, and none sees the others. */
+#ifndef ZD_LANE_NUMBERS_H
+#define ZD_LANE_NUMBERS_H
+
+#include "../integrators/runge_kutta.h"
+
+enum { ZD_MOST_LANES = 8, ZD_MOST_STAGES = 16 };
+
+/* A sum over stages, of those whose weights are not zero. */
+typedef struct zd_weights {
+    int count, stage[ZD_MOST_STAGES];
+    double weight[ZD_MOST_STAGES];
+} zd_weights;
+
+/* A method: its tableau without zeros. */
+typedef struct zd_method {
+    const zd_tableau *tableau;
+    int stages, error_order;
+    zd_weights a[ZD_MOST_STAGES], b, e, e3;
+    zd_weights more[ZD_MOST_STAGES], d[ZD_COEFFICIENTS];    /* for values between */
+} zd_method;
+
+/* What is the same for all lanes, */
+typedef struct zd_lanes {
+    const zd_direct *direct;
+    zd_method method;
+    int lanes, nq, nv, m, mh, size;     /* size: of the state, p, v and what comes in of energy, if that is asked for */
+    int has_A, has_input, max_iterations, corrects;
+    int is_fixed;
+    double t0, end, step, steps;        /* steps: how many, where they are of fixed size */
+    double rtol, atol, longest, tiny, most_steps, save_every;
+    double astray, nearby, limit;       /* as the guard has them */
+    /* and of each: so many numbers, each for all lanes beside each other. A condition is 1 where it holds, else 0. */
+    double *first;          /* of all of them */
+    int64_t count;          /* how many there are in all */
+    double *data;           /* (doubles,) of the systems */
+    double *is_active;      /* whether there is a run in the lane; else it makes steps of size 0 */
+    double *t, *number;     /* where it has got to; how many steps it has made */
+    double *h, *after_rejection;    /* the next step, where steps are chosen; whether the one before was too long */
+    double *next_t, *next_number;   /* when somebody has to look at it */
+    double *y, *y0;         /* (size,): at the end of the last step, and at its beginning */
+    double *t_before;       /* where that was */
+    double *pdot, *vdot;    /* (nq,), (nv,): at y */
+    double *power;          /* W: at y */
+    double *pivots;         /* (nv,): at y, of its order */
+    double *order;          /* its number */
+    double *speed;          /* |pdot|^2 at y, in natural units */
+    double *streak;         /* steps in succession that were longer than the method is stable for */
+    double *inverse_unit_p, *inverse_unit;  /* (nq,), (nv,) */
+    double *allowed, *inverse_size;         /* (mh,): of Phi */
+    double *scale;          /* (orders, nv): of the pivots */
+    double *iterations, *rejected;          /* counts */
+    double *most_iterations;                /* of a step, since somebody has set it to 0 */
+    double *leaves;         /* whether the run has to be made by itself */
+    double *is_long;        /* whether the last step was so long that rows of C may have turned in it */
+    double *t_row, *is_wanted;      /* a time within the last step, and whether it is to be looked at */
+    double *y_row, *lambda_row;     /* (size,), (m,): what is found there */
+    /* of the step being made */
+    double *k;              /* (stages with those for values between, size): rates */
+    double *stage, *y1;     /* (size,) */
+    double *pdot1, *vdot1, *power1, *pivots1;
+    double *Phi, *dp, *dv;  /* (mh,), (nq,), (nv,) */
+    double *other;          /* (nq + nv + m + 1 + nv,): what another order makes of it */
+    double *polynomial;     /* (ZD_COEFFICIENTS, size): through the last step, once it is asked for */
+    int has_polynomial;
+} zd_lanes;
+
+/* What one vector unit does. */
+typedef struct zd_lane_functions {
+    enum zd_unit unit;
+    int lanes;
+    /* Chooses the order of elimination of the lanes in which that is not known, NaN, and has the accelerations there. */
+    void (*choose)(zd_lanes *self);
+    /* Steps until a lane has to be looked at. */
+    void (*advance)(zd_lanes *self);
+    /* y_row at t_row, where it is wanted; its multipliers, too, where `multipliers`. */
+    void (*move_between)(zd_lanes *self, int multipliers);
+} zd_lane_functions;
+
+extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* without functions where the compiler cannot */
+
+#endif

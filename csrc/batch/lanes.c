@@ -1,0 +1,172 @@
+/* The lanes of a batch: their memory, and what goes into it where a run begins. */
+#include <math.h>
+
+#include "group.h"
+
+static zd_weights without_zeros(int count, const double *weight)
+{
+    zd_weights weights = {0};
+    for (int j = 0; weight && j < count; j++) {
+        if (weight[j] == 0) continue;
+        weights.stage[weights.count] = j;
+        weights.weight[weights.count++] = weight[j];
+    }
+    return weights;
+}
+
+static zd_method method_of(const zd_integrator *integrator)
+{
+    const zd_tableau *T = integrator->table;
+    const int stages = T->stages, all = stages + 1 + T->more;
+    zd_method method = {.tableau = T, .stages = stages, .error_order = integrator->card.error_order};
+    for (int i = 0; i < stages; i++) method.a[i] = without_zeros(i, T->a + i * stages);
+    method.b = without_zeros(stages, T->b);
+    method.e = without_zeros(stages + 1, T->e);
+    method.e3 = without_zeros(stages + 1, T->e3);
+    for (int i = 0; i < T->more; i++) method.more[i] = without_zeros(all, T->more_a + i * all);
+    for (int i = 0; i < 4 && T->more; i++) method.d[i] = without_zeros(all, T->d + i * all);
+    return method;
+}
+
+static const zd_lane_functions *const all[] = {&zd_lanes_baseline, &zd_lanes_avx2, &zd_lanes_avx512};    /* by zd_unit */
+
+int zd_lanes_of_unit(enum zd_unit unit)
+{
+    return all[unit]->lanes;
+}
+
+const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_direct **direct)
+{
+    const zd_lane_functions *functions = all[unit];
+    for (int i = 0; i < system->directs && functions->lanes; i++) {
+        *direct = system->direct + i;
+        if ((*direct)->unit == unit && (*direct)->lanes == functions->lanes) return functions;
+    }
+    return NULL;
+}
+
+/* Every other column of numbers follows those before it in one block. */
+static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
+{
+    double *here = zd_take_doubles(arena, (size_t)(count * self->lanes));
+    if (!self->first) self->first = here;
+    return here;
+}
+
+static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
+{
+    const int nq = self->nq, nv = self->nv, size = self->size;
+    double **ones[] = {&self->is_active, &self->t, &self->number, &self->h, &self->after_rejection, &self->next_t, &self->next_number,
+                       &self->t_before, &self->power, &self->order, &self->speed, &self->streak, &self->iterations, &self->rejected,
+                       &self->most_iterations, &self->leaves, &self->is_long, &self->t_row, &self->is_wanted};
+    self->data = take(self, arena, doubles);
+    for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
+    self->y = take(self, arena, size);
+    self->y0 = take(self, arena, size);
+    self->pdot = take(self, arena, nq);
+    self->vdot = take(self, arena, nv);
+    self->pivots = take(self, arena, nv);
+    self->inverse_unit_p = take(self, arena, nq);
+    self->inverse_unit = take(self, arena, nv);
+    self->allowed = take(self, arena, self->mh);
+    self->inverse_size = take(self, arena, self->mh);
+    self->scale = take(self, arena, (int64_t)self->direct->orders * nv);
+}
+
+static void take_workspace(zd_lanes *self, zd_arena *arena)
+{
+    const int nq = self->nq, nv = self->nv, m = self->m, size = self->size;
+    const zd_tableau *T = self->method.tableau;
+    self->y_row = take(self, arena, size);
+    self->lambda_row = take(self, arena, m);
+    self->k = take(self, arena, (int64_t)(T->stages + 1 + T->more) * size);
+    self->stage = take(self, arena, size);
+    self->y1 = take(self, arena, size);
+    self->pdot1 = take(self, arena, nq);
+    self->vdot1 = take(self, arena, nv);
+    self->power1 = take(self, arena, 1);
+    self->pivots1 = take(self, arena, nv);
+    self->Phi = take(self, arena, self->mh);
+    self->dp = take(self, arena, nq);
+    self->dv = take(self, arena, nv);
+    self->other = take(self, arena, nq + 2 * nv + m + 1);
+    self->polynomial = take(self, arena, T->more ? (int64_t)ZD_COEFFICIENTS * size : 0);
+}
+
+void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
+                   int64_t doubles)
+{
+    const zd_settings *settings = &run->settings;
+    const zd_system *system = &run->motion.system;
+    const zd_guard *guard = &run->safeguards.guard;
+    const size_t before = arena->used;
+    *self = (zd_lanes){
+        .direct = direct, .method = method_of(run->stepper.integrator), .lanes = functions->lanes,
+        .nq = system->nq, .nv = system->nv, .m = zd_constraints(system), .mh = system->mh, .size = run->motion.rate.size,
+        .has_A = (system->provides & ZD_A) != 0, .has_input = run->motion.balance.input != NULL,
+        .max_iterations = run->motion.hold.max_iterations, .corrects = run->motion.corrections > 0,
+        .is_fixed = settings->step > 0, .t0 = settings->t0, .end = settings->t1, .step = settings->step, .steps = (double)run->course.steps,
+        .rtol = settings->rtol, .atol = settings->atol, .longest = settings->max_step > 0 ? settings->max_step : INFINITY,
+        .tiny = 16 * 0x1p-52 * fmax(fabs(settings->t0), fabs(settings->t1)),
+        .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
+        .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
+    };
+    take_states(self, arena, doubles);
+    take_workspace(self, arena);
+    self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
+}
+
+void zd_lanes_copy(zd_lanes *self, int from, int to)
+{
+    for (int64_t i = 0; i < self->count; i++) self->first[i * self->lanes + to] = self->first[i * self->lanes + from];
+}
+
+static void load(const zd_lanes *self, int lane, int64_t count, const double *from, double *to)
+{
+    for (int64_t i = 0; i < count; i++) zd_lane_set(self, to, i, lane, from[i]);
+}
+
+static void load_state(zd_lanes *self, int lane, const zd_run *run)
+{
+    const zd_point *point = run->motion.point;
+    const zd_road *road = &run->motion.road;
+    const double *rate = self->has_A ? road->pdot : point->v;
+    const int64_t stride = self->lanes;
+    double speed = 0;
+    for (int i = 0; i < self->nq; i++) speed += (rate[i] * point->inverse_unit_p[i]) * (rate[i] * point->inverse_unit_p[i]);
+    load(self, lane, self->nq, point->p, self->y);
+    load(self, lane, self->nv, point->v, self->y + self->nq * stride);
+    if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0);
+    load(self, lane, self->has_A ? self->nq : 0, road->pdot, self->pdot);
+    load(self, lane, self->nv, point->vdot, self->vdot);
+    load(self, lane, self->nv, road->pivots, self->pivots);
+    for (int64_t i = 0; i < self->size; i++) zd_lane_set(self, self->y0, i, lane, zd_lane_number(self, self->y, i, lane));
+    self->order[lane] = (double)(road->order - road->direct->order);
+    self->power[lane] = road->power;
+    self->speed[lane] = speed;
+}
+
+/* What stays as it is from the start on: sizes of the rows of C, by which Phi and pivots are measured. */
+static void load_units(zd_lanes *self, int lane, zd_run *run)
+{
+    const zd_point *point = run->motion.point;
+    zd_direct_measure(&run->motion);
+    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.road.scale, self->scale);
+    load(self, lane, self->nq, point->inverse_unit_p, self->inverse_unit_p);
+    load(self, lane, self->nv, point->inverse_unit, self->inverse_unit);
+    load(self, lane, self->mh, point->inverse_size, self->inverse_size);
+    for (int k = 0; k < self->mh; k++) zd_lane_set(self, self->allowed, k, lane, run->motion.hold.tolerance * point->size[k]);
+}
+
+void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)
+{
+    double *const zeros[] = {self->number, self->after_rejection, self->streak, self->iterations, self->rejected, self->most_iterations,
+                             self->leaves, self->is_long, self->is_wanted, self->next_number};
+    for (size_t i = 0; i < sizeof zeros / sizeof zeros[0]; i++) zeros[i][lane] = 0;
+    load(self, lane, doubles, data, self->data);
+    load_state(self, lane, run);
+    load_units(self, lane, run);
+    self->is_active[lane] = 1;
+    self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
+    self->h[lane] = run->course.control.h;
+}

@@ -1,0 +1,172 @@
+/* Steps one after the other, in all lanes at once, until somebody has to look at one of them; and what lies within a step. */
+#include "lanes_steps.h"
+
+/* y1 from y, by the method's stages */
+ZD_KERNEL void ZD_NAMED(integrate)(const zd_lanes *self, const double *from, zd_real t, zd_real h, double *to)
+{
+    const zd_method *method = &self->method;
+    const int size = self->size;
+    zd_stored at_stage;
+    for (int i = 1; i < method->stages; i++) {
+        double *rates = self->k + i * size * ZD_LANES;
+        at_stage = t + method->tableau->c[i] * h;
+        ZD_NAMED(combine)(self, 0, size, &method->a[i], h, from, self->stage);
+        ZD_NAMED(rate)(self, (const double *)&at_stage, self->stage, rates);
+    }
+    ZD_NAMED(combine)(self, 0, size, &method->b, h, from, to);
+}
+
+/* k of the first stage is known where the step begins. */
+ZD_KERNEL void ZD_NAMED(begin)(const zd_lanes *self)
+{
+    const int nq = self->nq, nv = self->nv;
+    const zd_stored *rate = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
+    for (int i = 0; i < nq; i++) REAL(self->k)[i] = rate[i];
+    for (int i = 0; i < nv; i++) REAL(self->k)[nq + i] = REAL(self->vdot)[i];
+    if (self->has_input) REAL(self->k)[nq + nv] = *REAL(self->power);
+}
+
+/* When the step ends */
+ZD_KERNEL zd_real ZD_NAMED(end_of_step)(const zd_lanes *self, zd_real *h)
+{
+    const zd_real t = *REAL(self->t), end = ZD_SPLAT(self->end);
+    if (self->is_fixed) {
+        const zd_real number = *REAL(self->number) + 1.0;
+        const zd_condition is_last = number == self->steps;
+        const zd_real t1 = ZD_WHERE(is_last, end, self->t0 + number * self->step);
+        *h = ZD_WHERE(is_last, end - t, ZD_SPLAT(self->step));
+        return t1;
+    }
+    zd_real size = *REAL(self->h);
+    size = SMALLER(SMALLER(size, ZD_SPLAT(self->longest)), end - t);
+    const zd_real t1 = ZD_WHERE(size == end - t, end, t + size);
+    *h = t1 - t;
+    return t1;
+}
+
+/* Takes y1 as the state where the step was accepted, and keeps where that began. */
+ZD_KERNEL void ZD_NAMED(keep)(zd_lanes *self, zd_condition accepted, zd_real t1, zd_real speed, zd_condition continues)
+{
+    *REAL(self->t_before) = ZD_WHERE(accepted, *REAL(self->t), *REAL(self->t_before));
+    ZD_NAMED(take_where)(accepted, self->size, self->y, self->y0);
+    ZD_NAMED(take_where)(accepted, self->size, self->y1, self->y);
+    ZD_NAMED(take_where)(accepted, self->has_A ? self->nq : 0, self->pdot1, self->pdot);
+    ZD_NAMED(take_where)(accepted, self->nv, self->vdot1, self->vdot);
+    ZD_NAMED(take_where)(accepted, self->nv, self->pivots1, self->pivots);
+    if (self->has_input) ZD_NAMED(take_where)(accepted, 1, self->power1, self->power);
+    *REAL(self->speed) = ZD_WHERE(accepted, speed, *REAL(self->speed));
+    *REAL(self->t) = ZD_WHERE(accepted, t1, *REAL(self->t));
+    *REAL(self->number) += AS_NUMBER(accepted);
+    *REAL(self->order) = ZD_WHERE(accepted & ~continues, ZD_SPLAT(NAN), *REAL(self->order));
+}
+
+/* The next step's size, from what this one has missed; which lanes keep it. */
+ZD_KERNEL zd_condition ZD_NAMED(control)(zd_lanes *self, zd_real h, zd_real norm)
+{
+    const zd_condition active = HOLDS(self->is_active), accepted = norm <= 1.0;
+    const zd_real factor = ZD_NAMED(factor)(self, norm);
+    const zd_real bounded = ZD_WHERE(accepted & HOLDS(self->after_rejection) & (factor > 1.0), ZD_SPLAT(1.0), factor);
+    *REAL(self->h) = ZD_WHERE(active, h * bounded, *REAL(self->h));
+    *REAL(self->after_rejection) = AS_NUMBER(active & ~accepted);
+    *REAL(self->rejected) += AS_NUMBER(active & ~accepted);
+    return accepted;
+}
+
+/* A step in each lane; those that are done with are the ones somebody has to look at. */
+ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
+{
+    const zd_condition active = HOLDS(self->is_active);
+    zd_real h, speed, wanted = *REAL(self->t);
+    zd_stored t1;
+    t1 = ZD_NAMED(end_of_step)(self, &h);
+    const zd_condition stands = ~(t1 > wanted) & active;        /* time does not resolve the step */
+    const zd_real taken = ZD_WHERE(active, h, ZD_SPLAT(0.0));
+    t1 = ZD_WHERE(active, t1, wanted);
+    ZD_NAMED(begin)(self);
+    ZD_NAMED(integrate)(self, self->y, wanted, taken, self->y1);
+    zd_condition accepted = active, failed = stands, continues;
+    if (!self->is_fixed) {
+        const zd_real norm = ZD_NAMED(error)(self, (const double *)&t1, taken);
+        failed |= active & (norm != norm);
+        accepted &= ZD_NAMED(control)(self, h, norm);
+    }
+    if (self->m && self->corrects) failed |= ZD_NAMED(land)(self, (const double *)&t1, self->y1, accepted) & accepted;
+    const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
+    ZD_NAMED(accelerate)(self, (const double *)&t1, self->y1, self->y1 + self->nq * ZD_LANES, &to);
+    failed |= accepted & ~ZD_NAMED(is_believed)(self, taken, &speed, &continues);
+    accepted &= ~failed;
+    ZD_NAMED(keep)(self, accepted, t1, speed, continues);
+    if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->most_steps));
+    *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
+    const zd_condition is_due = (*REAL(self->t) >= *REAL(self->next_t)) | (*REAL(self->number) >= *REAL(self->next_number));
+    return failed | (accepted & (is_due | HOLDS(self->is_long)));
+}
+
+ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
+{
+    self->has_polynomial = 0;
+    for (;;) {
+        const zd_condition seen = ZD_NAMED(step)(self);
+        const zd_real order = *REAL(self->order);
+        if (ZD_ANY(order != order)) ZD_NAMED(choose)(self);
+        if (ZD_ANY(seen | HOLDS(self->leaves))) return;
+    }
+}
+
+/* ---- within the last step ---- */
+
+/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: dop853.c */
+ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_real h)
+{
+    const zd_method *method = &self->method;
+    const int size = self->size, f1 = method->stages;
+    zd_stored at_stage = *REAL(self->t);
+    ZD_NAMED(rate)(self, (const double *)&at_stage, self->y, self->k + f1 * size * ZD_LANES);
+    for (int i = 0; i < method->tableau->more; i++) {
+        at_stage = *REAL(self->t_before) + method->tableau->more_c[i] * h;
+        ZD_NAMED(combine)(self, 0, size, &method->more[i], h, self->y0, self->stage);
+        ZD_NAMED(rate)(self, (const double *)&at_stage, self->stage, self->k + (f1 + 1 + i) * size * ZD_LANES);
+    }
+    zd_stored *F = REAL(self->polynomial), *k = REAL(self->k);
+    for (int i = 0; i < size; i++) {
+        const zd_real change = REAL(self->y)[i] - REAL(self->y0)[i];
+        F[i] = change;
+        F[size + i] = h * k[i] - change;
+        F[2 * size + i] = 2 * change - h * (k[f1 * size + i] + k[i]);
+    }
+    for (int i = 0; i < 4; i++) ZD_NAMED(combine)(self, 0, size, &method->d[i], h, NULL, self->polynomial + (3 + i) * size * ZD_LANES);
+}
+
+ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
+{
+    const int n = self->size;
+    const zd_stored *F = REAL(self->polynomial);
+    const zd_real z = 1 - x;
+    for (int i = 0; i < n; i++) {
+        const zd_real inner = F[3 * n + i] + x * (F[4 * n + i] + z * (F[5 * n + i] + x * F[6 * n + i]));
+        REAL(self->y_row)[i] = REAL(self->y0)[i] + x * (F[i] + z * (F[n + i] + x * (F[2 * n + i] + z * inner)));
+    }
+}
+
+/* By the polynomial where the method has one and steps are chosen, else by a shorter step. Orders of elimination may be others by now than
+ * where the step began, and are sound at its end. */
+ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
+{
+    const zd_condition wanted = HOLDS(self->is_wanted), inside = wanted & (*REAL(self->t_row) != *REAL(self->t));
+    const zd_real h = ZD_WHERE(inside, *REAL(self->t) - *REAL(self->t_before), ZD_SPLAT(0.0));
+    const zd_real part = ZD_WHERE(inside, *REAL(self->t_row) - *REAL(self->t_before), ZD_SPLAT(0.0));
+    const int is_spread = !self->is_fixed && self->method.tableau->more;
+    zd_stored t_row = ZD_WHERE(inside, *REAL(self->t_row), *REAL(self->t));
+    if (is_spread && !self->has_polynomial) ZD_NAMED(spread)(self, *REAL(self->t) - *REAL(self->t_before));
+    self->has_polynomial = is_spread;
+    if (is_spread) ZD_NAMED(evaluate)(self, ZD_WHERE(inside, part / ZD_WHERE(inside, h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
+    else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), part, self->y_row);
+    zd_condition failed = ZD_SPLAT(0.0) != 0.0;
+    if (self->m && self->corrects) failed = ZD_NAMED(land)(self, (const double *)&t_row, self->y_row, inside) & inside;
+    ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_row);
+    *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
+    if (!multipliers) return;
+    const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, self->lambda_row, NULL, NULL};
+    ZD_NAMED(accelerate)(self, (const double *)&t_row, self->y_row, self->y_row + self->nq * ZD_LANES, &to);
+}
+

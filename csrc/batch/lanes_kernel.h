@@ -1,0 +1,130 @@
+/* One text for the lanes of each vector unit, included with ZD_UNIT and ZD_LANES: see zerodrift/lanes.h. What a lane gets depends on what is in
+ * that lane alone.
+ */
+#include "../include/zerodrift/lanes.h"
+#include "lane_numbers.h"
+
+#define REAL(pointer) ((zd_stored *)(pointer))
+#define HOLDS(pointer) (*REAL(pointer) != 0)        /* a condition that is kept as a number */
+#define AS_NUMBER(condition) ZD_WHERE(condition, ZD_SPLAT(1.0), ZD_SPLAT(0.0))
+#define LARGER(a, b) ZD_WHERE((a) > (b), a, b)
+#define SMALLER(a, b) ZD_WHERE((a) < (b), a, b)
+#define ZD_KERNEL ZD_ON_UNIT static
+
+static const double LARGE = 0x1p-3, LARGE_ENOUGH = 0x1p-5, SMALL = 0x1p-6, SHRUNK = 0x1p-4;     /* pivots: see motion/direct.c, */
+static const double TRUSTED_SHARE = 0.25, LONG = 0.25;      /* motion.h, guard.h */
+static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10;     /* and adaptive.c */
+
+ZD_KERNEL zd_real ZD_NAMED(size_of)(zd_real x)
+{
+    return ZD_WHERE(x < 0.0, -x, x);
+}
+
+ZD_KERNEL void ZD_NAMED(take_where)(zd_condition condition, int n, const double *from, double *to)
+{
+    for (int i = 0; i < n; i++) REAL(to)[i] = ZD_WHERE(condition, REAL(from)[i], REAL(to)[i]);
+}
+
+/* ---- sums over stages ---- */
+
+/* to <- from + h sum_j weight_j k_j, of `count` of the size's numbers from `begin` on; from NULL: 0 */
+ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, const zd_weights *w, zd_real h, const double *from, double *to)
+{
+    const int size = self->size;
+    const zd_stored *k = REAL(self->k);
+    zd_real factor[ZD_MOST_STAGES];
+    for (int j = 0; j < w->count; j++) factor[j] = h * w->weight[j];
+    for (int i = begin; i < begin + count; i += 2) {
+        const int next = i + 1 < begin + count ? i + 1 : i;
+        zd_real a = from ? (zd_real)REAL(from)[i] : ZD_SPLAT(0.0), b = from ? (zd_real)REAL(from)[next] : ZD_SPLAT(0.0);
+        for (int j = 0; j < w->count; j++) {
+            a = ZD_FMA(factor[j], k[w->stage[j] * size + i], a);
+            b = ZD_FMA(factor[j], k[w->stage[j] * size + next], b);
+        }
+        REAL(to)[i] = a;
+        REAL(to)[next] = b;
+    }
+}
+
+/* ---- direct functions ---- */
+
+/* Where the functions of the lanes' orders write. */
+typedef struct ZD_NAMED(rates) {
+    double *pdot, *vdot, *lambda, *power, *pivots;      /* the last three NULL: not wanted */
+} ZD_NAMED(rates);
+
+ZD_KERNEL void ZD_NAMED(fill_pivots)(const zd_lanes *self, const zd_elimination *order, double *pivots)
+{
+    for (int k = order->solves + self->nv - self->m; pivots && k < self->nv; k++) REAL(pivots)[k] = ZD_SPLAT(1.0);
+}
+
+ZD_KERNEL void ZD_NAMED(call)(const zd_lanes *self, const zd_elimination *order, const double *t, const double *p, const double *v,
+                              const ZD_NAMED(rates) *to)
+{
+    /* Of what a function reports not to know it makes what no comparison passes. */
+    const int unknown = order->accelerate(self->data, t, p, v, NULL, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
+    ZD_NAMED(fill_pivots)(self, order, to->pivots);
+    for (int lane = 0; lane < ZD_LANES; lane++)
+        if (unknown >> lane & 1) to->vdot[lane] = NAN;
+}
+
+/* The order that all lanes have; -1: they differ. */
+ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
+{
+    if (self->direct->orders == 1) return 0;
+    for (int lane = 1; lane < ZD_LANES; lane++)
+        if (self->order[lane] != self->order[0]) return -1;
+    return (int)self->order[0];
+}
+
+ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const double *p, const double *v, const ZD_NAMED(rates) *to)
+{
+    const int common = ZD_NAMED(common_order)(self), nq = self->nq, nv = self->nv, m = self->m;
+    if (common >= 0) {
+        ZD_NAMED(call)(self, self->direct->order + common, t, p, v, to);
+        return;
+    }
+    double *other = self->other;
+    const ZD_NAMED(rates) there = {other, other + nq * ZD_LANES, to->lambda ? other + (nq + nv) * ZD_LANES : NULL,
+                                   to->power ? other + (nq + nv + m) * ZD_LANES : NULL,
+                                   to->pivots ? other + (nq + nv + m + 1) * ZD_LANES : NULL};
+    for (int i = 0; i < self->direct->orders; i++) {
+        const zd_condition has = *REAL(self->order) == (double)i;
+        if (!ZD_ANY(has)) continue;
+        ZD_NAMED(call)(self, self->direct->order + i, t, p, v, &there);
+        ZD_NAMED(take_where)(has, self->has_A ? nq : 0, there.pdot, to->pdot);
+        ZD_NAMED(take_where)(has, nv, there.vdot, to->vdot);
+        ZD_NAMED(take_where)(has, to->lambda ? m : 0, there.lambda, to->lambda);
+        ZD_NAMED(take_where)(has, to->power != NULL, there.power, to->power);
+        ZD_NAMED(take_where)(has, to->pivots ? nv : 0, there.pivots, to->pivots);
+    }
+}
+
+/* Phi, dp and dv at (t, p, v), where the order is what it was where the step began. */
+ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const double *p, const double *v)
+{
+    const int common = ZD_NAMED(common_order)(self);
+    const zd_elimination *order = self->direct->order;
+    if (common >= 0) {
+        order[common].correct(self->data, t, p, v, self->Phi, self->dp, self->dv);
+        return;
+    }
+    double *dp = self->other, *dv = dp + self->nq * ZD_LANES;
+    for (int i = 0; i < self->direct->orders; i++) {
+        const zd_condition has = *REAL(self->order) == (double)i;
+        if (!ZD_ANY(has)) continue;
+        order[i].correct(self->data, t, p, v, self->Phi, dp, dv);
+        ZD_NAMED(take_where)(has, self->nq, dp, self->dp);
+        ZD_NAMED(take_where)(has, self->nv, dv, self->dv);
+    }
+}
+
+/* The state's rates, where `rates` is a stage of the method. */
+ZD_KERNEL void ZD_NAMED(rate)(const zd_lanes *self, const double *t, const double *y, double *rates)
+{
+    const double *v = y + self->nq * ZD_LANES;
+    const ZD_NAMED(rates) to = {rates, rates + self->nq * ZD_LANES, NULL, self->has_input ? rates + (self->size - 1) * ZD_LANES : NULL, NULL};
+    if (!self->has_A)
+        for (int i = 0; i < self->nv; i++) REAL(rates)[i] = REAL(v)[i];
+    ZD_NAMED(accelerate)(self, t, y, v, &to);
+}

@@ -1,0 +1,19 @@
+/* What a run in lanes leaves out of its rows, from the states that it has in them: on the general road. */
+#include "../run/explain.h"
+#include "../run/run.h"
+
+static int record_row(zd_run *run, double t, const double *p, const double *v, double input, zd_record *record)
+{
+    int status = zd_stepper_place(&run->stepper, t, p, v);
+    if (run->motion.balance.input) run->stepper.y[run->motion.rate.size - 1] = input;
+    return status ? status : zd_recorder_add(&run->recorder, record);
+}
+
+int zd_run_record_states(zd_run *run, int64_t rows, const double *t, const double *p, const double *v, const double *input, zd_record *record)
+{
+    const zd_system *system = &run->motion.system;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < rows && !status; i++)
+        status = record_row(run, t[i], p + i * system->nq, v + i * system->nv, input[i], record);
+    return status ? zd_explain(run, status) : ZD_DONE;
+}

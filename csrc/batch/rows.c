@@ -1,0 +1,98 @@
+/* Rows of runs in lanes: what is due within the step just made, and at its end. */
+#include <math.h>
+#include <string.h>
+
+#include "group.h"
+
+static int64_t entries_of_p(const zd_lane_group *self) { return self->lanes.nq; }
+
+static void store(const zd_lanes *lanes, int lane, const double *from, int64_t count, double *to)
+{
+    for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(lanes, from, i, lane);
+}
+
+/* What is found in y_row at t_row is a row of the run. */
+static void save_row(zd_lane_group *self, int lane)
+{
+    const zd_batch *batch = self->batch;
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_run *run = &self->run_of[lane];
+    if (run->rows == batch->capacity) return;
+    const int64_t row = run->number * batch->capacity + run->rows++;
+    if (batch->t) batch->t[row] = lanes->t_row[lane];
+    if (batch->p) store(lanes, lane, lanes->y_row, lanes->nq, batch->p + row * entries_of_p(self));
+    if (batch->v) store(lanes, lane, lanes->y_row + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
+    if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_row, lanes->size - 1, lane) : 0;
+    if (batch->iterations) batch->iterations[row] = (int)lanes->most_iterations[lane];
+    lanes->most_iterations[lane] = 0;
+    if (batch->multipliers) store(lanes, lane, lanes->lambda_row, lanes->m, batch->multipliers + row * lanes->m);
+}
+
+static double next_time(const zd_lane_group *self, const zd_lane_run *run)
+{
+    const zd_settings *settings = self->batch->settings;
+    return run->next < settings->t_evals ? settings->t_eval[run->next] : INFINITY;
+}
+
+void zd_lane_group_set_next(zd_lane_group *self, int lane)
+{
+    zd_lanes *lanes = &self->lanes;
+    const double every = lanes->save_every;
+    const int by_time = self->batch->settings->t_eval != NULL;
+    lanes->next_t[lane] = fmin(lanes->end, by_time ? next_time(self, &self->run_of[lane]) : INFINITY);
+    lanes->next_number[lane] = by_time ? INFINITY : every * (floor(lanes->number[lane] / every) + 1);
+}
+
+/* Whether a row of the lane's run is due by the end of the last step, and when. Without t_eval it is that of every so many steps. */
+static int is_due(const zd_lane_group *self, int lane, double *when)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_lane_run *run = &self->run_of[lane];
+    if (run->number < 0 || lanes->leaves[lane] != 0) return 0;
+    if (self->batch->settings->t_eval) {
+        *when = next_time(self, run);
+        return *when <= lanes->t[lane];
+    }
+    *when = lanes->t[lane];
+    return run->next == 0 && (lanes->number[lane] >= lanes->next_number[lane] || lanes->t[lane] == lanes->end);
+}
+
+/* Marks the lanes that have a row due; whether any has, and whether one of those lies within the step. */
+static int mark(zd_lane_group *self, int *is_within)
+{
+    zd_lanes *lanes = &self->lanes;
+    int any = 0;
+    *is_within = 0;
+    for (int lane = 0; lane < lanes->lanes; lane++) {
+        double when = lanes->t[lane];
+        const int due = is_due(self, lane, &when);
+        lanes->is_wanted[lane] = due;
+        lanes->t_row[lane] = due ? when : lanes->t[lane];
+        any |= due;
+        *is_within |= due && when != lanes->t[lane];
+    }
+    return any;
+}
+
+static void save_marked(zd_lane_group *self)
+{
+    zd_lanes *lanes = &self->lanes;
+    for (int lane = 0; lane < lanes->lanes; lane++) {
+        if (lanes->is_wanted[lane] == 0 || lanes->leaves[lane] != 0) continue;
+        save_row(self, lane);
+        self->run_of[lane].next++;
+    }
+}
+
+void zd_lane_group_save(zd_lane_group *self)
+{
+    zd_lanes *lanes = &self->lanes;
+    const int multipliers = self->batch->multipliers != NULL, by_time = self->batch->settings->t_eval != NULL;
+    int is_within;
+    while (mark(self, &is_within)) {
+        if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
+        else memcpy(lanes->y_row, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
+        save_marked(self);
+    }
+    for (int lane = 0; lane < lanes->lanes && !by_time; lane++) self->run_of[lane].next = 0;
+}

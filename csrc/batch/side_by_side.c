@@ -1,0 +1,198 @@
+/* The runs of a batch side by side: a lane whose run has ended gets the next one, and what a lane cannot make is made by itself. */
+#include "side_by_side.h"
+
+#include "../registry.h"
+#include "../run/create.h"
+#include "../run/start.h"
+#include "group.h"
+
+/* ---- whether lanes serve ---- */
+
+int zd_lanes_serve(const zd_batch *batch)
+{
+    const zd_system *system = batch->system;
+    const zd_settings *settings = batch->settings;
+    const zd_direct *direct;
+    if (!batch->lanes || !batch->doubles || system->structure || system->quaternions || settings->events || settings->outputs
+        || settings->given_jacobian || system->mh + system->mn > system->nv || !zd_takes_direct(settings)
+        || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
+        return 0;
+    return zd_lane_functions_of(system, settings->vector, &direct) != NULL;
+}
+
+/* What is corrected after a step has to be the projection in the mass metric, of positions and of velocities, or nothing. */
+static int run_serves(const zd_run *run)
+{
+    const zd_motion *motion = &run->motion;
+    const zd_hold *hold = &motion->hold;
+    if (!motion->road.direct || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
+    if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
+    if (motion->corrections == 0) return 1;
+    return motion->corrections == 1 && hold->positions && hold->velocities && hold->every == 1 && hold->in_mass_metric;
+}
+
+/* ---- memory ---- */
+
+static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single *own, zd_run *run)
+{
+    const zd_system *system = batch->system;
+    const size_t rows = (size_t)(zd_constraints(system) * system->nv);
+    const zd_direct *direct = NULL;
+    zd_lane_group group = {
+        .batch = batch, .own = own, .run = run,
+        .functions = zd_lane_functions_of(system, batch->settings->vector, &direct),
+        .p = zd_take_doubles(arena, (size_t)system->nq),
+        .v = zd_take_doubles(arena, (size_t)system->nv),
+        .C = zd_take_doubles(arena, rows),
+        .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch)},
+    };
+    zd_lanes_take(&group.lanes, arena, run, group.functions, direct, batch->doubles);
+    for (int lane = 0; lane < ZD_MOST_LANES; lane++) group.run_of[lane] = (zd_lane_run){.number = -1, .C = zd_take_doubles(arena, rows)};
+    return group;
+}
+
+/* ---- runs ---- */
+
+/* The next run that begins in a lane; those that cannot are made by themselves. Returns whether there is one. */
+static int find_next(zd_lane_group *self)
+{
+    const zd_batch *batch = self->batch;
+    while (self->next < batch->runs && !zd_batch_is_stopped(batch)) {
+        const int64_t number = self->next++;
+        const zd_system system = zd_single_system(batch, number);
+        int status = zd_single_start(batch, &system, self->own, number);
+        if (!status) status = zd_run_start_elsewhere(self->run, system.data, self->own->p, self->own->v);
+        if (!status) return 1;
+        zd_single_run(batch, self->own, number);
+    }
+    return 0;
+}
+
+static void begin(zd_lane_group *self, int lane)
+{
+    const int64_t number = self->next - 1;
+    const zd_system system = zd_single_system(self->batch, number);
+    zd_lanes_load(&self->lanes, lane, self->run, system.data, self->batch->doubles);
+    self->run_of[lane].number = number;
+    self->run_of[lane].rows = self->run_of[lane].next = 0;
+    self->active++;
+    zd_lane_group_note_start(self, lane);
+}
+
+/* Gives the lane a run; where there is none it stands still, with numbers of a lane that has one. */
+static void fill(zd_lane_group *self, int lane)
+{
+    zd_lanes *lanes = &self->lanes;
+    self->run_of[lane].number = -1;
+    if (find_next(self)) {
+        begin(self, lane);
+        return;
+    }
+    int other = 0;
+    for (int i = 0; i < lanes->lanes; i++)
+        if (self->run_of[i].number >= 0) other = i;
+    zd_lanes_copy(lanes, other, lane);
+    lanes->is_active[lane] = lanes->leaves[lane] = lanes->is_long[lane] = 0;
+}
+
+static void end(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const int64_t number = self->run_of[lane].number, steps = (int64_t)lanes->number[lane];
+    self->batch->way[number] = ZD_IN_LANES;
+    self->batch->rows[number] = self->run_of[lane].rows;
+    self->batch->status[number] = ZD_DONE;
+    self->batch->statistics[number] = (zd_statistics){
+        .steps = steps, .direct_steps = steps, .rejected = (int64_t)lanes->rejected[lane],
+        .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? steps : 0,
+        .rank = lanes->m,
+    };
+}
+
+/* Whether the lane has done with its run, which has ended or is made by itself. */
+static int is_over(zd_lane_group *self, int lane)
+{
+    zd_lanes *lanes = &self->lanes;
+    const zd_settings *settings = self->batch->settings;
+    zd_lane_run *run = &self->run_of[lane];
+    if (run->number < 0) return 0;
+    if (lanes->leaves[lane] != 0) {
+        zd_single_run(self->batch, self->own, run->number);
+        return 1;
+    }
+    const int is_complete = settings->t_eval && run->next == settings->t_evals;
+    if (!is_complete && lanes->t[lane] != lanes->end) return 0;
+    if (zd_lane_group_keeps_energy(self, lane)) end(self, lane);
+    else zd_single_run(self->batch, self->own, run->number);
+    return 1;
+}
+
+/* Lanes whose runs are over get others; whether one has begun, whose first row may be due. */
+static int replace(zd_lane_group *self)
+{
+    int has_begun = 0;
+    for (int lane = 0; lane < self->lanes.lanes; lane++) {
+        if (is_over(self, lane)) {
+            self->active--;
+            fill(self, lane);
+            has_begun |= self->run_of[lane].number >= 0;
+        } else if (self->run_of[lane].number >= 0) zd_lane_group_set_next(self, lane);
+    }
+    return has_begun;
+}
+
+/* What has to be looked at after steps. */
+static void look(zd_lane_group *self)
+{
+    zd_lanes *lanes = &self->lanes;
+    for (int lane = 0; lane < lanes->lanes; lane++) {
+        if (self->run_of[lane].number < 0 || lanes->is_long[lane] == 0 || lanes->leaves[lane] != 0) continue;
+        if (zd_lane_group_is_turned(self, lane)) lanes->leaves[lane] = 1;
+        lanes->is_long[lane] = 0;
+    }
+    do zd_lane_group_save(self);
+    while (replace(self));
+}
+
+static void run_all(zd_lane_group *self)
+{
+    for (int lane = 0; lane < self->lanes.lanes; lane++) fill(self, lane);
+    while (self->active && !zd_batch_is_stopped(self->batch)) {
+        look(self);
+        if (self->active) self->functions->advance(&self->lanes);
+    }
+}
+
+/* A run that has been created, to look at starts; those before it that cannot be are made by themselves, and fail so. */
+static zd_run *create_first(const zd_batch *batch, const zd_single *own, int64_t *first)
+{
+    for (*first = 0; *first < batch->runs && !zd_batch_is_stopped(batch); ++*first) {
+        const zd_system system = zd_single_system(batch, *first);
+        int status = zd_single_start(batch, &system, own, *first);
+        zd_run *run = status ? NULL : zd_run_create(&system, batch->settings, own->p, own->v, &status, zd_message_of(batch, *first),
+                                                    batch->message_size);
+        if (run) return run;
+        zd_single_run(batch, own, *first);
+    }
+    return NULL;
+}
+
+int zd_run_side_by_side(const zd_batch *batch, const zd_single *own)
+{
+    int64_t first;
+    zd_run *run = create_first(batch, own, &first);
+    if (!run) return ZD_DONE;
+    const int serves = run_serves(run);
+    zd_arena arena = {NULL, 0};
+    if (serves) lay_out(&arena, batch, own, run);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (arena.base && serves) {
+        zd_lane_group group = lay_out(&arena, batch, own, run);
+        group.next = first;
+        run_all(&group);
+    }
+    for (int64_t i = first; i < batch->runs && arena.base && !serves && !zd_batch_is_stopped(batch); i++) zd_single_run(batch, own, i);
+    zd_run_free(run);
+    zd_release(arena.base);
+    return arena.base ? ZD_DONE : ZD_NO_MEMORY;
+}

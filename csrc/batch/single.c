@@ -1,0 +1,116 @@
+/* A run of a batch by itself: created, advanced and freed as any other. */
+#include "single.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double SLICE = 0.02;       /* s: so soon is seen that nobody waits any more */
+
+static int count_constraints(const zd_system *system) { return system->mh + system->mn; }
+
+static int width_of(const zd_outputs *outputs, const zd_system *system)
+{
+    int width = 0;
+    const zd_measures *measures = (outputs->of ? outputs->of : system)->measures;
+    for (int i = 0; i < outputs->count; i++) width += measures->measure[outputs->measure[i]].size;
+    return width;
+}
+
+zd_single zd_single_take(zd_arena *arena, const zd_batch *batch)
+{
+    const zd_system *system = batch->system;
+    const zd_outputs *outputs = batch->settings->outputs;
+    const size_t rows = (size_t)batch->capacity, nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)count_constraints(system);
+    return (zd_single){
+        .p = zd_take_doubles(arena, nq),
+        .v = zd_take_doubles(arena, nv),
+        .record = {
+            .capacity = batch->capacity,
+            .t = zd_take_doubles(arena, rows),
+            .p = zd_take_doubles(arena, rows * nq),
+            .v = zd_take_doubles(arena, rows * nv),
+            .multipliers = zd_take_doubles(arena, rows * m),
+            .position_violation = zd_take_doubles(arena, rows * (size_t)system->mh),
+            .velocity_violation = zd_take_doubles(arena, rows * m),
+            .kinetic = zd_take_doubles(arena, rows),
+            .potential = zd_take_doubles(arena, rows),
+            .input = zd_take_doubles(arena, rows),
+            .energy_violation = zd_take_doubles(arena, rows),
+            .iterations = zd_take(arena, rows * sizeof(int)),
+            .energy_skipped = zd_take(arena, rows * sizeof(int)),
+            .outputs = outputs ? zd_take_doubles(arena, rows * (size_t)width_of(outputs, system)) : NULL,
+        },
+    };
+}
+
+static void redirect(double **column, double *wanted, int64_t run, int64_t size)
+{
+    if (wanted) *column = wanted + run * size;
+}
+
+/* The record of a run: what is wanted of it goes where it is wanted. */
+static zd_record record_of(const zd_batch *batch, const zd_single *own, int64_t run)
+{
+    const zd_system *system = batch->system;
+    const int64_t rows = batch->capacity;
+    zd_record record = own->record;
+    redirect(&record.t, batch->t, run, rows);
+    redirect(&record.p, batch->p, run, rows * system->nq);
+    redirect(&record.v, batch->v, run, rows * system->nv);
+    redirect(&record.input, batch->input, run, rows);
+    if (batch->iterations) record.iterations = batch->iterations + run * rows;
+    redirect(&record.multipliers, batch->multipliers, run, rows * count_constraints(system));
+    if (record.outputs) redirect(&record.outputs, batch->outputs, run, rows * width_of(batch->settings->outputs, system));
+    return record;
+}
+
+char *zd_message_of(const zd_batch *batch, int64_t run)
+{
+    return batch->message + run * batch->message_size;
+}
+
+int zd_batch_is_stopped(const zd_batch *batch)
+{
+    return batch->stop && *(const volatile int *)batch->stop;
+}
+
+int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_single *own, int64_t run)
+{
+    memcpy(own->p, batch->p0 + run * system->nq, (size_t)system->nq * sizeof(double));
+    memcpy(own->v, batch->v0 + run * system->nv, (size_t)system->nv * sizeof(double));
+    if (!batch->assembly) return ZD_DONE;
+    return zd_project(system, batch->assembly, batch->settings->t0, own->p, own->v, batch->hold_p, batch->hold_v, NULL,
+                      zd_message_of(batch, run), batch->message_size);
+}
+
+static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64_t number)
+{
+    int status = ZD_PAUSED;
+    while (status == ZD_PAUSED && !zd_batch_is_stopped(batch)) status = zd_run_advance(run, record, SLICE);
+    batch->way[number] = ZD_BY_ITSELF;
+    batch->rows[number] = record->rows;
+    batch->status[number] = status;
+    batch->statistics[number] = *zd_run_statistics(run);
+    batch->kinetic[number] = zd_run_kinetic(run);
+    batch->energy_error[number] = zd_run_energy_error(run);
+    if (status) snprintf(zd_message_of(batch, number), (size_t)batch->message_size, "%s", zd_run_message(run));
+}
+
+zd_system zd_single_system(const zd_batch *batch, int64_t number)
+{
+    zd_system system = *batch->system;
+    if (batch->data) system.data = batch->data + number * batch->doubles;
+    return system;
+}
+
+void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number)
+{
+    const zd_system system = zd_single_system(batch, number);
+    zd_record record = record_of(batch, own, number);
+    batch->status[number] = zd_single_start(batch, &system, own, number);
+    if (batch->status[number]) return;
+    zd_run *run = zd_run_create(&system, batch->settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
+                                batch->message_size);
+    if (run) advance(batch, run, &record, number);
+    zd_run_free(run);
+}

@@ -1,0 +1,22 @@
+/* A run of a batch by itself. */
+#ifndef ZD_SINGLE_H
+#define ZD_SINGLE_H
+
+#include "../workspace.h"
+#include "../zerodrift.h"
+
+typedef struct zd_single {  /* memory of one run after the other */
+    double *p, *v;          /* (nq,), (nv,): its start */
+    zd_record record;       /* columns that somebody wants are theirs */
+} zd_single;
+
+zd_single zd_single_take(zd_arena *arena, const zd_batch *batch);
+char *zd_message_of(const zd_batch *batch, int64_t run);
+int zd_batch_is_stopped(const zd_batch *batch);
+/* The system of a run, with its own data. */
+zd_system zd_single_system(const zd_batch *batch, int64_t number);
+/* p and v of the memory <- where the run begins, which may be made consistent. */
+int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_single *own, int64_t number);
+void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number);
+
+#endif

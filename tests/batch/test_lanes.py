@@ -1,0 +1,164 @@
+"""Runs side by side in vector lanes: those of `simulate` but for rounding, with bits that do not depend on their neighbours."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from zerodrift import _gateway
+from zerodrift.ensembles.batch import batch_of
+from zerodrift.ensembles.part import ROADS
+from zerodrift.ensembles.plan import checked
+from zerodrift.ensembles.run_range import run_range
+from zerodrift.ensembles.runs import Runs
+from zerodrift.runs.settings import VECTOR_UNITS
+
+UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+LANES = ROADS.index("vector lanes")
+KINDS = ["four_bar", "slider_crank", "pendulum", "driven_four_bar", "knife_edge", "chaplygin_sleigh", "vertical_disc",
+         "oscillator"]
+TIMES = np.linspace(0.013, 0.4, 6)
+COURSES = {"rk4": {"step": 0.01}, "heun": {"step": 0.01, "integrator": "heun", "save_every": 7},
+           "within": {"step": 0.013, "t_eval": TIMES}, "dop853": {"integrator": "dop853", "rtol": 1e-9, "t_eval": TIMES},
+           "dormand_prince": {"integrator": "dormand_prince", "t_eval": TIMES},
+           "uncorrected": {"step": 0.01, "stabilization": None}}
+pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
+
+
+def plan_of(system, span, parameters=None, p0=None, v0=None, names=None, **options):
+    runs = Runs(system, parameters, p0, v0, None, (), assembles=True)
+    plan = checked(runs, span, options, names, None, keeps=False)
+    assert batch_of(plan) is not None
+    return plan
+
+
+def made(plan, first=0, last=None):
+    return run_range(plan, first, plan.runs.count if last is None else last)
+
+
+def rows_of(part, name):
+    """Run by run."""
+    return np.split(part.arrays[name], np.cumsum(part.rows)[:-1])
+
+
+def names_of(system):
+    return [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
+
+
+def starts_of(system, count=11):
+    """Velocities that differ, and that constraints which stand still allow."""
+    shares = np.linspace(0.5, 1.5, count) if system.name != "driven_four_bar" else np.ones(count)
+    return shares[:, None] * system.v0
+
+
+@pytest.mark.parametrize("unit", UNITS)
+@pytest.mark.parametrize("course", COURSES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_runs_are_those_of_simulate_but_for_rounding(kind, course, unit):
+    system, options = getattr(zd.systems, kind)(), COURSES[course] | {"vector": unit}
+    starts, names = starts_of(system), names_of(system)
+    part = made(plan_of(system, 0.4, v0=starts, names=names, **options))
+    assert (part.roads == LANES).all()
+    for run in (0, 7, 10):
+        sol = zd.simulate(system, 0.4, v0=starts[run], **options)
+        assert np.array_equal(list(part.times())[run], sol.t)
+        for name in names:      # rounding grows over a run, and where steps are chosen by errors that it is part of
+            size = max(1.0, np.abs(sol[name]).max())
+            assert np.abs(rows_of(part, name)[run] - sol[name]).max() < 1e-10 * size, name
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_step_is_that_of_simulate_within_eight_roundings(kind):
+    system = getattr(zd.systems, kind)()
+    starts, names = starts_of(system), names_of(system)[:system.nq + system.nv]
+    part = made(plan_of(system, 0.01, v0=starts, names=names, step=0.01))
+    for run, start in enumerate(starts):
+        sol = zd.simulate(system, 0.01, v0=start, step=0.01)
+        for name in names:
+            size = max(1.0, np.abs(sol[name]).max())     # what cancels is as uncertain as what it is the difference of
+            assert np.abs(rows_of(part, name)[run] - sol[name]).max() <= 8 * 2**-53 * size
+
+
+@pytest.mark.parametrize("course", ["rk4", "within", "dop853"])
+def test_bits_do_not_depend_on_neighbours_nor_on_the_range(course):
+    """Some of which fail, and some of which lanes cannot make."""
+    system = zd.systems.four_bar()
+    shares = np.array([1.0, 0.3, 400.0, np.nan, 1.7, 60.0, 1.2, 0.9, 1.1, 30.0, 2.0])
+    starts = np.nan_to_num(shares)[:, None] * system.v0 + np.isnan(shares)[:, None]
+    plan = plan_of(system, 0.4, v0=starts, names=["alpha1", "alpha2_dot"], **COURSES[course])
+    whole = made(plan)
+    alone = [made(plan, run, run + 1) for run in range(len(shares))]
+    turned = made(plan_of(system, 0.4, v0=starts[::-1], names=["alpha1", "alpha2_dot"], **COURSES[course]))
+    for run, single in enumerate(alone):
+        for name in plan.names:
+            assert np.array_equal(rows_of(whole, name)[run], single.arrays[name])
+            assert np.array_equal(rows_of(turned, name)[::-1][run], single.arrays[name])
+        assert (whole.failed[run], whole.roads[run]) == (single.failed[0], single.roads[0])
+        assert whole.messages[run] == single.messages[0]
+    assert whole.failed[3]
+    assert whole.messages[3].startswith("InconsistentStart: ")
+    assert set(whole.roads) == {LANES, ROADS.index("the ordinary road")}
+
+
+@pytest.mark.skipif(len(UNITS) < 3, reason="the processor has one vector unit at most")
+@pytest.mark.parametrize("course", ["rk4", "dop853"])
+def test_vector_units_give_the_same_bits(course):
+    system = zd.systems.four_bar()
+    parts = [made(plan_of(system, 2.0, v0=starts_of(system), names=["alpha3"], **{**COURSES[course], "vector": unit}))
+             for unit in UNITS[1:]]
+    assert np.array_equal(parts[0].arrays["alpha3"], parts[1].arrays["alpha3"])
+
+
+def test_a_run_that_changes_its_order_of_elimination_stays_in_its_lane():
+    """A pendulum that goes round: x and y take turns."""
+    system = zd.systems.pendulum()
+    starts = np.linspace(0.1, 8.0, 9)[:, None] * [0.0, 1.0]
+    part = made(plan_of(system, 4.0, v0=starts, names=["x", "y"], step=0.01))
+    assert (part.roads == LANES).all()
+    for run in (0, 8):
+        sol = zd.simulate(system, 4.0, v0=starts[run], step=0.01)
+        assert np.abs(rows_of(part, "x")[run] - sol["x"]).max() < 1e-9
+
+
+def test_what_lanes_cannot_make_is_what_simulate_makes():
+    """Steps that are too long to be believed: the run takes the ordinary road from its start."""
+    system = zd.systems.four_bar()
+    starts = np.array([1.0, 40.0])[:, None] * system.v0
+    part = made(plan_of(system, 0.5, v0=starts, names=["alpha1"], step=0.02))
+    with pytest.warns(zd.AccuracyWarning):
+        sol = zd.simulate(system, 0.5, v0=starts[1], step=0.02)
+    assert part.roads.tolist() == [LANES, 0]
+    assert np.array_equal(rows_of(part, "alpha1")[1], sol["alpha1"])
+
+
+def test_runs_that_take_too_many_steps_fail_as_ever():
+    system = zd.systems.four_bar()
+    part = made(plan_of(system, 8.0, v0=starts_of(system, 3), integrator="dop853", t_eval=[8.0], max_steps=20))
+    assert part.failed.all()
+    assert all("max_steps" in message for message in part.messages)
+
+
+@pytest.mark.parametrize("options", [{"energy": True}, {"stabilization": "baumgarte"}, {"direct": False},
+                                     {"stabilization": zd.Projection(every=2)}, {"integrator": "trapezoidal"}],
+                         ids=["energy", "baumgarte", "direct", "every", "implicit"])
+def test_what_takes_the_ordinary_road(options):
+    system = zd.systems.four_bar()
+    part = made(plan_of(system, 0.1, v0=starts_of(system, 3), names=["alpha1"], step=0.01, **options))
+    assert (part.roads == 0).all()
+    assert np.array_equal(rows_of(part, "alpha1")[1], zd.simulate(system, 0.1, step=0.01, **options)["alpha1"])
+
+
+def test_parameters_vary_from_lane_to_lane():
+    system, gravity = zd.systems.driven_four_bar(), np.linspace(1.0, 20.0, 5)
+    ens = zd.ensemble(system, 0.4, parameters={"gravity": gravity}, step=0.01, outputs=["alpha3"])
+    assert "5 in vector lanes" in repr(ens)
+    for run in (0, 4):
+        own = system.with_parameters(gravity=gravity[run])
+        assert np.abs(ens["alpha3"][run] - zd.simulate(own, 0.4, step=0.01)["alpha3"]).max() < 1e-11
+    kept, sol = ens[3], zd.simulate(system.with_parameters(gravity=gravity[3]), 0.4, step=0.01)
+    assert np.array_equal(kept["alpha3"], ens["alpha3"][3])
+    assert (kept.message, kept.stats["steps"], kept.stats["direct_steps"]) == ("done", 40, 40)
+    assert np.array_equal(kept.iterations, sol.iterations)
+    for name in ("v", "multipliers", "kinetic_energy", "potential_energy", "energy_input", "energy_violation",
+                 "position_violation"):
+        assert np.abs(getattr(kept, name) - getattr(sol, name)).max() < 1e-9, name
+    assert np.array_equal(kept.position_size, sol.position_size)
