@@ -40,7 +40,7 @@ class Rods:
         structure = zd.Structure(blocks=[3] * n, groups=groups, mass="constant diagonal") if packed else None
         return zd.native(
             bodies_library(), 3 * n, symbol="packed" if packed else "dense", structure=structure,
-            constraints=2 * len(self.pins), scratch=3 * n,
+            constraints=2 * len(self.pins), scratch=3 * n + 4 * len(self.pins),
             terms=["M", "f", "Phi", "C", "xi", "V", *["Phi_t"] * (speed != 0)], units=["m", "m", "rad"] * n,
             parameters={f"q{i}": float(x) for i, x in enumerate(numbers)}, **({"p0": self.p0} | options))
 

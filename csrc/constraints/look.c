@@ -7,7 +7,7 @@
  *
  * Below NEAR, shares are at most so much smaller than they were, and any two such C have rows that span spaces less than a right angle apart,
  * as 2 NEAR + NEAR^2 < 1. So the sum also tells that no bifurcation lies between them, see safeguards/crossing.c. C0 is kept in single
- * precision, whose rounding is nothing beside that.
+ * precision, whose rounding is nothing beside that. Where the structure is declared, there is a smaller bound, by bodies.
  */
 #include "look.h"
 
@@ -42,30 +42,44 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Squared lengths of the changes of some rows, with their weights squared, added up. */
-ZD_INLINE double add_changes(const int n, int rows, const double *C, const float *C0, const double *weight)
+/* Squared lengths of what has changed of some rows in the columns of a body, times their weights squared, added up. */
+ZD_INLINE double add_changes(const int n, int rows, const double *C, const float *C0, int width, const double *weight)
 {
     double sum = 0;
-    for (int k = 0; k < rows; k++) {
+    for (int k = 0; k < rows; k++, C += width, C0 += width) {
         double square = 0;
-        for (int i = 0; i < n; i++) square += (C[k * n + i] - (double)C0[k * n + i]) * (C[k * n + i] - (double)C0[k * n + i]);
+        for (int i = 0; i < n; i++) square += (C[i] - (double)C0[i]) * (C[i] - (double)C0[i]);
         sum += weight[k] * weight[k] * square;
     }
     return sum;
 }
 
-/* Whether a bound of the sum tells that it is below NEAR: (sum_k w_k |d_k|)^2 <= m sum_k w_k^2 |d_k|^2, which takes no roots. */
-static int is_near(const zd_look *self, const zd_point *point)
+/* The same of all rows that touch a body, times their number. */
+ZD_INLINE double change_of_body(const int n, const zd_look *self, const zd_point *point, int b)
 {
     const zd_layout *layout = point->layout;
     double sum = 0;
-    for (int g = 0; layout && g < layout->groups; g++) {
-        const int rows = layout->row_at[g + 1] - layout->row_at[g], n = layout->width[g];
-        const double *C = point->terms.C + layout->C_at[g], *weight = self->weight + layout->row_at[g];
-        const float *C0 = self->C + layout->C_at[g];
-        sum += n == 6 ? add_changes(6, rows, C, C0, weight) : n == 3 ? add_changes(3, rows, C, C0, weight) : add_changes(n, rows, C, C0, weight);
+    int count = 0;
+    for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) {
+        const int g = layout->toucher[i], at = layout->C_at[g] + layout->toucher_offset[i], row = layout->row_at[g];
+        const int rows = layout->row_at[g + 1] - row;
+        sum += add_changes(n, rows, point->terms.C + at, self->C + at, layout->width[g], self->weight + row);
+        count += rows;
     }
-    return layout && self->is_known && self->close.m * sum < NEAR * NEAR;
+    return count * sum;
+}
+
+/* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
+ * (sum_k w_k |C_kb - C0_kb|)^2, and that without roots at most this. Infinite where nothing is known. */
+static double bound_by_bodies(const zd_look *self, const zd_point *point)
+{
+    const zd_layout *layout = point->layout;
+    double sum = 0;
+    for (int b = 0; layout && self->is_known && b < layout->blocks; b++) {
+        const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
+        sum += n == 3 ? change_of_body(3, self, point, b) : change_of_body(n, self, point, b);
+    }
+    return layout && self->is_known ? sum : INFINITY;
 }
 
 /* The sum, or infinity where nothing is known. */
@@ -139,8 +153,9 @@ static zd_shares factor_products(zd_look *self, const zd_point *point)
 int zd_look_is_doubtful(zd_look *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
-    if (is_near(self, point)) return 0;
-    const double change = find_change(self, point);
+    const double bound = bound_by_bodies(self, point);
+    if (bound < NEAR * NEAR) return 0;
+    const double change = fmin(sqrt(bound), find_change(self, point));
     if (change < NEAR) return 0;
     self->close.C = point->terms.C;
     const zd_shares shares = point->layout ? factor_products(self, point) : zd_orthogonalize(&self->close, DOUBTFUL);

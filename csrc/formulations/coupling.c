@@ -132,7 +132,7 @@ static void find_least(zd_coupling *self, const zd_point *point)
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double most = 0;
         for (int j = 0; j < row.count; j++) most = fmax(most, self->W[row.column[j]]);
-        self->least[k] = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * point->rank->start_square[k] * most;
+        self->least[self->weighted->strips.place[k]] = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * point->rank->start_square[k] * most;
     }
     self->is_least_known = 1;
 }
@@ -140,10 +140,10 @@ static void find_least(zd_coupling *self, const zd_point *point)
 int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
 {
     const double *diagonal = self->weighted->blocks->diagonal;
-    const int *place = self->weighted->strips.place, may_tell = self->least && self->is_diagonal && self->is_constant;
+    const int may_tell = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
     int are_long = may_tell && point->rank->is_started;
     if (are_long && !self->is_least_known) find_least(self, point);
-    for (int k = 0; are_long && k < self->m; k++) are_long = diagonal[place[k]] > self->least[k];
+    for (int i = 0; may_tell && i < self->m; i++) are_long &= diagonal[i] > self->least[i];
     if (are_long) return 1;
     return zd_point_need(point, ZD_C) == ZD_DONE && zd_rows_are_long(point);
 }

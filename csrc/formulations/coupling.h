@@ -18,7 +18,7 @@ typedef struct zd_coupling {
     double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */
     double *rest, *step;    /* (m,), (n,): what is left of C x = rhs, and what removes it */
-    double *least;          /* (m,): what is more than this on the diagonal of S belongs to a row that is long; NULL: that is not asked */
+    double *least;          /* (m,), in the order of S: what is more on its diagonal belongs to a row that is long; NULL: not asked */
     int is_least_known;
     const zd_operations *products;      /* of the system, in place of those with C; NULL: there are none */
     const void *data;           /* what these are called with, and the terms at the point */

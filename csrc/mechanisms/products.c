@@ -7,7 +7,7 @@
 static const zd_vector *arms_in(const double *scratch) { return (const zd_vector *)scratch; }
 static double *room_in(double *scratch, const zd_pins *self) { return scratch + 4 * self->count; }
 
-static void times_C(const void *data, const zd_terms *terms, const double *x, double *y)
+static void times_C(const void *data, const zd_terms *terms, const double *x, double *restrict y)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
@@ -26,7 +26,8 @@ static int has_angle(const zd_pins *self, const zd_link *link) { return self->ha
 static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
 
 /* Body by body, so that nothing is added up in memory. */
-static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x)
+static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *restrict y, const int *place,
+                              double *restrict x)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;
@@ -67,7 +68,7 @@ ZD_INLINE void add_square(double *to, const double *w, zd_vector a, zd_vector b)
     to[3] += w[1] + b.x * a.x;
 }
 
-static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *S)
+static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *restrict S)
 {
     const zd_mechanism *mechanism = data;
     const zd_pins *self = &mechanism->packing->pins;

@@ -13,7 +13,7 @@ static double count_pairs(const zd_weighted *self)
     double count = 0;
     for (int i = 0; i < self->pairs; i++) {
         const zd_pair *pair = self->pair + i;
-        const int kernel = pair->kernel, n = kernel ? kernel / 10 : self->piece[pair->a].n;
+        const int kernel = pair->kernel % ZD_SQUARE, n = kernel ? kernel / 10 : self->piece[pair->a].n;
         const int rows = kernel ? kernel % 10 : self->piece[pair->a].rows, others = kernel ? rows : self->piece[pair->b].rows;
         count += (kernel ? 1 : WITHOUT_KERNEL) * rows * n * others;
     }

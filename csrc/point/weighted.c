@@ -110,12 +110,12 @@ static zd_piece weld_of(const zd_weighted *self, int b, int is_behind)
                       .is_diagonal = layout->is_diagonal[b], .copies = copies_of(layout, b), .is_weld = 1};
 }
 
-/* For bodies of the plane and of space, and two groups of as many rows. */
+/* For bodies of the plane and of space, and two groups of as many rows; behind those, for one of them with itself. */
 static int kernel_of(const zd_piece *a, const zd_piece *b)
 {
     const int is_plain = a->is_diagonal && a->copies == 1 && a->rows == b->rows;
     const int is_known = a->n == 3 ? a->rows <= 3 : a->n == 6 && (a->rows == 3 || a->rows == 5 || a->rows == 6 || a->rows == 1);
-    return is_plain && is_known ? 10 * a->n + a->rows : 0;
+    return is_plain && is_known ? 10 * a->n + a->rows + (a == b ? ZD_SQUARE : 0) : 0;
 }
 
 static zd_pair pair_of(const zd_weighted *self, int a, int b, int to)
@@ -132,8 +132,9 @@ static void list_pairs(zd_weighted *self, const int *piece, const int *member, i
     for (int i = 0; i < members; i++)
         for (int j = 0; j <= i; j++) {
             const int is_later = place[member[i]] >= place[member[j]], a = piece[is_later ? i : j], b = piece[is_later ? j : i];
-            self->at[self->pairs] = 2 * zd_blocks_find(self->blocks, member[i], member[j]) + !is_later;
-            self->pair[self->pairs++] = pair_of(self, a, b, zd_blocks_find(self->blocks, member[i], member[j]));
+            const int to = zd_blocks_find(self->blocks, member[i], member[j]);
+            self->at[self->pairs++] = 2 * to + !is_later;
+            self->pair[i == j ? self->squares++ : self->members + self->others++] = pair_of(self, a, b, to);
         }
 }
 
@@ -180,6 +181,7 @@ static void *take(zd_arena *arena, const void *of)
         .pair = zd_take(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
         .at = take_ints(arena, it->all.pairs),
         .weld = zd_take_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
+        .members = it->all.members,
         .largest = largest,
         .row = take_ints(arena, it->layout->groups),
         .product = zd_take_doubles(arena, (size_t)(it->all.largest_block * largest)),
@@ -237,11 +239,20 @@ ZD_INLINE void add_product(const int rows, const int columns, const int n, const
         for (int j = 0; j < columns; j++) to[i * columns + j] += zd_dot(n, A + i * n, B + j * stride);
 }
 
-ZD_INLINE void add_weighted(const int rows, const int n, const double *A, int stride, const double *W, const double *B, int stride_of_B, double *to)
+/* to (columns,) <- to + a W B^T, of a row a (n,) */
+ZD_INLINE void add_row(const int columns, const int n, const double *restrict a, const double *restrict W, const double *restrict B, int stride,
+                       double *restrict to)
 {
-    double product[ZD_UNROLLED * ZD_UNROLLED];
-    weigh(rows, n, A, stride, W, product);
-    add_product(rows, rows, n, product, B, stride_of_B, to);
+    double weighted[ZD_UNROLLED];
+    for (int i = 0; i < n; i++) weighted[i] = a[i] * W[i];
+    for (int j = 0; j < columns; j++) to[j] += zd_dot(n, weighted, B + j * stride);
+}
+
+/* Of the product of a piece with itself the lower triangle, which is all that is read of a block on the diagonal. */
+ZD_INLINE void add_weighted(const int is_square, const int rows, const int n, const double *A, int stride, const double *W, const double *B,
+                            int stride_of_B, double *to)
+{
+    for (int i = 0; i < rows; i++) add_row(is_square ? i + 1 : rows, n, A + i * stride, W, B, stride_of_B, to + i * rows);
 }
 
 static const double *entries(const zd_weighted *self, const zd_piece *piece, const double *C)
@@ -256,19 +267,24 @@ static void add_any(zd_weighted *self, const zd_piece *a, const zd_piece *b, con
 }
 
 /* Pairs of one kernel, mostly many in succession; returns the first of another. */
-ZD_INLINE const zd_pair *add_pairs(const int n, const int rows, const zd_weighted *self, const zd_pair *pair, const double *C, const double *W)
+ZD_INLINE const zd_pair *add_pairs(const int square, const int n, const int rows, const zd_weighted *self, const zd_pair *pair, const double *C,
+                                   const double *W)
 {
     const zd_pair *end = self->pair + self->pairs;
     double *S = self->blocks->S;
-    do add_weighted(rows, n, C + pair->a, pair->stride_of_a, W + pair->W, C + pair->b, pair->stride_of_b, S + pair->to);
-    while (++pair < end && pair->kernel == 10 * n + rows);
+    do {
+        const double *A = C + pair->a, *B = square ? A : C + pair->b;
+        add_weighted(square, rows, n, A, pair->stride_of_a, W + pair->W, B, square ? pair->stride_of_a : pair->stride_of_b, S + pair->to);
+    } while (++pair < end && pair->kernel == square + 10 * n + rows);
     return pair;
 }
 
 static void fill_S(zd_weighted *self, const double *C, const double *W)
 {
     zd_blocks_clear(self->blocks);
-#define KERNEL(n, rows) case 10 * n + rows: pair = add_pairs(n, rows, self, pair, C, W); break;
+#define KERNEL(n, rows)                                                                             \
+    case 10 * n + rows: pair = add_pairs(0, n, rows, self, pair, C, W); break;                      \
+    case ZD_SQUARE + 10 * n + rows: pair = add_pairs(ZD_SQUARE, n, rows, self, pair, C, W); break;
     for (const zd_pair *pair = self->pair; pair < self->pair + self->pairs;) switch (pair->kernel) {
         KERNEL(3, 1)
         KERNEL(3, 2)

@@ -16,6 +16,8 @@ typedef struct zd_piece {
     int is_weld;
 } zd_piece;
 
+enum { ZD_SQUARE = 100 };       /* more of a kernel: for a piece with itself */
+
 typedef struct zd_pair {    /* two pieces of one body, and the block of S that takes A W B^T */
     int kernel;             /* 0: there is none for these sizes, and `a` and `b` are the pieces; else where these begin in C */
     int a, b;
@@ -28,6 +30,7 @@ typedef struct zd_weighted {
     zd_blocks *blocks;
     int pieces, pairs;      /* pieces of C, welds not counted */
     zd_piece *piece;
+    int members, squares, others;       /* the pairs of one piece with itself, `members`, come first */
     zd_pair *pair;
     double *weld;           /* an identity and its opposite, as large as the largest body */
     int *at;                /* (pairs,) where the blocks of each are, for a system's own products: see zd_operations */

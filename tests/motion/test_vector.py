@@ -89,4 +89,5 @@ def test_all_other_roads_have_the_same_bits_with_all_units():
 def test_eliminations_of_blocks_have_the_same_bits_with_all_of_them(bars):
     baseline, *others = (zd.simulate(four_bars(bars).system(), 1.0, step=0.01, vector=vector) for vector in UNITS)
     for sol in others:
-        assert np.array_equal(sol.p, baseline.p) and np.array_equal(sol.multipliers, baseline.multipliers)
+        assert np.array_equal(sol.p, baseline.p)
+        assert np.array_equal(sol.multipliers, baseline.multipliers)

@@ -22,19 +22,27 @@ static pin pin_at(const double *q, int rods, int k)
     return (pin){(int)of[0], (int)of[1], {of[2], of[3], of[4], of[5]}};
 }
 
-/* The angles of all rods, their sines and their cosines, which are kept in the scratch while p stays. */
-static void turn(int rods, const double *p, double *turned)
+/* The way from the centre of the rod that has this sine and cosine to a point (x, y) of it */
+static void write_arm(double sine, double cosine, const double *point, double *to)
 {
-    for (int b = 0; b < rods; b++) turned[b] = p[3 * b + 2];
-    zd_sines(rods, turned, turned + rods, turned + 2 * rods);
+    to[0] = cosine * point[0] - sine * point[1];
+    to[1] = sine * point[0] + cosine * point[1];
 }
 
-/* Where a point (x, y) of a rod is, from the rod's centre */
-static void arm(const double *turned, int rods, int rod, const double *point, double *to)
+/* Kept in the scratch while p stays: the angles of all rods, their sines and their cosines, and behind them for each pin the ways to it from
+ * the centres of both rods; on the ground, where it is. */
+static void turn(const double *q, const double *p, double *turned)
 {
-    double s = turned[rods + rod], c = turned[2 * rods + rod];
-    to[0] = c * point[0] - s * point[1];
-    to[1] = s * point[0] + c * point[1];
+    int rods = (int)q[0], pins = (int)q[1];
+    double *sine = turned + rods, *cosine = sine + rods, *arms = cosine + rods;
+    for (int b = 0; b < rods; b++) turned[b] = p[3 * b + 2];
+    zd_sines(rods, turned, sine, cosine);
+    for (int k = 0; k < pins; k++, arms += 4) {
+        pin at = pin_at(q, rods, k);
+        if (at.a >= 0) write_arm(sine[at.a], cosine[at.a], at.at, arms);
+        else memcpy(arms, at.at, 2 * sizeof *arms);
+        write_arm(sine[at.b], cosine[at.b], at.at + 2, arms + 2);
+    }
 }
 
 /* sign times the rows of a point of a rod, whose columns begin at C, rows `width` apart */
@@ -49,17 +57,13 @@ static void write_rows(double *C, int width, double sign, const double *r)
 static void write_C(const double *q, int dense, const double *turned, double *C)
 {
     int rods = (int)q[0], pins = (int)q[1], n = 3 * rods;
+    const double *arms = turned + 3 * rods;
     if (dense) memset(C, 0, (size_t)(2 * pins * n) * sizeof *C);
-    for (int k = 0; k < pins; k++) {
+    for (int k = 0; k < pins; k++, arms += 4) {
         pin at = pin_at(q, rods, k);
         int width = dense ? n : at.a < 0 ? 3 : 6;
-        double r[2];
-        arm(turned, rods, at.b, at.at + 2, r);
-        write_rows(C + (dense ? 3 * at.b : width - 3), width, 1, r);
-        if (at.a >= 0) {
-            arm(turned, rods, at.a, at.at, r);
-            write_rows(C + (dense ? 3 * at.a : 0), width, -1, r);
-        }
+        write_rows(C + (dense ? 3 * at.b : width - 3), width, 1, arms + 2);
+        if (at.a >= 0) write_rows(C + (dense ? 3 * at.a : 0), width, -1, arms);
         C += 2 * width;
     }
 }
@@ -72,25 +76,34 @@ static void write_M(const double *q, int dense, double *M)
         for (int i = 0; i < 3; i++) M[(3 * b + i) * (dense ? n + 1 : 1)] = q[4 + 2 * b + (i == 2)];
 }
 
-/* Phi and xi of one pin */
-static void write_pin(const double *q, int k, double t, const double *turned, const double *p, const double *v, double *Phi, double *xi)
+static void write_Phi(const double *q, double t, const double *turned, const double *p, double *Phi)
 {
-    int rods = (int)q[0];
-    pin at = pin_at(q, rods, k);
-    double r[2], s[2] = {at.at[0] + (k ? 0 : q[3] * t), at.at[1]};
-    arm(turned, rods, at.b, at.at + 2, r);
-    if (at.a >= 0) arm(turned, rods, at.a, at.at, s);
-    for (int i = 0; i < 2; i++) {
+    int rods = (int)q[0], pins = (int)q[1];
+    const double *arms = turned + 3 * rods;
+    for (int k = 0; k < pins; k++, arms += 4) {
+        pin at = pin_at(q, rods, k);
+        for (int i = 0; i < 2; i++) {
+            double own = k || i ? arms[i] : arms[i] + q[3] * t;
+            Phi[2 * k + i] = p[3 * at.b + i] + arms[2 + i] - own - (at.a < 0 ? 0 : p[3 * at.a + i]);
+        }
+    }
+}
+
+static void write_xi(const double *q, const double *turned, const double *v, double *xi)
+{
+    int rods = (int)q[0], pins = (int)q[1];
+    const double *arms = turned + 3 * rods;
+    for (int k = 0; k < pins; k++, arms += 4) {
+        pin at = pin_at(q, rods, k);
         double wa = at.a < 0 ? 0 : v[3 * at.a + 2], wb = v[3 * at.b + 2];
-        Phi[i] = p[3 * at.b + i] + r[i] - s[i] - (at.a < 0 ? 0 : p[3 * at.a + i]);
-        xi[i] = wb * wb * r[i] - wa * wa * s[i];
+        for (int i = 0; i < 2; i++) xi[2 * k + i] = wb * wb * arms[2 + i] - wa * wa * arms[i];
     }
 }
 
 static int evaluate(int dense, const double *q, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     int rods = (int)q[0], pins = (int)q[1];
-    if (want & ZD_MOVED) turn(rods, p, out->scratch);
+    if (want & ZD_MOVED) turn(q, p, out->scratch);
     if (want & ZD_M) write_M(q, dense, out->M);
     if (want & ZD_C) write_C(q, dense, out->scratch, out->C);
     if (want & ZD_POTENTIAL) *out->V = 0;
@@ -99,15 +112,9 @@ static int evaluate(int dense, const double *q, int want, double t, const double
         if (want & ZD_FORCE) out->f[3 * b] = out->f[3 * b + 2] = 0, out->f[3 * b + 1] = -mass * q[2];
         if (want & ZD_POTENTIAL) *out->V += mass * q[2] * p[3 * b + 1];
     }
-    for (int k = 0; k < pins && (want & (ZD_PHI | ZD_XI | ZD_PHI_T)); k++) {
-        double Phi[2], xi[2];
-        write_pin(q, k, t, out->scratch, p, v, Phi, xi);
-        for (int i = 0; i < 2; i++) {
-            if (want & ZD_PHI) out->Phi[2 * k + i] = Phi[i];
-            if (want & ZD_XI) out->xi[2 * k + i] = xi[i];
-            if (want & ZD_PHI_T) out->Phi_t[2 * k + i] = k || i ? 0 : -q[3];
-        }
-    }
+    if (want & ZD_PHI) write_Phi(q, t, out->scratch, p, out->Phi);
+    if (want & ZD_XI) write_xi(q, out->scratch, v, out->xi);
+    for (int i = 0; i < 2 * pins && (want & ZD_PHI_T); i++) out->Phi_t[i] = i ? 0 : -q[3];
     return ZD_DONE;
 }
 
@@ -178,7 +185,7 @@ static const zd_operations operations = {.times_C = times_C, .times_M = times_M}
 const zd_kind zd_kind_two_rods_with_products = {
     .card = {.name = "two_rods_with_products", .summary = "Two rods.", .equations = ""},
     .system = {
-        .nq = 6, .nv = 6, .mh = 4, .scratch = 6,
+        .nq = 6, .nv = 6, .mh = 4, .scratch = 14,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
         .evaluate = packed,
         .structure = &structure,
@@ -192,7 +199,7 @@ const zd_kind zd_kind_two_rods_with_products = {
 const zd_kind zd_kind_two_rods = {
     .card = {.name = "two_rods", .summary = "Two rods.", .equations = ""},
     .system = {
-        .nq = 6, .nv = 6, .mh = 4, .scratch = 6,
+        .nq = 6, .nv = 6, .mh = 4, .scratch = 14,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL,
         .evaluate = packed,
         .structure = &structure,
