@@ -28,7 +28,7 @@ ZD_INLINED void ZD_OF_TYPE(zd_sines_of_reduced)(const ZD_OF_TYPE(zd_reduced) *a,
                               ZD_TIMES_PLUS(z2, ZD_TIMES_PLUS(z, -0x1.27e4f809f15ecp-22, 0x1.a01a019cb1bebp-16),
                                             ZD_TIMES_PLUS(z, -0x1.6c16c16c1517ep-10, 0x1.555555555554cp-5)));
     ZD_REAL sine = r - ZD_LESS_TIMES(ZD_TIMES_PLUS(half, a->tail, -a->tail), r * z, S);
-    ZD_REAL cosine = w + (((1 - w) - half) + ZD_LESS_TIMES(z2 * C, r, a->tail));
+    ZD_REAL cosine = w + ZD_TIMES_PLUS(z2, C, ZD_LESS_TIMES((1 - w) - half, r, a->tail));     /* C is known last */
     ZD_WORDS odd = 0 - (a->quadrant & 1), u = ZD_WORDS_OF(sine), v = ZD_WORDS_OF(cosine);
     *s = ZD_REAL_OF(((u & ~odd) | (v & odd)) ^ (a->quadrant & 2) << 62);
     *c = ZD_REAL_OF(((v & ~odd) | (u & odd)) ^ ((a->quadrant + 1) & 2) << 62);

@@ -103,12 +103,12 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     const zd_real x48 = 1.0 / (x19 * x46);
     const zd_real x49 = x46 * x48;
     const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
-    const zd_real x76 = (x19 * x48) * ZD_FNMA(x19, k[5] * x19, x40 * x68);
-    const zd_real x82 = ZD_FNMA(x76, x20 * x49, x49 * x68);
-    vdot[0] = x82;
-    vdot[1] = x76;
+    const zd_real x77 = x48 * (x19 * ZD_FNMA(x19, k[5] * x19, x40 * x68));
+    const zd_real x83 = ZD_FNMA(x77, x20 * x49, x49 * x68);
+    vdot[0] = x83;
+    vdot[1] = x77;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x49 * (k[1] * x82));
+        if (lambda) lambda[0] = -(x49 * (k[1] * x83));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
@@ -139,16 +139,15 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
     const zd_real x48 = 1.0 / (x19 * x46);
     const zd_real x49 = x46 * x48;
-    const zd_real x50 = x19 * x48;
-    const zd_real x78 = x20 * x49;
-    const zd_real x94 = ZD_FMA(x20, v1, x19 * v0);
-    const zd_real x97 = x50 * (x18 * x40);
-    const zd_real x105 = x50 * (x40 * x94);
+    const zd_real x79 = x20 * x49;
+    const zd_real x95 = ZD_FMA(x20, v1, x19 * v0);
+    const zd_real x99 = x48 * (x19 * (x18 * x40));
+    const zd_real x108 = x48 * (x19 * (x40 * x95));
     Phi[0] = x18;
-    dp[0] = ZD_FNMA(x78, x97, x18 * x49);
-    dp[1] = x97;
-    dv[0] = ZD_FNMA(x78, x105, x49 * x94);
-    dv[1] = x105;
+    dp[0] = ZD_FNMA(x79, x99, x18 * x49);
+    dp[1] = x99;
+    dv[0] = ZD_FNMA(x79, x108, x49 * x95);
+    dv[1] = x108;
     return ZD_DONE;
 }
 
@@ -182,11 +181,10 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
         const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
         const zd_real x48 = 1.0 / (x19 * x46);
         const zd_real x49 = x46 * x48;
-        const zd_real x50 = x19 * x48;
-        const zd_real x78 = x20 * x49;
-        const zd_real x97 = x50 * (x18 * x40);
-        dp[0] = ZD_FNMA(x78, x97, x18 * x49);
-        dp[1] = x97;
+        const zd_real x79 = x20 * x49;
+        const zd_real x99 = x48 * (x19 * (x18 * x40));
+        dp[0] = ZD_FNMA(x79, x99, x18 * x49);
+        dp[1] = x99;
         return ZD_NO_CONVERGENCE;
     }
     const zd_real x19 = p0 * k[6];
@@ -195,21 +193,20 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     const zd_real x46 = ZD_FMA(x19, k[1] * x19, x20 * x40);
     const zd_real x48 = 1.0 / (x19 * x46);
     const zd_real x49 = x46 * x48;
-    const zd_real x50 = x19 * x48;
-    const zd_real x78 = x20 * x49;
-    const zd_real x115 = ZD_FMA(x20, before1, x19 * before0);
-    const zd_real x118 = x50 * (x40 * x115);
-    const zd_real v0 = before0 - ZD_FNMA(x78, x118, x49 * x115);
-    const zd_real v1 = before1 - x118;
+    const zd_real x79 = x20 * x49;
+    const zd_real x118 = ZD_FMA(x20, before1, x19 * before0);
+    const zd_real x122 = x48 * (x19 * (x40 * x118));
+    const zd_real v0 = before0 - ZD_FNMA(x79, x122, x49 * x118);
+    const zd_real v1 = before1 - x122;
     const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
-    const zd_real x128 = x50 * ZD_FMA(x28, x40, x19 * (k[5] * x19));
-    const zd_real x134 = ZD_FNMA(x28, x49, x78 * x128);
+    const zd_real x134 = x48 * (x19 * ZD_FMA(x28, x40, x19 * (k[5] * x19)));
+    const zd_real x140 = ZD_FNMA(x28, x49, x79 * x134);
     v[0] = v0;
     v[1] = v1;
-    vdot[0] = x134;
-    vdot[1] = -x128;
+    vdot[0] = x140;
+    vdot[1] = -x134;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x49 * (k[1] * x134));
+        if (lambda) lambda[0] = -(x49 * (k[1] * x140));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
@@ -246,12 +243,12 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     const zd_real x64 = 1.0 / (x20 * x46);
     const zd_real x65 = x46 * x64;
     const zd_real x68 = ZD_FNMA(k[7], ZD_FMA(v1, v1, v0 * v0) * 2.0, added0);
-    const zd_real x148 = (x20 * x64) * ZD_FMA(x20, k[5] * x19, x42 * x68);
-    const zd_real x156 = ZD_FNMA(x148, x19 * x65, x65 * x68);
-    vdot[0] = x148;
-    vdot[1] = x156;
+    const zd_real x155 = x64 * (x20 * ZD_FMA(x20, k[5] * x19, x42 * x68));
+    const zd_real x163 = ZD_FNMA(x155, x19 * x65, x65 * x68);
+    vdot[0] = x155;
+    vdot[1] = x163;
     if (lambda || power) {
-        if (lambda) lambda[0] = -(x65 * ZD_FMA(k[1], x156, k[5]));
+        if (lambda) lambda[0] = -(x65 * ZD_FMA(k[1], x163, k[5]));
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {
@@ -282,16 +279,15 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
     const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
     const zd_real x64 = 1.0 / (x20 * x46);
     const zd_real x65 = x46 * x64;
-    const zd_real x66 = x20 * x64;
-    const zd_real x94 = ZD_FMA(x20, v1, x19 * v0);
-    const zd_real x152 = x19 * x65;
-    const zd_real x166 = x66 * (x18 * x42);
-    const zd_real x174 = x66 * (x42 * x94);
+    const zd_real x95 = ZD_FMA(x20, v1, x19 * v0);
+    const zd_real x159 = x19 * x65;
+    const zd_real x174 = x64 * (x20 * (x18 * x42));
+    const zd_real x183 = x64 * (x20 * (x42 * x95));
     Phi[0] = x18;
-    dp[0] = x166;
-    dp[1] = ZD_FNMA(x152, x166, x18 * x65);
-    dv[0] = x174;
-    dv[1] = ZD_FNMA(x152, x174, x65 * x94);
+    dp[0] = x174;
+    dp[1] = ZD_FNMA(x159, x174, x18 * x65);
+    dv[0] = x183;
+    dv[1] = ZD_FNMA(x159, x183, x65 * x95);
     return ZD_DONE;
 }
 
@@ -325,11 +321,10 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
         const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
         const zd_real x64 = 1.0 / (x20 * x46);
         const zd_real x65 = x46 * x64;
-        const zd_real x66 = x20 * x64;
-        const zd_real x152 = x19 * x65;
-        const zd_real x166 = x66 * (x18 * x42);
-        dp[0] = x166;
-        dp[1] = ZD_FNMA(x152, x166, x18 * x65);
+        const zd_real x159 = x19 * x65;
+        const zd_real x174 = x64 * (x20 * (x18 * x42));
+        dp[0] = x174;
+        dp[1] = ZD_FNMA(x159, x174, x18 * x65);
         return ZD_NO_CONVERGENCE;
     }
     const zd_real x19 = p0 * k[6];
@@ -338,21 +333,20 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
     const zd_real x46 = ZD_FMA(x19, x42, x20 * (k[1] * x20));
     const zd_real x64 = 1.0 / (x20 * x46);
     const zd_real x65 = x46 * x64;
-    const zd_real x66 = x20 * x64;
-    const zd_real x115 = ZD_FMA(x20, before1, x19 * before0);
-    const zd_real x152 = x19 * x65;
-    const zd_real x182 = x66 * (x42 * x115);
-    const zd_real v0 = before0 - x182;
-    const zd_real v1 = before1 - ZD_FNMA(x152, x182, x65 * x115);
+    const zd_real x118 = ZD_FMA(x20, before1, x19 * before0);
+    const zd_real x159 = x19 * x65;
+    const zd_real x192 = x64 * (x20 * (x42 * x118));
+    const zd_real v0 = before0 - x192;
+    const zd_real v1 = before1 - ZD_FNMA(x159, x192, x65 * x118);
     const zd_real x28 = k[7] * (ZD_FMA(v1, v1, v0 * v0) * 2.0);
-    const zd_real x191 = x66 * ZD_FNMA(x28, x42, x20 * (k[5] * x19));
-    const zd_real x197 = ZD_FMA(x152, x191, x28 * x65);
+    const zd_real x202 = x64 * (x20 * ZD_FNMA(x28, x42, x20 * (k[5] * x19)));
+    const zd_real x208 = ZD_FMA(x159, x202, x28 * x65);
     v[0] = v0;
     v[1] = v1;
-    vdot[0] = x191;
-    vdot[1] = -x197;
+    vdot[0] = x202;
+    vdot[1] = -x208;
     if (lambda || power) {
-        if (lambda) lambda[0] = x65 * ZD_FMS(k[1], x197, k[5]);
+        if (lambda) lambda[0] = x65 * ZD_FMS(k[1], x208, k[5]);
         if (power) power[0] = ZD_SPLAT(0.0);
     }
     if (pivots) {

@@ -172,21 +172,20 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     const zd_real x151 = ZD_FMA(x19, x145, ZD_FMA(x141, x144, x23 * (k[2] * x23)));
     const zd_real x154 = 1.0 / (x23 * x151);
     const zd_real x156 = x151 * x154;
-    const zd_real x158 = x23 * x154;
     const zd_real x194 = x141 * x156;
     const zd_real x201 = x19 * x156;
     const zd_real x232 = ZD_FNMA(x23, x91, x14 * x15);
-    const zd_real x238 = x158 * ZD_FNMA(x15, x145, x144 * x232);
-    const zd_real x256 = ZD_FNMA(x23, ZD_FMA(x14, v2, ZD_FMA(x10, v0, v1)), x14 * x26);
-    const zd_real x262 = x158 * ZD_FNMA(x26, x145, x144 * x256);
+    const zd_real x240 = x154 * (x23 * ZD_FNMA(x15, x145, x144 * x232));
+    const zd_real x258 = ZD_FNMA(x23, ZD_FMA(x14, v2, ZD_FMA(x10, v0, v1)), x14 * x26);
+    const zd_real x266 = x154 * (x23 * ZD_FNMA(x26, x145, x144 * x258));
     Phi[0] = x91;
     Phi[1] = -x15;
-    dp[0] = -x238;
-    dp[1] = ZD_FNMA(x156, x232, x194 * x238);
-    dp[2] = ZD_FMA(x201, x238, x15 * x156);
-    dv[0] = -x262;
-    dv[1] = ZD_FNMA(x156, x256, x194 * x262);
-    dv[2] = ZD_FMA(x201, x262, x26 * x156);
+    dp[0] = -x240;
+    dp[1] = ZD_FNMA(x156, x232, x194 * x240);
+    dp[2] = ZD_FMA(x201, x240, x15 * x156);
+    dv[0] = -x266;
+    dv[1] = ZD_FNMA(x156, x258, x194 * x266);
+    dv[2] = ZD_FMA(x201, x266, x26 * x156);
     return ZD_DONE;
 }
 
@@ -230,14 +229,13 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
         const zd_real x151 = ZD_FMA(x19, x145, ZD_FMA(x141, x144, x23 * (k[2] * x23)));
         const zd_real x154 = 1.0 / (x23 * x151);
         const zd_real x156 = x151 * x154;
-        const zd_real x158 = x23 * x154;
         const zd_real x194 = x141 * x156;
         const zd_real x201 = x19 * x156;
         const zd_real x232 = ZD_FNMA(x23, x91, x14 * x15);
-        const zd_real x238 = x158 * ZD_FNMA(x15, x145, x144 * x232);
-        dp[0] = -x238;
-        dp[1] = ZD_FNMA(x156, x232, x194 * x238);
-        dp[2] = ZD_FMA(x201, x238, x15 * x156);
+        const zd_real x240 = x154 * (x23 * ZD_FNMA(x15, x145, x144 * x232));
+        dp[0] = -x240;
+        dp[1] = ZD_FNMA(x156, x232, x194 * x240);
+        dp[2] = ZD_FMA(x201, x240, x15 * x156);
         return ZD_NO_CONVERGENCE;
     }
     const zd_real x141 = ZD_FNMA(x14, x19, x10 * x23);
@@ -246,15 +244,14 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     const zd_real x151 = ZD_FMA(x19, x145, ZD_FMA(x141, x144, x23 * (k[2] * x23)));
     const zd_real x154 = 1.0 / (x23 * x151);
     const zd_real x156 = x151 * x154;
-    const zd_real x158 = x23 * x154;
     const zd_real x194 = x141 * x156;
     const zd_real x201 = x19 * x156;
-    const zd_real x287 = ZD_FMA(x23, before2, x19 * before0);
-    const zd_real x293 = ZD_FNMA(x23, ZD_FMA(x14, before2, ZD_FMA(x10, before0, before1)), x14 * x287);
-    const zd_real x299 = x158 * ZD_FNMA(x145, x287, x144 * x293);
-    const zd_real v0 = before0 - (-x299);
-    const zd_real v1 = before1 - ZD_FNMA(x156, x293, x194 * x299);
-    const zd_real v2 = before2 - ZD_FMA(x201, x299, x156 * x287);
+    const zd_real x291 = ZD_FMA(x23, before2, x19 * before0);
+    const zd_real x297 = ZD_FNMA(x23, ZD_FMA(x14, before2, ZD_FMA(x10, before0, before1)), x14 * x291);
+    const zd_real x305 = x154 * (x23 * ZD_FNMA(x145, x291, x144 * x297));
+    const zd_real v0 = before0 - (-x305);
+    const zd_real v1 = before1 - ZD_FNMA(x156, x297, x194 * x305);
+    const zd_real v2 = before2 - ZD_FMA(x201, x305, x156 * x291);
     const zd_real x17 = -(0.5 * x15);
     const zd_real x32 = ZD_FNMA(0.5, x30, p1);
     const zd_real x42 = 0.5 * ZD_FMA(x32, ZD_FMA(x14, v2, ZD_FMA(x10, v0, v1 * 2.0)), x17 * (-ZD_FMA(x23, v2, x19 * v0)));
@@ -272,20 +269,20 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     const zd_real x97 = v2 * v2;
     const zd_real x103 = ZD_FMA(x14, x97, x10 * x95);
     const zd_real x181 = ZD_FNMA(x19, x89, ZD_FMA(x75, x141, x23 * (((x42 * (x47 * k[6])) / x53) + ((x57 * (x46 * k[11])) / x55))));
-    const zd_real x317 = ZD_FMA(x14, x103, x23 * ZD_FMA(x23, x97, x19 * x95));
-    const zd_real x325 = x158 * ZD_FMA(x23, x181, ZD_FNMA(x103, x145, x144 * x317));
-    const zd_real x333 = ZD_FNMA(x156, x317, x194 * x325);
-    const zd_real x338 = ZD_FMA(x201, x325, x103 * x156);
+    const zd_real x323 = ZD_FMA(x14, x103, x23 * ZD_FMA(x23, x97, x19 * x95));
+    const zd_real x331 = (x23 * x154) * ZD_FMA(x23, x181, ZD_FNMA(x103, x145, x144 * x323));
+    const zd_real x339 = ZD_FNMA(x156, x323, x194 * x331);
+    const zd_real x344 = ZD_FMA(x201, x331, x103 * x156);
     v[0] = v0;
     v[1] = v1;
     v[2] = v2;
-    vdot[0] = -x325;
-    vdot[1] = x333;
-    vdot[2] = x338;
+    vdot[0] = -x331;
+    vdot[1] = x339;
+    vdot[2] = x344;
     if (lambda || power) {
-        const zd_real x343 = ZD_FNMA(k[3], x333, x75);
-        if (lambda) lambda[0] = x156 * (x23 * x343);
-        if (lambda) lambda[1] = x156 * ZD_FMA(x14, x343, ZD_FMA(k[4], x338, x89));
+        const zd_real x349 = ZD_FNMA(k[3], x339, x75);
+        if (lambda) lambda[0] = x156 * (x23 * x349);
+        if (lambda) lambda[1] = x156 * ZD_FMA(x14, x349, ZD_FMA(k[4], x344, x89));
         if (power) power[0] = -(x42 * ((k[6] * ZD_FMA(v2, x80, ZD_FMA(x32, v1, v0 * x47))) / x53));
     }
     if (pivots) {

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .graph import FIXED
 from .lowering import Lowering
+
+LATENCY = {"leaf": 0, "number": 0, "negative": 1, "/": 14, "root": 18, "call": 50, "power": 100}    # of other operations 4
 
 Vector = list[int]      # of operations, as is a
 Matrix = list[Vector]
@@ -14,8 +17,21 @@ class Arithmetic:
     """Operations with those left out that do nothing."""
 
     def __init__(self, lowering: Lowering) -> None:
-        self.lowering = lowering
+        self.lowering, self._depths = lowering, dict[int, int]()
         self.zero, self.one, self._minus_one = (lowering.emit("number", value) for value in (0.0, 1.0, -1.0))
+
+    def depth(self, number: int) -> int:
+        """How long a processor waits for a value from the leaves on, in cycles or so."""
+        waiting = [number]
+        while waiting:
+            operation = self.lowering.operations[waiting[-1]]
+            operands = self.lowering.operands(operation)
+            unknown = [operand for operand in operands if operand not in self._depths]
+            if not unknown:
+                before = max((self._depths[operand] for operand in operands), default=0)
+                self._depths[waiting.pop()] = before + (LATENCY.get(operation.code, 4) if operation.stage > FIXED else 0)
+            waiting += unknown
+        return self._depths[number]
 
     def _negated(self, a: int) -> int | None:
         """What an operation is the negative of."""

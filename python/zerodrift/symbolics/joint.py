@@ -42,9 +42,16 @@ class Joint(Elimination):
         do = self.do
         if self.share is not None:
             return super()._inverted(determinant)
-        both = do.over(do.one, do.times(self.delta, determinant))
+        self.both = both = do.over(do.one, do.times(self.delta, determinant))
         self.share = do.times(both, determinant)
         return do.times(both, self.delta)
+
+    def _free_of(self, along: Vector) -> Vector:
+        """The free velocities. Where there is one, what is known before the quotient is multiplied before it is."""
+        do = self.do
+        if len(self.free) == 1 and do.depth(along[0]) <= do.depth(self.both):
+            return [do.times(self.both, do.times(self.delta, along[0]))]
+        return self.mass.solve(along)
 
     def solution(self, force: Vector | None, right: Vector) -> Vector:
         do, x0 = self.do, self.particular(right)
@@ -52,7 +59,7 @@ class Joint(Elimination):
         if force is not None:
             along = [do.plus(do.times(self.delta, do.dot(column, force)), value)
                      for column, value in zip(zip(*self.D, strict=True), along, strict=True)]
-        a = self.mass.solve(along)
+        a = self._free_of(along)
         x = [do.plus(do.times(x, self.share), do.dot([do.times(entry, self.share) for entry in row], a))
              for x, row in zip(x0, self.D, strict=True)]
         for i, value in zip(self.free, a, strict=True):
