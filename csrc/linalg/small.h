@@ -39,13 +39,18 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
-/* Two neighbours in one store. A processor hands on what it has just stored to loads of that or of a part of it; one of more has to wait until
+/* Two neighbours in one store, or in one load. A processor hands on what it has just stored to loads of that or of a part of it; one of more has to wait until
  * it is in the cache. */
+#if defined(__GNUC__) || defined(__clang__)
+#define ZD_HAS_VECTORS 1
+typedef double zd_two __attribute__((vector_size(16)));
+typedef double zd_stored_two __attribute__((vector_size(16), aligned(8), may_alias));
+#endif
+
 ZD_INLINE void zd_store_pair(double a, double b, double *to)
 {
-#if defined(__GNUC__) || defined(__clang__)
-    typedef double pair __attribute__((vector_size(16), aligned(8), may_alias));
-    *(pair *)to = (pair){a, b};
+#ifdef ZD_HAS_VECTORS
+    *(zd_stored_two *)to = (zd_stored_two){a, b};
 #else
     to[0] = a, to[1] = b;
 #endif

@@ -8,15 +8,17 @@
  * The pivots of the rows are measured by the sizes that these rows of C had at the start, in natural units.
  */
 #include <math.h>
+#include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "pivots.h"
 
-static const double LARGE = ZD_LARGE_PIVOT; /* the first order with such pivots is taken, */
+static const double LARGE = 0x1p-3;     /* the first order with such pivots is taken, */
 static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in
                                              * D and ten in M */
 static const double SMALL = 0x1p-6;         /* for a step to end with: the general road counts less of a row as ill-conditioned, too */
+static const double SHRUNK = 0x1p-4;    /* within a step: what lies between its ends is then no longer known from them */
 static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
 static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
 
@@ -42,6 +44,7 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
         .pivots = zd_take_doubles(arena, (size_t)system->nv),
         .before = zd_take_doubles(arena, (size_t)system->nv),
         .pdot = zd_take_doubles(arena, (size_t)system->nq),
+        .range = zd_take(arena, (size_t)system->nv * sizeof(zd_range)),
         .dp = zd_take_doubles(arena, (size_t)system->nq),
         .allowed = zd_take_doubles(arena, (size_t)system->mh),
     };
@@ -97,15 +100,46 @@ static int ends_with_projection(const zd_motion *motion)
         && motion->rate.size == motion->formulation_size;
 }
 
+static uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static const zd_range NOWHERE = {UINT64_MAX, 0};    /* but at a number that is none */
+
+/* Of another order: a glance says nothing of them until they have been compared. */
+static void forget_pivots(zd_motion *motion)
+{
+    for (int k = 0; k < motion->system.nv; k++) {
+        motion->road.pivots[k] = 0;
+        motion->road.range[k] = NOWHERE;
+    }
+}
+
+/* Where those of the next step may be for a glance to be enough, if the order is the first: large, and within a factor of four, so that of two
+ * steps none has shrunk by more than sixteen in the second. */
+static void remember_pivots(zd_motion *motion)
+{
+    zd_road *road = &motion->road;
+    const double *scale = scale_of(motion, road->order), factor = 1 / sqrt(SHRUNK);
+    if (road->order != road->direct->order) return;
+    for (int k = 0; k < motion->system.nv; k++) road->range[k] = (zd_range){0, 0};
+    for (int k = 0; k < count_pivots(motion); k++) {
+        const double x = road->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
+        const uint64_t from = bits_of(copysign(least, x)), to = bits_of(copysign(most, x));
+        road->range[k] = least <= most ? (zd_range){from, to - from} : NOWHERE;
+    }
+}
+
 static void use(zd_motion *motion, const zd_elimination *order)
 {
     if (motion->road.order == order) return;
     motion->point->known &= ~ZD_ACCELERATED;
     motion->road.order = order;
     motion->road.continues = 0;
-    if (order) motion->road.scale_of_order = scale_of(motion, order);
-    for (int k = order ? count_pivots(motion) : motion->system.nv; k < motion->system.nv; k++)
-        motion->road.pivots[k] = motion->road.before[k] = 1;
+    if (order) forget_pivots(motion);
     motion->road.lands = order && order->land && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
     motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
@@ -171,8 +205,9 @@ int zd_direct_compare(zd_motion *motion, double moved)
     if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
     const int count = count_pivots(motion);
     for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
-        if (!(road->pivots[k] * road->before[k] >= ZD_SHRUNK_PIVOT * road->before[k] * road->before[k])) return ZD_SINGULAR;
+        if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
     road->smallest = smallest;
     road->was_taken = 1;
+    remember_pivots(motion);
     return ZD_DONE;
 }

@@ -61,6 +61,11 @@ typedef struct zd_balance {
     const double *input;    /* J, integrated along as the last number of the state; NULL where none comes in */
 } zd_balance;
 
+/* Of a number's bits, which without signs lie as the numbers do */
+typedef struct zd_range {
+    uint64_t least, width;
+} zd_range;
+
 /* The direct road: a step whose accelerations and corrections come from the system's direct functions. The general road, by the formulation's
  * leading matrix, is all that there is where `direct` is NULL, and what is taken in any doubt: see direct.c. */
 typedef struct zd_road {
@@ -69,7 +74,7 @@ typedef struct zd_road {
     int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
     int continues;          /* whether a glance at the end of a step has found that the next may be made likewise */
     double *scale;          /* (orders, nv): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
-    const double *scale_of_order;   /* (nv,): of these */
+    zd_range *range;        /* (nv,): pivots within are large, of the same sign, and within a factor of four of what they were */
     double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
     double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began. Those that no order has are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */

@@ -146,13 +146,19 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
     return status;
 }
 
-ZD_INLINE void keep(zd_guard *guard, double speed, int64_t next_step)
+void zd_guard_watch_next(zd_guard *guard)
+{
+    const zd_point *point = guard->motion->point;
+    ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
+    guard->watches_step = 1;
+}
+
+ZD_INLINE void keep(zd_guard *guard, int64_t next_step)
 {
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
-    guard->watches_step = next_step >= guard->next_look;
-    if (guard->watches_step) ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
-    guard->speed = speed;
+    guard->watches_step = 0;
+    if (next_step >= guard->next_look) zd_guard_watch_next(guard);
     guard->has_begun = 1;
 }
 
@@ -175,11 +181,9 @@ static double largest_move(const zd_guard *guard)
 
 int zd_guard_begin(zd_guard *guard, int64_t step)
 {
-    const zd_point *point = guard->motion->point;
     int status = evaluate_end(guard, step);
-    if (status) return status;
-    keep(guard, ZD_SIZED(zd_guard_find, point->system->nq, guard, guard->last->p, point->p, 0, point->inverse_unit_p).speed, step);
-    return ZD_DONE;
+    if (!status) keep(guard, step);
+    return status;
 }
 
 int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *found)
@@ -201,6 +205,8 @@ int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h)
 {
     if (guard->checks_stability) estimate_omega(guard, found->moved, h);
     guard->fastest = fmax(guard->fastest, found->speed);
+    guard->reach = ZD_LONG * ZD_LONG;
+    if (guard->checks_stability) guard->reach = fmin(guard->reach, ZD_FASTER * h * h * guard->fastest + guard->nearby);
     return zd_has_energy(&guard->motion->system) ? note_energy(guard) : ZD_DONE;
 }
 
@@ -208,12 +214,20 @@ void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample)
 {
     if (!is_ample || !guard->is_ample) guard->pause = LOOK_EVERY;
     else if (guard->pause < LOOK_SELDOM && step % guard->pause == 0) guard->pause *= 2;
-    guard->next_look = step < LOOK_EVERY || guard->streak ? step + 1 : next_of(guard->pause, step);
+    guard->next_look = guard->streak ? step + 1 : step < LOOK_EVERY ? 2 * step : next_of(guard->pause, step);
 }
 
-void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step)
+void zd_guard_keep(zd_guard *guard, int64_t next_step)
 {
-    keep(guard, speed, next_step);
+    keep(guard, next_step);
+}
+
+double zd_guard_speed(const zd_guard *guard)
+{
+    const double *pdot = guard->pdot, *inverse_unit = guard->motion->point->inverse_unit_p;
+    double sum = 0;
+    for (int i = 0; i < guard->motion->system.nq; i++) sum += (pdot[i] * inverse_unit[i]) * (pdot[i] * inverse_unit[i]);
+    return sqrt(sum);
 }
 
 double zd_guard_omega_h(const zd_guard *guard)

@@ -16,8 +16,8 @@ typedef struct zd_guard {
     double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
     double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
-    double speed;           /* |pdot|^2 where the step began, in natural units */
-    double fastest;         /* the largest such at the end of a step that was looked at */
+    double fastest;         /* the largest |pdot|^2 at the end of a step that was looked at, in natural units */
+    double reach;           /* |p1 - p0|^2 of the longest step that a glance is enough for, likewise; 0 until the first look */
     int64_t pause, next_look;   /* one of so many steps is looked at, the next being this one */
     int is_ample;           /* whether the step looked at last was far from too long */
     int streak;             /* steps in succession that were longer than the method is stable for */
@@ -26,7 +26,8 @@ typedef struct zd_guard {
 } zd_guard;
 
 typedef struct zd_detour {  /* sums of squares, in natural units */
-    double moved, detour, speed;
+    double moved, detour;
+    double speed0, speed;   /* of pdot, where the step began and where it ended */
 } zd_detour;
 
 /* `stability`: the largest omega h at which the method is stable; 0: there is none. */
@@ -40,9 +41,12 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
 int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h);
 /* When to look again after this step, in which all else was far from its limits, or not. */
 void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample);
-/* Keeps the end of the step as the beginning of the next. */
-void zd_guard_keep(zd_guard *guard, double speed, int64_t next_step);
+/* Keeps the end of the step as the beginning of the next, */
+void zd_guard_keep(zd_guard *guard, int64_t next_step);
+/* or no more than what changes where that is looked at. */
+void zd_guard_watch_next(zd_guard *guard);
 double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */
+double zd_guard_speed(const zd_guard *guard);       /* |pdot| where the step began, in natural units */
 
 /* ---- what a step is told by ---- */
 
@@ -52,12 +56,13 @@ double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */
 
 ZD_INLINE zd_detour zd_guard_find(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *inverse_unit)
 {
-    zd_detour sum = {0, 0, 0};
+    zd_detour sum = {0, 0, 0, 0};
     for (int i = 0; i < n; i++) {
-        double moved = (p[i] - p0[i]) * inverse_unit[i], rate = guard->rate[i] * inverse_unit[i];
-        double detour = moved - 0.5 * h * (guard->pdot[i] * inverse_unit[i] + rate);
+        double moved = (p[i] - p0[i]) * inverse_unit[i], rate0 = guard->pdot[i] * inverse_unit[i], rate = guard->rate[i] * inverse_unit[i];
+        double detour = moved - 0.5 * h * (rate0 + rate);
         sum.moved += moved * moved;
         sum.detour += detour * detour;
+        sum.speed0 += rate0 * rate0;
         sum.speed += rate * rate;
     }
     return sum;
@@ -66,7 +71,7 @@ ZD_INLINE zd_detour zd_guard_find(const int n, const zd_guard *guard, const doub
 /* The bound of the detour's square */
 ZD_INLINE double zd_guard_allows(const zd_guard *guard, double h, const zd_detour *found)
 {
-    return guard->astray * h * h * (guard->speed + found->speed) + guard->nearby;
+    return guard->astray * h * h * (found->speed0 + found->speed) + guard->nearby;
 }
 
 /* Whether the step shows nothing that a closer look should be made for. */

@@ -44,6 +44,6 @@ int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int pa
                                                            : zd_crossing_step(&self->crossing, h, found.moved);
     if (status) return status;
     if (self->guard.watches_step) status = look(self, &found, h, next_step - 1, parts);
-    zd_guard_keep(&self->guard, found.speed, next_step);
+    zd_guard_keep(&self->guard, next_step);
     return status;
 }

@@ -37,7 +37,7 @@ static int find(zd_course *course, double t1, int *found)
     zd_stepper *stepper = course->stepper;
     zd_point *point = course->motion->point;
     const zd_safeguards *safeguards = course->safeguards;
-    double t0 = stepper->last.t, resolution = fmin(SHORT / sqrt(safeguards->guard.speed), (t1 - t0) / 2);
+    double t0 = stepper->last.t, resolution = fmin(SHORT / zd_guard_speed(&safeguards->guard), (t1 - t0) / 2);
     resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
     *found = 0;
     int status = zd_rows_find(point);

@@ -61,7 +61,7 @@ ZD_INLINE int land(const int n, zd_course *course, double t1)
     zd_copy_pairs(n, stepper->y + n, point->v);
     if (!status && course->motion->corrections > 1) status = correct_rest(n, course);
     if (status) return status;
-    if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1)) return ZD_DONE;
+    if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
     return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;
 }
 
