@@ -13,6 +13,7 @@ import pytest
 import zerodrift as zd
 from small_studies import dies, locks, lowest, pendulum, waits
 from zerodrift.ensembles import executors, transport
+from zerodrift.ensembles.store import Store
 
 GRAVITIES = np.linspace(5.0, 10.0, 12)
 PLAIN = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.angle"]}
@@ -92,12 +93,12 @@ def test_functions_travel_by_value_with_cloudpickle(processes):
 
 
 def test_what_a_worker_lacks_is_said(monkeypatch):
-    stamp = {"vector": "avx512", "fingerprint": executors._gateway.FINGERPRINT}
+    stamp = {"vector": "avx512", "version": executors.version()}
     monkeypatch.setattr(executors._gateway, "PROCESSOR_UNIT", 1)
     with pytest.raises(zd.WorkerLost, match=r'no avx512, .* vector="avx2" \| "baseline" .* baseline and avx2'):
         executors.check_stamp(stamp)
     with pytest.raises(zd.WorkerLost, match="another zerodrift"):
-        executors.check_stamp(stamp | {"fingerprint": "another"})
+        executors.check_stamp(stamp | {"version": "another"})
     with pytest.raises(ImportError, match=r"No module named 'elsewhere'.*register_pickle_by_value"):
         transport.unpacked(b"celsewhere\nthing\n.")
 
@@ -113,8 +114,8 @@ class Elsewhere:
 
 def test_a_worker_of_another_version_is_refused(monkeypatch):
     checked = executors.check_stamp
-    monkeypatch.setattr(executors, "check_stamp", lambda stamp: checked(stamp | {"fingerprint": "another"}))
-    with pytest.raises(zd.WorkerLost, match=r"another zerodrift than .* \(on ") as caught:
+    monkeypatch.setattr(executors, "check_stamp", lambda stamp: checked(stamp | {"version": "another"}))
+    with pytest.raises(zd.WorkerLost, match=r"another zerodrift, .* than .* \(on ") as caught:
         zd.ensemble(pendulum, 1.0, executor=Elsewhere(), **PLAIN)
     assert caught.value.solution.failed.all()
     monkeypatch.undo()
@@ -151,6 +152,21 @@ def test_ctrl_c_ends_processes_and_keeps_what_they_did(monkeypatch):
     done = ~caught.value.solution.failed
     assert 40 <= done.sum() < 400
     assert done[:done.sum()].all()
+
+
+def test_ctrl_c_while_a_part_is_written_does_not_lose_it(tmp_path, monkeypatch):
+    """It is written before the error is raised, as what came meanwhile is."""
+    presses = iter([False, True])
+
+    def pressed(self, first, part, write=Store.write):
+        if next(presses, False):
+            raise KeyboardInterrupt
+        write(self, first, part)
+
+    monkeypatch.setattr(Store, "write", pressed)
+    with pytest.raises(zd.Interrupted, match="12 of 12 runs are done"):
+        zd.ensemble(pendulum, 1.0, executor=Elsewhere(), chunk=3, store=tmp_path / "study", **PLAIN)
+    assert not zd.load(tmp_path / "study").failed.any()
 
 
 def test_a_thread_pool_is_an_executor_too():

@@ -109,6 +109,14 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     ...                   t_eval=np.linspace(0, 2, 11), outputs=["alpha1"])
     >>> ens["alpha1"].shape, bool(ens.failed.any())
     ((5, 11), False)
+
+    On a cluster, with a folder from which it goes on after whatever happens to the cluster or to this process::
+
+        from dask.distributed import Client
+
+        with Client("scheduler:8786") as client:
+            ens = zd.ensemble(zd.models.hoecken, 1.0, parameters=zd.grid(ground=grounds, coupler=couplers), step=0.01,
+                              outputs=["P.position"], executor=client.get_executor(), store="hoecken")
     """
     runs = Runs(system, parameters, p0, v0, start, hold, assembles=_check.instance("assemble", assemble, bool, "True or False"))
     keeps = keep is not None and bool(_check.choice("keep", keep, ("solutions",)))
@@ -131,7 +139,6 @@ class _Work:
         self._plan, self._store, self._threads = plan, store, threads
         self._lock, self._begin = threading.Lock(), time.perf_counter()
         self._parts = {} if store is None else store.parts()
-        self._count = sum(len(part.rows) for part in self._parts.values())
         runs = plan.runs.count
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
         least = SHORTEST if batch_of(plan) else 1
@@ -144,10 +151,10 @@ class _Work:
         """All runs; after Ctrl-C, or where some were lost, an error that carries those that are done."""
         show, close = progress_of(progress)
         try:
-            self._make(self._threads, lambda: show(self._count / self._plan.runs.count))
+            self._make(self._threads, lambda: show(self._count() / self._plan.runs.count))
         except KeyboardInterrupt:
             done = self._ensemble()
-            raise Interrupted(f"the ensemble was interrupted: {self._count} of {len(done)} runs are done", done) from None
+            raise Interrupted(f"the ensemble was interrupted: {self._count()} of {len(done)} runs are done", done) from None
         except WorkerLost as error:
             error.solution = self._ensemble()
             if self._store:
@@ -177,7 +184,11 @@ class _Work:
             self._store.write(first, part)
         with self._lock:
             self._parts[first] = part
-            self._count += len(part.rows)
+
+    def _count(self) -> int:
+        """How many runs are done."""
+        with self._lock:
+            return sum(len(part.rows) for part in self._parts.values())
 
     def _ensemble(self) -> Ensemble:
         return Ensemble(self._plan, filled(self._parts, self._plan.runs.count), time.perf_counter() - self._begin, self._where)

@@ -16,6 +16,7 @@ from typing import Any
 from .. import _check, _gateway
 from ..errors import WorkerLost
 from ..runs.settings import VECTOR_UNITS
+from .identity import version
 from .part import Part
 from .plan import Plan
 from .run_range import never, run_range
@@ -49,7 +50,7 @@ class Elsewhere:
     def __init__(self, plan: Plan, ranges: Iterator[tuple[int, int]], finished: Callable[[int, Part], None],
                  executor: Any) -> None:
         self._runs, self._ranges, self._finished, self._executor = plan.runs, ranges, finished, executor
-        stamp = {"vector": plan.options["vector"], "fingerprint": _gateway.FINGERPRINT}
+        stamp = {"vector": plan.options["vector"], "version": version()}
         without_table = plan.over(plan.runs.with_table(plan.runs.table(0, 0)))
         shares_main = executor == "processes" or isinstance(executor, ProcessPoolExecutor)
         self._head = packed((stamp, packed(without_table, "the ensemble", shares_main=shares_main)))
@@ -89,10 +90,10 @@ class Elsewhere:
         look()
 
     def _collect(self) -> None:
-        """What has come meanwhile."""
-        with contextlib.suppress(queue.Empty):
-            while True:
-                self._receive(self._done.get_nowait())
+        """What has come meanwhile; also what Ctrl-C came into while it was looked at."""
+        for future in list(self._pending):
+            if future.done():
+                self._receive(future)
 
     def _fill(self) -> None:
         """Submits ranges until enough are under way."""
@@ -106,17 +107,19 @@ class Elsewhere:
             future.add_done_callback(self._done.put)
 
     def _receive(self, future: Any) -> None:
-        """Hands on what a future has; or keeps why it has nothing."""
-        taken = self._pending.pop(future, None)
-        if taken is None or future.cancelled():
+        """Hands on what a future has; or keeps why it has nothing. Only then is it no longer pending."""
+        taken = self._pending.get(future)
+        if taken is None:
             return
-        error = future.exception()
-        part = error if error is not None else unpacked(future.result())
-        if isinstance(part, BaseException):
-            self._lost[taken] = part
-        else:
-            self._has_received = True
-            self._finished(taken[0], part)
+        if not future.cancelled():
+            error = future.exception()
+            part = error if error is not None else unpacked(future.result())
+            if isinstance(part, BaseException):
+                self._lost[taken] = part
+            else:
+                self._has_received = True
+                self._finished(taken[0], part)
+        del self._pending[future]
 
     def _error(self) -> Exception:
         """What is raised of ranges that were lost: what our own workers say, else that of the first."""
@@ -186,8 +189,9 @@ def _plan(head: bytes) -> Plan:
 
 def check_stamp(stamp: dict[str, Any]) -> None:
     """Refuses to make runs whose bits would not be those of where the ensemble began."""
-    if stamp["fingerprint"] != _gateway.FINGERPRINT:
-        raise WorkerLost("this worker has another zerodrift than the process that began the ensemble; install the same")
+    if stamp["version"] != version():
+        raise WorkerLost(f"this worker has another zerodrift, {version()}, than the process that began the ensemble, "
+                         f"{stamp['version']}; install the same")
     unit, units = stamp["vector"], VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
     if unit not in units:
         raise WorkerLost(f'the processor of this worker has no {unit}, with which the ensemble began: vector="avx2" | '

@@ -5,14 +5,22 @@ from __future__ import annotations
 import copyreg
 import functools
 import hashlib
+import sys
 from collections.abc import Iterable, Mapping
 from types import BuiltinFunctionType, CodeType, FunctionType, MethodType, ModuleType
 from typing import Any
 
 import numpy as np
 
+from .. import _gateway
+
 LENGTH = 24         # hexadecimal digits of a digest
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
+
+
+def version() -> str:
+    """That of the package, and the beginning of the fingerprint of what its core was compiled from."""
+    return f"{sys.modules[__package__.partition('.')[0]].__version__} ({_gateway.FINGERPRINT[:LENGTH]})"
 
 
 class Identity:

@@ -16,7 +16,7 @@ from .. import _check, _gateway
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
 from . import saving
-from .identity import Identity, differences
+from .identity import Identity, differences, version
 from .part import Part
 from .plan import OPTIONS, Plan
 
@@ -119,7 +119,7 @@ def manifest_of(plan: Plan) -> dict[str, Any]:
     made = {"system": _system(runs.made, found), "reduce": None if plan.reduce is None else found.of(plan.reduce)}
     described = {name: _described(value, found) for name, value in settings.items()}
     return {
-        "what": WHAT, "format": FORMAT, "version": _gateway.FINGERPRINT, "vector": plan.options["vector"], "runs": runs.count,
+        "what": WHAT, "format": FORMAT, "version": version(), "vector": plan.options["vector"], "runs": runs.count,
         "t_span": list(_check.span(plan.t_span)), "outputs": list(plan.names), **made, "settings": described,
         "assemble": runs.may_assemble, "hold": saving.names_of(runs.hold), "functions": found.functions,
         "python": ".".join(platform.python_version_tuple()[:2]) if found.functions else None,     # their code depends on it
