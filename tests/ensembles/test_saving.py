@@ -41,6 +41,17 @@ def test_what_was_made_by_functions_is_loaded_without_them(tmp_path):
             _ = again[0]
 
 
+@pytest.mark.parametrize("reduce", [None, lambda sol: 1.0])
+def test_runs_of_a_loaded_ensemble_have_its_bits(tmp_path, reduce):
+    """On whichever road they were made; of a store, too."""
+    ens = zd.ensemble(zd.systems.four_bar(), 1.0, parameters={"gravity": np.linspace(9, 10, 5)}, step=0.01, outputs=["alpha2"],
+                      reduce=reduce, store=tmp_path / "store")
+    for again in (zd.load(ens.save(tmp_path / "file")), zd.load(tmp_path / "store"), ens):
+        assert np.array_equal(again["alpha2"], ens["alpha2"])
+        for i in range(5):
+            assert np.array_equal(again[i]["alpha2"], ens["alpha2"][i])
+
+
 def test_a_system_that_is_not_kept_is_named(tmp_path):
     system = zd.System(1, mass=np.eye(1), p0=[1.0], name="block")
     again = zd.load(zd.ensemble(system, 0.5, v0=[[1.0], [2.0]], step=0.1).save(tmp_path / "study"))

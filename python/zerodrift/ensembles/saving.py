@@ -116,6 +116,7 @@ def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
                      for name, value in plan.options.items() if name != "events"},
         "assembles": runs.may_assemble, "hold": names_of(runs.hold),
         "varies": [varies for _, varies in runs.start_values.values()],
+        "is_tabular": plan.is_tabular if isinstance(plan, Kept) else plan.is_tabular and plan.reduce is None and not plan.keeps,
         "system": runs.made._described() if isinstance(runs.made, BaseSystem) else None, "why_not": why_not(plan),
         **{kind: list(group) for kind, group in groups.items()}}
     arrays = {f"{kind}.{i}": array for kind, group in groups.items() for i, array in enumerate(group.values())}
@@ -145,6 +146,7 @@ class Kept(NamedTuple):
     options: dict[str, Any]
     names: tuple[str, ...]
     units: dict[str, str]
+    is_tabular: bool        # whether the core made its runs from tables, which tells their bits
     why_not: str | None     # why runs cannot be made again
 
     @property
@@ -156,7 +158,7 @@ class Kept(NamedTuple):
         """By which a run can be made."""
         if self.why_not:
             raise ZerodriftError(f"run {run} cannot be made again, as {self.why_not}: call zd.ensemble again")
-        return Plan(self.runs, self.t_span, self.options, self.names)
+        return Plan(self.runs, self.t_span, self.options, self.names, is_tabular=self.is_tabular)
 
 
 def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Kept:
@@ -175,7 +177,8 @@ def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, An
                              in zip(table["start"].items(), described["varies"], strict=True)},
                       shape=tuple(described["shape"]), hold=described["hold"], may_assemble=described["assembles"])
     settings = {name: saving.from_json(value) for name, value in described["settings"].items()}
-    return Kept(runs, tuple(described["t_span"]), settings, tuple(described["names"]), described["units"], reason)
+    return Kept(runs, tuple(described["t_span"]), settings, tuple(described["names"]), described["units"],
+                described["is_tabular"], reason)
 
 
 # ---- files ----
