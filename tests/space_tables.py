@@ -13,6 +13,12 @@ def random_frame(rng):
     return tuple(map(tuple, Rotation.random(random_state=rng).as_matrix()))
 
 
+def shape_of(frame, semiaxes):
+    """Of an ellipsoid with these semiaxes along the rows of a frame."""
+    D = np.array(frame).T * semiaxes
+    return tuple(map(tuple, D @ D.T))
+
+
 def unit(rng):
     vector = rng.normal(size=3)
     return tuple(vector / np.linalg.norm(vector))

@@ -77,6 +77,42 @@ static void read_distance(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_
     pull(gauge, pose, zd_times3(1 / to->value, apart), to);
 }
 
+/* S x, with S the shape of the ellipsoid, in the drawing's axes. */
+static zd_vector3 shaped(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 x)
+{
+    const zd_rotation *turned = &pose[gauge->second].turned;
+    const zd_vector3 own = zd_rotated_back3(turned, x);
+    const double S[] = {zd_inner3(zd_vector3_of(gauge->shape[0]), own), zd_inner3(zd_vector3_of(gauge->shape[1]), own),
+                        zd_inner3(zd_vector3_of(gauge->shape[2]), own)};
+    return zd_rotated3(turned, zd_vector3_of(S));
+}
+
+/* From Q to C: -S o over its reach, the root of o . S o. */
+static zd_vector3 way_to_contact(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 o, double *reach)
+{
+    const zd_vector3 So = shaped(gauge, pose, o);
+    *reach = sqrt(zd_inner3(o, So));
+    return zd_times3(-1 / *reach, So);
+}
+
+zd_vector3 zd_space_contact(const zd_space_gauge *gauge, const zd_pose3 *pose)
+{
+    double reach;
+    const zd_vector3 o = direction_of(pose + gauge->first, gauge->o);
+    return zd_plus3(zd_point3_of(pose + gauge->second, gauge->point2), way_to_contact(gauge, pose, o, &reach));
+}
+
+/* C is where the ellipsoid is farthest, so that its way there does not count: what pulls at C acts on both bodies there. */
+static void read_contact(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 a, zd_vector3 apart, zd_reading3 *to)
+{
+    double reach;
+    const zd_vector3 o = direction_of(pose + gauge->first, gauge->o), way = way_to_contact(gauge, pose, o, &reach);
+    const int is_slip = gauge->kind == ZD_SPACE_SLIP;
+    read_along(gauge, pose, is_slip ? a : o, zd_plus3(apart, way), to);
+    to->second.torque = zd_plus3(to->second.torque, zd_cross3(way, to->second.force));
+    if (is_slip) to->value = 0;
+}
+
 /* The angle of (a . b, o . b): see enum zd_space_gauge_kind. */
 static void read_angle(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 a, zd_reading3 *to)
 {
@@ -102,6 +138,8 @@ zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pos
     }
     case ZD_SPACE_ANGLE: read_angle(gauge, pose, a, &to); break;
     case ZD_SPACE_DISTANCE: read_distance(gauge, pose, apart, &to); break;
+    case ZD_SPACE_CLEARANCE:
+    case ZD_SPACE_SLIP: read_contact(gauge, pose, a, apart, &to); break;
     case ZD_SPACE_GLIDE: to.second = (zd_wrench3){a, zd_cross3(direction_of(second, gauge->point2), a)}; break;
     case ZD_SPACE_SPIN: to.second.torque = a; break;
     case ZD_SPACE_TURN: twist_both(a, &to); break;
@@ -136,6 +174,28 @@ static double bias_of_angle(moving a, moving o, moving b, double rate)
     return (x * bias_of_product(o, b) - y * bias_of_product(a, b) - 2 * rate * (x * xdot + y * ydot)) / size;
 }
 
+/* The rate of the way from Q to C: o turns with the first body, and the ellipsoid with the second. */
+static zd_vector3 rate_of_way(const zd_space_gauge *gauge, const zd_pose3 *pose, moving o, zd_vector3 spin)
+{
+    double reach;
+    const zd_vector3 way = way_to_contact(gauge, pose, o.value, &reach);
+    const zd_vector3 relative = zd_minus3(o.rate, zd_cross3(spin, o.value));        /* of o, in the second body's axes */
+    const zd_vector3 change = zd_minus3(zd_times3(zd_inner3(way, relative), way), shaped(gauge, pose, relative));
+    return zd_plus3(zd_cross3(spin, way), zd_times3(1 / reach, change));
+}
+
+/* Of u . w, with u a direction of the first body, and w the velocity of the second less that of the first at C. */
+static double bias_of_contact(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, moving u, moving o, moving apart)
+{
+    double reach;
+    const zd_vector3 first = twist[gauge->first].spin, second = twist[gauge->second].spin;
+    const zd_vector3 way = way_to_contact(gauge, pose, o.value, &reach), change = rate_of_way(gauge, pose, o, second);
+    const zd_vector3 to_C = zd_plus3(apart.value, way), change_of_C = zd_plus3(apart.rate, change);
+    const zd_vector3 w = zd_minus3(zd_plus3(apart.rate, zd_cross3(second, way)), zd_cross3(first, to_C));
+    const zd_vector3 wdot = zd_minus3(zd_plus3(apart.second, zd_cross3(second, change)), zd_cross3(first, change_of_C));
+    return zd_inner3(u.rate, w) + zd_inner3(u.value, wdot);
+}
+
 double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, double *bias)
 {
     const zd_reading3 reading = zd_space_gauge_read(gauge, pose);
@@ -149,6 +209,12 @@ double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, co
     case ZD_SPACE_COSINE: *bias = bias_of_product(a, b); break;
     case ZD_SPACE_ANGLE: *bias = bias_of_angle(a, turning(first, first_twist, gauge->o), b, rate); break;
     case ZD_SPACE_DISTANCE: *bias = bias_of_distance(apart, rate); break;
+    case ZD_SPACE_CLEARANCE:
+    case ZD_SPACE_SLIP: {
+        const moving o = turning(first, first_twist, gauge->o);
+        *bias = bias_of_contact(gauge, pose, twist, gauge->kind == ZD_SPACE_SLIP ? a : o, o, apart);
+        break;
+    }
     case ZD_SPACE_GLIDE: *bias = zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); break;
     case ZD_SPACE_SPIN:     /* of a turn the same, as the rate of a is perpendicular to the first body's own spin */
     case ZD_SPACE_TURN: *bias = zd_inner3(a.rate, second_twist->spin); break;

@@ -10,9 +10,13 @@ typedef struct place {
     zd_vector3 point;       /* its point of the joint */
 } place;
 
+/* The joint's point of the second body; of what rolls, the contact. */
 static place place_of(const zd_space *self, const zd_frame3 *frame, int joint)
 {
     const zd_space_joint *of = self->joint + joint;
+    const zd_relation *row = self->row + self->planned[joint].rows[0];
+    if (zd_space_joint_kind_of(of->kind)->rolls)
+        return (place){of->second, zd_space_contact(self->gauge + self->term[row->first].gauge, frame->pose)};
     return (place){of->second, zd_point3_of(frame->pose + of->second, of->point2)};
 }
 

@@ -25,6 +25,7 @@ typedef struct zd_space_joint {
     int first, second;          /* bodies */
     double point1[3], point2[3];
     double frame1[3][3], frame2[3][3];  /* the directions of the joint's frame in the axes of each body; they coincide where it says zero */
+    double semiaxes[3];         /* m: of what rolls, along the directions of frame2 */
     double along;               /* m: what the distance along the axis is where the joint says zero */
     double length;              /* m: of a rod; of a screw m for each rad */
 } zd_space_joint;
@@ -34,6 +35,7 @@ typedef struct zd_space_gauge {
     int first, second;          /* bodies */
     double point1[3], point2[3];
     double a[3], o[3], b[3];    /* of length 1, in the axes of their body: see enum zd_space_gauge_kind */
+    double shape[3][3];         /* m^2: of an ellipsoid x^T shape^-1 x = 1 about Q, in the second body's axes */
     double zero;                /* m or rad: taken from the reading */
 } zd_space_gauge;
 

@@ -21,6 +21,8 @@ enum zd_space_gauge_kind {
     ZD_SPACE_COSINE,        /* a . b */
     ZD_SPACE_ANGLE,         /* rad, in (-pi, pi]: from a to b, about the axis a x o, where o is a second direction of the first */
     ZD_SPACE_DISTANCE,      /* m: |Q - P| */
+    ZD_SPACE_CLEARANCE,     /* m: o . (C - P), where C is the point of an ellipsoid about Q that is farthest against o */
+    ZD_SPACE_SLIP,          /* m/s: a . (velocity of the second less that of the first, of what is at C of each) */
     ZD_SPACE_GLIDE,         /* m/s: a . velocity of Q. It does nothing to the first body. */
     ZD_SPACE_SPIN,          /* rad/s: a . angular velocity of the second. It does nothing to the first body. */
     ZD_SPACE_TURN,          /* rad/s: a . (angular velocity of the second less that of the first) */
@@ -40,6 +42,7 @@ typedef struct zd_space_pick {
     int of_first, of_second;    /* which directions of the frames a and b are; of an angle o is the one after a, in turn */
     enum zd_space_zero zero;
     int is_swapped;             /* whether a, then, is of the joint's second body and b of its first, and o the one before a */
+    int is_own;                 /* whether a is of the joint's second body, and the gauge of that body alone */
 } zd_space_pick;
 
 typedef struct zd_space_row {
@@ -60,6 +63,7 @@ typedef struct zd_space_joint_kind {
     zd_space_row row[ZD_SPACE_ROWS];    /* the holonomic ones first */
     zd_space_coordinate coordinate[ZD_SPACE_COORDINATES];
     int axes;                   /* how many directions the user gives: none, an axis, or two that are perpendicular */
+    int rolls;                  /* whether it touches at C, where its force acts: o of its gauges is the axis */
     int takes_length;           /* whether the user gives `length`: of a rod, or of a screw m for each rad */
     const char *tension;        /* name of the scalar that its first row's force is, positive where it pulls; or NULL */
 } zd_space_joint_kind;

@@ -5,7 +5,8 @@
 
 #define JOINTS(X) \
     X(zd_space_revolute) X(zd_space_prismatic) X(zd_space_weld) X(zd_space_cylindrical) X(zd_space_screw) X(zd_space_universal) \
-    X(zd_space_spherical) X(zd_space_planar) X(zd_space_rod) X(zd_space_slot)
+    X(zd_space_spherical) X(zd_space_planar) X(zd_space_rod) X(zd_space_slot) X(zd_space_rolling) \
+    X(zd_space_knife_edge)
 
 #define DECLARE_JOINT(name) extern const zd_space_joint_kind name;
 #define ADDRESS(name) &name,

@@ -4,32 +4,34 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from space_tables import KINDS, exactly_moved, random_frame, random_state, unit
+from space_tables import KINDS, exactly_moved, random_frame, random_state, shape_of, unit
 from support import assert_close
 from zerodrift._gateway.mechanisms import Effort, Observed, Relation
 from zerodrift._gateway.space import GAUGES, Body, Gauge, Joint, SpaceCore, Tables
 
 H = 1e-5            # s: of central differences, whose error is some H^2 and round-off over H
 NEAR = 3e-8         # that error, of terms of order one to ten
-SPEEDS = ("glide", "spin", "turn")
+SPEEDS = ("slip", "glide", "spin", "turn")
 
 
 def gauges(rng):
     made = []
     for kind in GAUGES:
         a, o, _ = random_frame(rng)
-        made.append(Gauge(kind, 1, 2, tuple(rng.normal(size=3)), tuple(rng.normal(size=3)), a, o, unit(rng), 0.1))
+        shape = shape_of(random_frame(rng), (0.4, 0.7, 0.2))
+        made.append(Gauge(kind, 1, 2, *rng.normal(size=(2, 3)).tolist(), a, o, unit(rng), shape, 0.1))
     return made
 
 
 def everything(rng):
     """Three bodies with a joint of each kind between any two of them, relations, efforts, and each gauge as a measure."""
     bodies = [Body(rng.uniform(1, 2), tuple(rng.uniform(1, 1.5, 3))) for _ in range(3)]
-    joints = [Joint(kind.number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), 0.3, 0.2)
+    joints = [Joint(kind.number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), (0.3, 0.5, 0.8),
+                    0.3, 0.2)
               for kind in KINDS.values() for ends in ((0, 1), (1, 2), (3, 2))]
     place = {kind: i for i, kind in enumerate(GAUGES)}
     efforts = [Effort("spring", place["distance"], 3.0, 0.2), Effort("spring", place["along"], 2.0),
-               *(Effort("constant", place[kind], value=value) for kind, value in zip(SPEEDS, (2.0, -1.5, 0.7), strict=True))]
+               *(Effort("constant", place[kind], value=value) for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7), strict=True))]
     relations = [Relation([place["angle"], place["along"]], [0.3, 1.0], 0.1, 0.2),
                  Relation([place["turn"], place["glide"]], [1.0, 0.5], 0.3, nonholonomic=True)]
     measures = [Observed(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(GAUGES)
@@ -104,8 +106,10 @@ def test_gauges_say_what_they_are(case):
         P = at[gauge.first] + R[gauge.first].apply(gauge.point1)
         Q = at[gauge.second] + R[gauge.second].apply(gauge.point2)
         a, o, b = R[gauge.first].apply(gauge.a), R[gauge.first].apply(gauge.o), R[gauge.second].apply(gauge.b)
+        own = R[gauge.second].inv().apply(o)
         expected = {"x": (Q - P)[0], "y": (Q - P)[1], "z": (Q - P)[2], "along": a @ (Q - P), "cosine": a @ b,
-                    "angle": np.arctan2(o @ b, a @ b), "distance": np.linalg.norm(Q - P)}.get(gauge.kind)
+                    "angle": np.arctan2(o @ b, a @ b), "distance": np.linalg.norm(Q - P),
+                    "clearance": o @ (Q - P) - np.sqrt(own @ gauge.shape @ own)}.get(gauge.kind)
         if expected is not None:
             assert_close(core.measure_at(2 * i, 0.0, p, v)["value"][0] + gauge.zero, expected, 1e-13, scale=1.0)
 

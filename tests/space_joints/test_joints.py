@@ -43,13 +43,17 @@ MOTIONS = {
 
 
 def test_all_are_here():
-    assert MOTIONS.keys() == KINDS.keys()
+    assert {*MOTIONS, "rolling", "knife_edge"} == KINDS.keys()
 
 
 def drawn(kind, rng, along=0.0):
     """A joint between two bodies, anywhere on them."""
     length = {"rod": LENGTH, "screw": PITCH / (2 * np.pi)}.get(kind, 0.0)
-    return Joint(KINDS[kind].number, 1, 2, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), along, length)
+    return placed_anywhere(kind, (1, 2), rng)._replace(along=along, length=length)
+
+
+def placed_anywhere(kind, ends, rng):
+    return Joint(KINDS[kind].number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng))
 
 
 def placed(core, joint, first, rotation, way):
@@ -62,7 +66,7 @@ def placed(core, joint, first, rotation, way):
     return core.state(np.array(poses))[0]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", MOTIONS)
 def test_it_leaves_its_motions_free_and_no_others(kind):
     rng = np.random.default_rng(7)
     count, motion, coordinates = MOTIONS[kind]
@@ -87,7 +91,7 @@ def measure(gauge, core, p):
     return float(reader.measure_at(0, 0.0, p, np.zeros(core.nv))["value"][0])
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", MOTIONS)
 def test_its_zero_is_along_the_axis(kind):
     """Where a joint counts a displacement, it is from where it was drawn."""
     rng = np.random.default_rng(8)
@@ -107,6 +111,42 @@ def test_a_screw_goes_on_through_all_turns(turns):
     core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))
     p = placed(core, joint, (rng.normal(size=3), Rotation.random(random_state=rng)), *MOTIONS["screw"][1]([2 * np.pi * turns]))
     assert_close(core.evaluate(0.0, p, np.zeros(core.nv))["Phi"], np.zeros(5), 1e-14, scale=5.0)
+
+
+@pytest.mark.parametrize("semiaxes", [(0.3, 0.3, 0.3), (0.0, 0.5, 0.5), (0.2, 0.3, 0.7)], ids=["sphere", "disc", "ellipsoid"])
+def test_what_rolls_touches_and_does_not_slip(semiaxes):
+    """Its point that is farthest against the normal lies in the plane; and the rows are the velocities of what is there."""
+    rng = np.random.default_rng(10)
+    for _ in range(5):
+        joint = placed_anywhere("rolling", (1, 2), rng)._replace(semiaxes=semiaxes)
+        core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))
+        (first, R1), R2 = (rng.normal(size=3), Rotation.random(random_state=rng)), Rotation.random(random_state=rng)
+        normal, *plane = R1.apply(joint.frame1)
+        D = R2.apply(joint.frame2).T * semiaxes         # the ellipsoid is D x with x on the unit sphere
+        contact = first + R1.apply(joint.point1) + rng.normal(size=2) @ plane
+        centre = contact + D @ (D.T @ normal) / np.linalg.norm(D.T @ normal)
+        second = centre - R2.apply(joint.point2)
+        p = core.state(np.array([[*at, *R.as_quat(scalar_first=True)] for at, R in ((first, R1), (second, R2))]))[0]
+        v = rng.normal(size=12)
+        terms = core.evaluate(0.0, p, v)
+        assert abs(terms["Phi"][0]) < 1e-14 * 5
+        velocity = [own[:3] + np.cross(R.apply(own[3:]), contact - at)
+                    for own, R, at in ((v[:6], R1, first), (v[6:], R2, second))]
+        assert_close(terms["C"] @ v, np.array([normal, *plane]) @ (velocity[1] - velocity[0]), 1e-13)
+        around = D @ (lambda x: x / np.linalg.norm(x, axis=0))(rng.normal(size=(3, 200)))
+        assert ((centre - contact) @ normal + normal @ around > -1e-14).all()     # nothing of it is below the plane
+
+
+def test_a_blade_glides_along_itself():
+    rng = np.random.default_rng(11)
+    joint = placed_anywhere("knife_edge", (0, 1), rng)
+    core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))], [joint]))
+    assert (core.mh, core.mn) == (0, 1)
+    R = Rotation.random(random_state=rng)
+    v = rng.normal(size=6)
+    p = np.array([*rng.normal(size=3), *R.as_quat(scalar_first=True)])
+    velocity = v[:3] + np.cross(R.apply(v[3:]), R.apply(joint.point2))
+    assert_close(core.evaluate(0.0, p, v)["C"] @ v, R.apply(joint.frame2)[1:2] @ velocity, 1e-14)
 
 
 def test_there_are_no_other_rows():

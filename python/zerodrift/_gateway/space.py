@@ -18,6 +18,7 @@ from .systems import CoreSystem
 
 GAUGES = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
           "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
+          "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
           "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
 NAMES = {value: name for name, value in GAUGES.items()}
 BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
@@ -60,6 +61,7 @@ class Joint(NamedTuple):
     point2: Vector = NONE
     frame1: Frame = AS_DRAWN
     frame2: Frame = AS_DRAWN
+    semiaxes: Vector = NONE     # of what rolls, along the rows of the second frame
     along: float = 0.0          # what the distance along the axis is where the joint says zero
     length: float = 0.0         # of a rod; of a screw m for each rad
 
@@ -75,6 +77,7 @@ class Gauge(NamedTuple):
     a: Vector = AS_DRAWN[0]     # directions of the first body, and one of the second
     o: Vector = AS_DRAWN[1]
     b: Vector = AS_DRAWN[0]
+    shape: Frame = (NONE, NONE, NONE)   # of an ellipsoid of the second body, x^T shape^-1 x = 1
     zero: float = 0.0
 
 
@@ -107,7 +110,8 @@ def joint_kinds() -> dict[str, JointKind]:
 def coordinate_gauge(joint: Joint, coordinate: int) -> Gauge:
     """The gauge that reads a coordinate of a joint."""
     c = lib.zd_space_coordinate_gauge(ffi.new("zd_space_joint *", joint), coordinate)
-    return Gauge(NAMES[c.kind], c.first, c.second, *(tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b)), c.zero)
+    vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
+    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero)
 
 
 class SpaceCore(CoreSystem):

@@ -230,27 +230,33 @@ class JointVerbs(SpaceJointVerbs):
             return self._fasten("slot", name, first, second, axis)
         return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
-    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float, at: Any = (0.0, 0.0),
-                normal: Any = None) -> Rolling:
-        """Let a wheel roll on a line without slipping.
+    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: Any = None,
+                normal: Any = None, axle: Any = None, semiaxes: Any = None) -> Any:
+        """Let a wheel roll on a line without slipping; in space a disc, a sphere or an ellipsoid on a plane.
 
         Parameters
         ----------
         name : str
         first : Body or name
-            What the line belongs to.
+            What the line, or the plane, belongs to.
         second : Body, Point or name
             The wheel, whose origin is its centre, or the point of the body that is.
         radius : float
-            In m.
-        at : array_like (2,)
-            A place of the line in the drawing.
-        normal : array_like (2,), optional
-            Of the line in the drawing, towards the wheel; left out: against gravity, and where there is none, y.
+            In m; in space of a sphere, or of a disc where there is an axle.
+        at : array_like (2,) or (3,)
+            A place of the line or plane in the drawing; left out: the drawing's origin.
+        normal : array_like (2,) or (3,), optional
+            Of the line or plane in the drawing, towards the wheel; left out: against gravity, and where there is none, y, in
+            space z.
+        axle : array_like (3,), optional
+            In space: of a disc, its axle in the drawing. It turns with the second body.
+        semiaxes : array_like (3,), optional
+            In space, instead of the radius: those of an ellipsoid along the axes of the second body's frame, in m.
 
         Returns
         -------
-        Rolling
+        Rolling, in space SpaceJoint
+            Its force acts where it touches. In space it has one holonomic row, and two nonholonomic ones, along the plane.
 
         Raises
         ------
@@ -265,8 +271,12 @@ class JointVerbs(SpaceJointVerbs):
         >>> m.rolling("road", m.ground, wheel, radius=0.5).force
         VectorMeasure('road.force')
         """
-        self._in_the_plane("rolling")
+        if self.dimension == 3:
+            return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)
+        if axle is not None or semiaxes is not None:
+            raise ValueError(f"axle and semiaxes of {name!r} are for mechanisms in space")
         name = self._new_name(name, "joint")
+        at = (0.0, 0.0) if at is None else at
         radius = _check.number(f"radius of {name!r}", radius, above=0)
         if normal is None:
             normal = -self.gravity if self.gravity.any() else (0.0, 1.0)
@@ -278,7 +288,7 @@ class JointVerbs(SpaceJointVerbs):
         self._turning(name, "rolling", first.body, second.body)
         return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
 
-    def knife_edge(self, name: str, point: Side, *, along: Any) -> KnifeEdge:
+    def knife_edge(self, name: str, point: Side, *, along: Any, normal: Any = None) -> Any:
         """Let a point of a body move along one direction of the body only, as a skate does on ice.
 
         Parameters
@@ -286,12 +296,15 @@ class JointVerbs(SpaceJointVerbs):
         name : str
         point : Point, Body or name
             Of a body without a point, its centre of mass.
-        along : array_like (2,)
+        along : array_like (2,) or (3,)
             The direction in the drawing in which it glides; it turns with the body.
+        normal : array_like (3,), optional
+            In space: of the ice in the drawing, perpendicular to `along`; left out: against gravity, and where there is none, z,
+            made perpendicular. What is across both is held.
 
         Returns
         -------
-        KnifeEdge
+        KnifeEdge, in space SpaceJoint
             Its first body is the ground.
 
         Raises
@@ -307,7 +320,10 @@ class JointVerbs(SpaceJointVerbs):
         >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
         <knife_edge blade: ground - sleigh>
         """
-        self._in_the_plane("knife_edge")
+        if self.dimension == 3:
+            return self._space_knife_edge(name, point, along, normal)
+        if normal is not None:
+            raise ValueError(f"normal of {name!r} is for mechanisms in space")
         name = self._new_name(name, "joint")
         along = self._direction(f"along of {name!r}", along)
         point = self._point("point", point, center=True)

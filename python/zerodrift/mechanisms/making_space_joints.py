@@ -14,6 +14,7 @@ from .space_joints import BY_KIND, SpaceJoint, has_torque
 
 Side = Body | Point | str
 RIGHT_ANGLE = 1e-9      # of the cosine
+FLAT = 1e-6             # of the sine: what counts as parallel
 
 
 class SpaceJointVerbs(Elements):
@@ -202,6 +203,64 @@ class SpaceJointVerbs(Elements):
         self._in_space("planar", "a free body")
         return self._join("planar", name, first, second, self._at_origin(at, first, second),
                           self._direction(f"normal of {name!r}", normal))
+
+    # ---- rolling and gliding ----
+
+    gravity: np.ndarray
+
+    def _upwards(self) -> np.ndarray:
+        """Against gravity; where there is none, z."""
+        return -self.gravity if self.gravity.any() else np.array([0.0, 0.0, 1.0])
+
+    def _space_rolling(self, name: str, first: Any, second: Any, radius: Any, at: Any, normal: Any, axle: Any,
+                       semiaxes: Any) -> SpaceJoint:
+        """An ellipsoid on a plane: its shape along the rows of a frame of the second body's."""
+        name = self._new_name(name, "joint")
+        if (radius is None) == (semiaxes is None):
+            raise TypeError(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid")
+        normal = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
+        first, second = self._body("first", first), self._named("second", second)
+        if isinstance(second, Body) and second.turns:
+            second = self._body("second", second).point(np.zeros(3))
+        at = np.zeros(3) if at is None else self._drawn("at", at)
+        first, second = self._different(name, first.point(at=at), self._point("second", second))
+        self._turning(name, "rolling", first.body, second.body)
+        frame, shape = self._shape(name, second.body, normal, radius, axle, semiaxes)
+        if not (second.drawn - at) @ normal > 0:
+            raise ValueError(f"normal of {name!r} must point to the side of the plane on which the centre is drawn")
+        frames = np.stack([first.body.pose.local_direction(row) for row in _frame(normal, None)]), frame
+        return self._add(BY_KIND["rolling"](name, first, second, frames=frames, semiaxes=shape))
+
+    def _shape(self, name: str, body: Body, normal: np.ndarray, radius: Any, axle: Any,
+               semiaxes: Any) -> tuple[np.ndarray, tuple[float, float, float]]:
+        """The rows of a frame (3, 3) in the body's, and the semiaxes along them."""
+        if semiaxes is not None:
+            if axle is not None:
+                raise TypeError(f"{name!r} has semiaxes, of an ellipsoid, and no axle")
+            given = _check.vector(f"semiaxes of {name!r}", semiaxes, 3)
+            return np.eye(3), tuple(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
+        radius = _check.number(f"radius of {name!r}", radius, above=0)
+        if axle is None:
+            return np.eye(3), (radius, radius, radius)
+        axle = self._direction(f"axle of {name!r}", axle)
+        if np.linalg.norm(np.cross(axle, normal)) < FLAT:
+            raise ValueError(f"axle of {name!r} must not be parallel to the normal in the drawing: a disc that lies flat does "
+                             "not roll")
+        return np.stack([body.pose.local_direction(row) for row in _frame(axle, None)]), (0.0, radius, radius)
+
+    def _space_knife_edge(self, name: str, point: Any, along: Any, normal: Any) -> SpaceJoint:
+        """A blade: the axis of its frame is along it, and the normal of that frame across."""
+        name = self._new_name(name, "joint")
+        along = self._direction(f"along of {name!r}", along)
+        up = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
+        if np.linalg.norm(np.cross(up, along)) < FLAT:
+            raise ValueError(f"along of {name!r} must not be parallel to the normal of the ice")
+        point = self._point("point", point, center=True)
+        self._turning(name, "knife edge", point.body)
+        first, point = self._different(name, self.ground.point(at=point.drawn), point)
+        frame = _frame(along, np.cross(perpendicular(along, up), along))
+        frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, point))
+        return self._add(BY_KIND["knife_edge"](name, first, point, frames=frames))
 
     # ---- what all share ----
 

@@ -61,6 +61,10 @@ class SpaceJoint(Joint):
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         return numbers(self, "length", float(np.linalg.norm(apart)) if self.length is None else self.length)
 
+    def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
+        """Those of what rolls, along the rows of the second body's frame, in m; 0 where nothing does."""
+        return 0.0, 0.0, 0.0
+
     def offset_as_drawn(self, numbers: Numbers) -> float:
         """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
@@ -142,4 +146,34 @@ class Screw(BY_KIND["screw"]):      # type: ignore[name-defined,misc]
         return {"pitch": now(self, "pitch", self.length)}
 
 
-BY_KIND["screw"] = Screw
+class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
+    """A disc, a sphere or an ellipsoid on a plane of the first body, `Mechanism.rolling`.
+
+    Attributes
+    ----------
+    semiaxes : tuple of float
+        In m, along the rows of the second body's frame: of a disc the first is 0, and the others are its radius.
+    """
+
+    kind = "rolling"
+
+    def __init__(self, name: str, first: Point, second: Point, *, frames: tuple[np.ndarray, np.ndarray],
+                 semiaxes: tuple[float, float, float]) -> None:
+        super().__init__(name, first, second, frames=frames)
+        self.semiaxes = semiaxes
+
+    def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
+        """In m, along the rows of the second body's frame."""
+        if len({*self.semiaxes} - {0.0}) == 1:
+            radius = numbers(self, "radius", max(self.semiaxes))
+            return tuple(radius if each else 0.0 for each in self.semiaxes)
+        return tuple(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        found = self.semiaxes_with(now)
+        return {"radius": max(found)} if len({*found} - {0.0}) == 1 else {
+            f"semiaxes.{axis}": each for axis, each in zip(AXES, found, strict=True)}
+
+
+BY_KIND["screw"], BY_KIND["rolling"] = Screw, SpaceRolling

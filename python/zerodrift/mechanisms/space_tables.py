@@ -87,7 +87,8 @@ class SpaceTables(Tables):
         frames = (tuple(self._direction(body, row) for row in frame)
                   for body, frame in zip(joint.bodies, joint.frames, strict=True))
         along = joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
-        return space.Joint(joint.row.number, first, second, point1, point2, *frames, along, joint.length_with(self.numbers))
+        return space.Joint(joint.row.number, first, second, point1, point2, *frames, triple(joint.semiaxes_with(self.numbers)),
+                           along, joint.length_with(self.numbers))
 
     # ---- gauges ----
 
