@@ -5,8 +5,7 @@
 
 static double rate_of(const zd_space *self, const zd_frame3 *frame, int gauge)
 {
-    double bias;
-    return zd_space_gauge_rate(self->gauge + gauge, frame->pose, frame->twist, &bias);
+    return zd_space_gauge_rate(self->gauge + gauge, frame->pose, frame->twist);
 }
 
 static double value_of(const zd_space *self, const zd_frame3 *frame, int gauge)

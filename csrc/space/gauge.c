@@ -122,28 +122,37 @@ static void read_angle(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vec
     twist_both(zd_times3(1 / (x * x + y * y), zd_cross3(b, zd_minus3(zd_times3(x, o), zd_times3(y, a)))), to);
 }
 
+static void read_cosine(const zd_space_gauge *gauge, const zd_pose3 *pose, zd_vector3 a, zd_reading3 *to)
+{
+    const zd_vector3 b = direction_of(pose + gauge->second, gauge->b);
+    to->value = zd_inner3(a, b);
+    twist_both(zd_cross3(b, a), to);
+}
+
+/* From P to Q. */
+static zd_vector3 apart_of(const zd_space_gauge *gauge, const zd_pose3 *pose)
+{
+    return zd_minus3(zd_point3_of(pose + gauge->second, gauge->point2), zd_point3_of(pose + gauge->first, gauge->point1));
+}
+
 zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose)
 {
-    const zd_pose3 *first = pose + gauge->first, *second = pose + gauge->second;
-    const zd_vector3 a = direction_of(first, gauge->a);
-    const zd_vector3 apart = zd_minus3(zd_point3_of(second, gauge->point2), zd_point3_of(first, gauge->point1));
     zd_reading3 to = {.value = 0};
-    switch (gauge->kind) {
-    case ZD_SPACE_ALONG: read_along(gauge, pose, a, apart, &to); break;
-    case ZD_SPACE_COSINE: {
-        const zd_vector3 b = direction_of(second, gauge->b);
-        to.value = zd_inner3(a, b);
-        twist_both(zd_cross3(b, a), &to);
-        break;
+    if (gauge->kind <= ZD_SPACE_Z) {
+        read_place(gauge, pose, apart_of(gauge, pose), &to);
+        to.value -= gauge->zero;
+        return to;
     }
+    const zd_vector3 a = direction_of(pose + gauge->first, gauge->a);
+    switch (gauge->kind) {
+    case ZD_SPACE_ALONG: read_along(gauge, pose, a, apart_of(gauge, pose), &to); break;
+    case ZD_SPACE_COSINE: read_cosine(gauge, pose, a, &to); break;
     case ZD_SPACE_ANGLE: read_angle(gauge, pose, a, &to); break;
-    case ZD_SPACE_DISTANCE: read_distance(gauge, pose, apart, &to); break;
-    case ZD_SPACE_CLEARANCE:
-    case ZD_SPACE_SLIP: read_contact(gauge, pose, a, apart, &to); break;
-    case ZD_SPACE_GLIDE: to.second = (zd_wrench3){a, zd_cross3(direction_of(second, gauge->point2), a)}; break;
+    case ZD_SPACE_DISTANCE: read_distance(gauge, pose, apart_of(gauge, pose), &to); break;
+    case ZD_SPACE_GLIDE: to.second = (zd_wrench3){a, zd_cross3(direction_of(pose + gauge->second, gauge->point2), a)}; break;
     case ZD_SPACE_SPIN: to.second.torque = a; break;
     case ZD_SPACE_TURN: twist_both(a, &to); break;
-    default: read_place(gauge, pose, apart, &to);
+    default: read_contact(gauge, pose, a, apart_of(gauge, pose), &to);
     }
     to.value -= gauge->zero;
     return to;
@@ -196,29 +205,37 @@ static double bias_of_contact(const zd_space_gauge *gauge, const zd_pose3 *pose,
     return zd_inner3(u.rate, w) + zd_inner3(u.value, wdot);
 }
 
-double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, double *bias)
+double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist)
 {
     const zd_reading3 reading = zd_space_gauge_read(gauge, pose);
+    return work(reading.first, twist + gauge->first) + work(reading.second, twist + gauge->second);
+}
+
+static double bias_of_glide(moving a, moving Q) { return zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); }
+
+double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist)
+{
     const zd_pose3 *first = pose + gauge->first, *second = pose + gauge->second;
     const zd_twist3 *first_twist = twist + gauge->first, *second_twist = twist + gauge->second;
-    const double rate = work(reading.first, first_twist) + work(reading.second, second_twist);
-    const moving a = turning(first, first_twist, gauge->a), Q = point_moving(second, second_twist, gauge->point2);
-    const moving apart = difference(Q, point_moving(first, first_twist, gauge->point1)), b = turning(second, second_twist, gauge->b);
+#define TURNING_FIRST(which) turning(first, first_twist, gauge->which)
+#define TURNING_B turning(second, second_twist, gauge->b)
+#define POINT_Q point_moving(second, second_twist, gauge->point2)
+#define APART difference(POINT_Q, point_moving(first, first_twist, gauge->point1))
     switch (gauge->kind) {
-    case ZD_SPACE_ALONG: *bias = bias_of_product(a, apart); break;
-    case ZD_SPACE_COSINE: *bias = bias_of_product(a, b); break;
-    case ZD_SPACE_ANGLE: *bias = bias_of_angle(a, turning(first, first_twist, gauge->o), b, rate); break;
-    case ZD_SPACE_DISTANCE: *bias = bias_of_distance(apart, rate); break;
-    case ZD_SPACE_CLEARANCE:
-    case ZD_SPACE_SLIP: {
-        const moving o = turning(first, first_twist, gauge->o);
-        *bias = bias_of_contact(gauge, pose, twist, gauge->kind == ZD_SPACE_SLIP ? a : o, o, apart);
-        break;
-    }
-    case ZD_SPACE_GLIDE: *bias = zd_inner3(a.rate, Q.rate) + zd_inner3(a.value, Q.second); break;
+    case ZD_SPACE_ALONG: return bias_of_product(TURNING_FIRST(a), APART);
+    case ZD_SPACE_COSINE: return bias_of_product(TURNING_FIRST(a), TURNING_B);
+    case ZD_SPACE_ANGLE:
+        return bias_of_angle(TURNING_FIRST(a), TURNING_FIRST(o), TURNING_B, zd_space_gauge_rate(gauge, pose, twist));
+    case ZD_SPACE_DISTANCE: return bias_of_distance(APART, zd_space_gauge_rate(gauge, pose, twist));
+    case ZD_SPACE_CLEARANCE: return bias_of_contact(gauge, pose, twist, TURNING_FIRST(o), TURNING_FIRST(o), APART);
+    case ZD_SPACE_SLIP: return bias_of_contact(gauge, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);
+    case ZD_SPACE_GLIDE: return bias_of_glide(TURNING_FIRST(a), POINT_Q);
     case ZD_SPACE_SPIN:     /* of a turn the same, as the rate of a is perpendicular to the first body's own spin */
-    case ZD_SPACE_TURN: *bias = zd_inner3(a.rate, second_twist->spin); break;
-    default: *bias = bias_of_place(gauge, apart);
+    case ZD_SPACE_TURN: return zd_inner3(TURNING_FIRST(a).rate, second_twist->spin);
+    default: return bias_of_place(gauge, APART);
     }
-    return rate;
+#undef TURNING_FIRST
+#undef TURNING_B
+#undef POINT_Q
+#undef APART
 }

@@ -11,8 +11,9 @@ typedef struct zd_reading3 {
 } zd_reading3;
 
 zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose);
-/* Returns the rate, and in `bias` what its derivative by time has besides the accelerations of coordinates. */
-double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, double *bias);
+double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);
+/* What the derivative of the rate by time has besides the accelerations of coordinates. */
+double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);
 /* C of enum zd_space_gauge_kind. */
 zd_vector3 zd_space_contact(const zd_space_gauge *gauge, const zd_pose3 *pose);
 /* A point of a body, from the drawing's origin. */

@@ -41,7 +41,8 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
 {
     const zd_space_gauge *gauge = self->gauge + measure->index + i;
     const int nv = self->system.nv;
-    double bias, rate = zd_space_gauge_rate(gauge, frame->pose, frame->twist, &bias), s = measure->scale;
+    const double rate = zd_space_gauge_rate(gauge, frame->pose, frame->twist), s = measure->scale;
+    const double bias = zd_space_gauge_bias(gauge, frame->pose, frame->twist);
     if (measure->quantity == ZD_ACCELERATIONS) {
         write_row(self, frame, gauge, s, frame->row);
         if (out->value) out->value[i] = s * bias + zd_dot(nv, frame->row, at->vdot);
@@ -79,11 +80,10 @@ static void write_vector(zd_vector3 what, double *to)
 
 static int measure_drive(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
 {
-    double bias;
     const int status = zd_space_drive_effort(self, frame, measure->index, measure->term, at->t, at->lambda, value);
     const zd_relation *row = self->row + self->row_of_relation[measure->index];
     if (measure->quantity == ZD_DRIVE_POWER)
-        *value *= zd_space_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist, &bias);
+        *value *= zd_space_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist);
     return status;
 }
 

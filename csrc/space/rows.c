@@ -26,10 +26,10 @@ static combined combine_linearly(const zd_space *self, const zd_relation *row, d
 static int ask_law(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, double t, combined *all)
 {
     const int k = row->terms;
-    double *out = frame->out, bias;
+    double *out = frame->out;
     for (int i = 0; i < k; i++) {
         frame->x[i] = zd_space_gauge_read(gauge_of(self, row, i), frame->pose).value;
-        frame->xdot[i] = zd_space_gauge_rate(gauge_of(self, row, i), frame->pose, frame->twist, &bias);
+        frame->xdot[i] = zd_space_gauge_rate(gauge_of(self, row, i), frame->pose, frame->twist);
     }
     if (self->law(self->owner, row->law, t, frame->x, frame->xdot, out)) return ZD_CALLBACK;
     *all = (combined){out[0], out[k + 1], out[k + 2], out + 1};
@@ -71,11 +71,8 @@ static double add_readings(const zd_space *self, const zd_frame3 *frame, const z
 
 static double sum_of_biases(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, const double *factors)
 {
-    double sum = 0, bias;
-    for (int i = 0; i < row->terms; i++) {
-        zd_space_gauge_rate(gauge_of(self, row, i), frame->pose, frame->twist, &bias);
-        sum += factors[i] * bias;
-    }
+    double sum = 0;
+    for (int i = 0; i < row->terms; i++) sum += factors[i] * zd_space_gauge_bias(gauge_of(self, row, i), frame->pose, frame->twist);
     return sum;
 }
 

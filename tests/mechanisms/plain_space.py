@@ -1,0 +1,168 @@
+"""Random mechanisms in space, and their accelerations by an independent model: bodies, and what each joint holds, in NumPy.
+
+Constraints are written from what a joint is for, of the poses alone, with more rows than needed where that is plainer, and are
+differentiated by differences; accelerations follow by least squares, which takes redundant rows.
+"""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+import zerodrift as zd
+
+H = 1e-4        # of central differences, whose error is some H^2 and round-off over H
+KINDS = ("revolute", "prismatic", "cylindrical", "universal", "spherical", "planar", "rod", "slot", "weld", "screw")
+PITCH = 0.5
+
+
+class Plain:
+    """A mechanism with what is needed to write its equations again."""
+
+    def __init__(self, rng, bodies, loops):
+        self.m = zd.Mechanism("random", dimension=3, gravity=rng.normal(size=3))
+        self.bodies, self.held, self.forces = [self.m.ground], [], []
+        self.pose = {"ground": (np.zeros(3), Rotation.identity())}
+        self.mass = {}
+        for b in range(bodies):
+            self._add_body(rng, f"b{b}")
+            self._join(rng, f"j{b}", str(rng.choice(KINDS)), self.bodies[rng.integers(b + 1)], self.bodies[-1])
+        for k in range(loops):
+            one, other = rng.choice(bodies + 1, 2, replace=False)
+            kind = str(rng.choice(["spherical", "rod", "slot", "universal"]))
+            self._join(rng, f"loop{k}", kind, self.bodies[one], self.bodies[other])
+        self._add_forces(rng)
+        self.system = self.m.system()
+
+    def _add_body(self, rng, name):
+        at, R, com = rng.normal(size=3), Rotation.random(random_state=rng), 0.3 * rng.normal(size=3)
+        J = Rotation.random(random_state=rng).as_matrix()
+        J = J @ np.diag(rng.uniform(1, 1.5, 3)) @ J.T
+        mass = rng.uniform(1, 3)
+        self.bodies.append(self.m.body(name, mass, J, at=at, rotation=R.as_matrix(), com=com))
+        self.pose[name], self.mass[name] = (at + R.apply(com), R), (mass, J, com)
+
+    def _local(self, body, place):
+        at, R = self.pose[body.name]
+        return R.inv().apply(place - at)
+
+    def _turned_back(self, body, direction):
+        return self.pose[body.name][1].inv().apply(direction)
+
+    def _join(self, rng, name, kind, first, second):
+        place, axis = rng.normal(size=3), rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        normal = np.cross(axis, rng.normal(size=3))
+        normal /= np.linalg.norm(normal)
+        other = place + rng.uniform(0.5, 1) * normal
+        given = {"planar": {"normal": axis}, "universal": {"axes": (axis, normal)}, "screw": {"axis": axis, "pitch": PITCH},
+                 **{each: {"axis": axis} for each in ("revolute", "prismatic", "cylindrical")}}.get(kind, {})
+        if kind == "rod":
+            self.m.rod(name, first.point(at=place), second.point(at=other))
+        elif kind == "slot":
+            self.m.slot(name, first, second.point(at=place), axis=axis)
+        else:
+            getattr(self.m, kind)(name, first, second, at=place, **given)
+        ends = (self._local(first, place), self._local(second, other if kind == "rod" else place))
+        axes = [(self._turned_back(first, d), self._turned_back(second, d)) for d in (axis, normal)]
+        self.held.append((kind, first.name, second.name, *ends, axes))
+
+    def _add_forces(self, rng):
+        one, other = rng.choice(len(self.bodies), 2, replace=False)
+        ends = [body.point(at=rng.normal(size=3)) for body in (self.bodies[one], self.bodies[other])]
+        self.m.spring("spring", *ends, stiffness=20.0, length=0.7, damping=2.0)
+        self.spring = [(body.name, self._local(body, end.drawn)) for body, end in
+                       zip((self.bodies[one], self.bodies[other]), ends, strict=True)]
+        pushed, along = self.bodies[-1], rng.normal(size=3)
+        self.m.force("push", pushed, along=along, value=3.0, frame=pushed)
+        self.m.torque("kick", pushed, axis=along, value=2.0)
+        self.push = (self._turned_back(pushed, along / np.linalg.norm(along)), along / np.linalg.norm(along))
+
+    # ---- the model: velocities are those of mass centres, and angular velocities, both in the drawing's axes ----
+
+    def names(self):
+        return [body.name for body in self.bodies[1:]]
+
+    def moved(self, poses, step):
+        """Poses after a step (6 n,) along velocities that stay."""
+        parts = dict(zip(self.names(), np.reshape(step, (-1, 6)), strict=True))
+        return {"ground": poses["ground"], **{name: (poses[name][0] + d[:3], Rotation.from_rotvec(d[3:]) * poses[name][1])
+                                              for name, d in parts.items()}}
+
+    def constraints(self, poses):
+        return np.concatenate([np.atleast_1d(_held(poses[first], poses[second], kind, *given))
+                               for kind, first, second, *given in self.held])
+
+    def jacobian(self, poses):
+        steps = np.eye(6 * len(self.names())) * H
+        return np.stack([(self.constraints(self.moved(poses, d)) - self.constraints(self.moved(poses, -d))) / (2 * H)
+                         for d in steps], axis=1)
+
+    def loads(self, poses, v):
+        """Generalized forces (6 n,), gyroscopic ones included."""
+        spins = {"ground": np.zeros(6), **dict(zip(self.names(), v.reshape(-1, 6), strict=True))}
+        total = {name: np.zeros(6) for name in spins}
+        for name, (mass, J, _) in self.mass.items():
+            turned = poses[name][1].as_matrix() @ J @ poses[name][1].as_matrix().T
+            total[name] += np.r_[mass * self.m.gravity, -np.cross(spins[name][3:], turned @ spins[name][3:])]
+        arms = [poses[name][1].apply(local) for name, local in self.spring]
+        places = [poses[name][0] + arm for (name, _), arm in zip(self.spring, arms, strict=True)]
+        speeds = [spins[name][:3] + np.cross(spins[name][3:], arm) for (name, _), arm in zip(self.spring, arms, strict=True)]
+        apart = places[1] - places[0]
+        line = apart / np.linalg.norm(apart)
+        pull = (20.0 * (np.linalg.norm(apart) - 0.7) + 2.0 * line @ (speeds[1] - speeds[0])) * line
+        for (name, _), arm, force in zip(self.spring, arms, (pull, -pull), strict=True):
+            total[name] += np.r_[force, np.cross(arm, force)]
+        last = self.names()[-1]
+        total[last] += np.r_[3.0 * poses[last][1].apply(self.push[0]), 2.0 * self.push[1]]
+        return np.concatenate([total[name] for name in self.names()])
+
+    def accelerations(self, poses, v):
+        """(6 n,) in the drawing's axes; where rows follow from others, they are as determined as ever."""
+        C = self.jacobian(poses)
+        change = (self.jacobian(self.moved(poses, H * v)) - self.jacobian(self.moved(poses, -H * v))) / (2 * H) @ v
+        blocks = []
+        for name in self.names():
+            R = poses[name][1].as_matrix()
+            blocks += [self.mass[name][0] * np.eye(3), R @ self.mass[name][1] @ R.T]
+        W = np.zeros((len(v), len(v)))
+        for k, block in enumerate(blocks):
+            W[3 * k:3 * k + 3, 3 * k:3 * k + 3] = np.linalg.inv(block)
+        free = W @ self.loads(poses, v)
+        pushed = np.linalg.lstsq(C @ W @ C.T, C @ free + change, rcond=1e-7)[0]
+        return free - W @ C.T @ pushed
+
+
+def _held(first, second, kind, local1, local2, axes):
+    """What a joint holds at zero, from the poses of its bodies."""
+    (at1, R1), (at2, R2) = first, second
+    apart = at2 + R2.apply(local2) - at1 - R1.apply(local1)
+    (a1, a2), (n1, n2) = [(R1.apply(one), R2.apply(other)) for one, other in axes]
+    t1, t2 = np.cross(a1, n1), np.cross(a2, n2)
+    same = np.r_[np.cross(a1, a2), np.cross(n1, n2), np.cross(t1, t2)]
+    across = np.cross(a1, apart)
+    angle = np.arctan2(n2 @ t1, n2 @ n1)
+    return {"revolute": np.r_[apart, np.cross(a1, a2)], "prismatic": np.r_[across, same], "weld": np.r_[apart, same],
+            "cylindrical": np.r_[across, np.cross(a1, a2)], "universal": np.r_[apart, a1 @ n2], "spherical": apart,
+            "planar": np.r_[a1 @ apart, np.cross(a1, a2)], "slot": across,
+            "screw": np.r_[across, np.cross(a1, a2), a1 @ apart - PITCH / (2 * np.pi) * angle],
+            "rod": np.linalg.norm(apart)}[kind]      # less its length, which its derivatives do not see
+
+
+def compare(seed, formulation="nullspace"):
+    """How far accelerations of the core are from those of the model, of the largest; None where nothing is free."""
+    rng = np.random.default_rng(seed)
+    plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, 3)))
+    poses = plain.pose
+    _, s, vt = np.linalg.svd(plain.jacobian(poses))
+    rank = int((s > 1e-6 * s[0]).sum())
+    if rank == len(vt) or (s[:rank].min() < 1e-2 * s[0]):
+        return None         # nothing is free, or nearly dependent rows would need more digits than differences have
+    v = vt[rank:].T @ rng.normal(size=len(vt) - rank)
+    expected = plain.accelerations(poses, v)
+    p, own = plain.system.p0, v.reshape(-1, 6).copy()
+    turned = plain.system._core.poses(p)[0][:, 3:]
+    own[:, 3:] = [Rotation.from_quat(q, scalar_first=True).inv().apply(w) for q, w in zip(turned, own[:, 3:], strict=True)]
+    start = plain.system._core.state(np.zeros((len(own), 7)), own)[1]
+    sol = zd.simulate(plain.system, 1e-6, p, start, step=1e-6, formulation=formulation)
+    found = np.concatenate([[*sol[f"{name}.center.acceleration"][0], *sol[f"{name}.angular_acceleration"][0]]
+                            for name in plain.names()])
+    return np.abs(found - expected).max() / max(np.abs(expected).max(), 1.0)
