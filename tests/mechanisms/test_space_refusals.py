@@ -157,6 +157,22 @@ def test_a_body_without_inertia_is_named():
         zd.simulate(m, 1.0, step=0.1)
 
 
+def test_what_is_traced_in_the_plane_alone():
+    m = joined()
+    with pytest.raises(ValueError, match="'m' is in space, and curves of positions are traced in the plane"):
+        zd.trace(m, "A.angle")
+    with pytest.raises(ValueError, match="transmission_angle is there for mechanisms in the plane"):
+        zd.transmission_angle(m, "A")
+
+
+def test_names_that_matrices_do_not_have():
+    sol = zd.simulate(joined(), 0.01, step=0.01)
+    assert sol["link.rotation"].shape == (2, 3, 3)
+    for name in ("link.rotation.x", "link.quaternion.x", "link.euler", "link.euler.zz", "bead.rotation", "link.angle"):
+        with pytest.raises(KeyError, match="is called"):
+            sol[name]
+
+
 def test_start_and_motor_in_each_others_way():
     m = joined()
     m.motor("drive", "A", angle=lambda t: t)

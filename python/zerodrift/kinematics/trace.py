@@ -124,6 +124,8 @@ def _mechanism(system: Any) -> MechanismSystem:
     system = system_of(system)
     if not isinstance(system, MechanismSystem):
         raise TypeError(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
+    if system._drawing.dimension == 3:
+        raise ValueError(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space")
     return system
 
 

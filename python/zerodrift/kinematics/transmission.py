@@ -48,6 +48,7 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
     array([23.07, 73.74])
     """
     _check.instance("m", m, Mechanism, "a Mechanism")
+    m._in_the_plane("transmission_angle")
     joint = m[joint] if isinstance(joint, str) else joint
     if not isinstance(joint, Joint) or m._elements.get(joint.name) is not joint:
         raise TypeError(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(joint)}")

@@ -45,7 +45,7 @@ class Watching:
             return Place(self.number[name], None)
         base, _, axis = name.rpartition(".")
         component = AXES.get(axis, -1)
-        if base in self.number and 0 <= component < self._measures[self.number[base]].size > 1:
+        if base in self.number and 0 <= component < self._measures[self.number[base]].size in (2, 3):
             return Place(self.number[base], component)
         return None
 
