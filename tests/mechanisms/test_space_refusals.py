@@ -165,6 +165,18 @@ def test_what_is_traced_in_the_plane_alone():
         zd.transmission_angle(m, "A")
 
 
+def test_events_of_angles_that_jump():
+    """The angle of a turntable passes pi, which is no event; its sine tells the half turns."""
+    m = joined()
+    m.motor("drive", "A", speed=2.0)
+    with pytest.raises(ValueError, match=r"is of 'A\.angle', which jumps by a full turn at pi"):
+        zd.simulate(m, 1.0, step=0.1, events=zd.Event("A.angle", value=1.0))
+    events = [zd.Event(lambda a: np.sin(a), of={"a": "A.angle"}), zd.Event("link.end.position.y")]
+    sol = zd.simulate(m, 4.0, step=0.02, events=events)
+    for times in sol.t_events:
+        np.testing.assert_allclose(times[-2:], [np.pi / 2, np.pi], rtol=0, atol=1e-9)
+
+
 def test_names_that_matrices_do_not_have():
     sol = zd.simulate(joined(), 0.01, step=0.01)
     assert sol["link.rotation"].shape == (2, 3, 3)

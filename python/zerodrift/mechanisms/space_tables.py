@@ -124,6 +124,12 @@ class SpaceTables(Tables):
         """What reads a coordinate of a joint."""
         return space.coordinate_gauge(self.joint_rows[self.joint_number[joint.name]], joint.coordinates.index(coordinate))
 
+    def jumps(self, name: str) -> bool:
+        """Whether a measure is an angle of a joint, which counts no turns."""
+        owner, _, coordinate = name.rpartition(".")
+        joint = self.drawing.elements.get(owner)
+        return isinstance(joint, SpaceJoint) and dict(joint.row.coordinates).get(coordinate) == "angle"
+
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
         """What reads the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
