@@ -79,7 +79,7 @@ def test_every_model_is_from_bodies_and_joints_and_says_so(name):
     assert m.points(m.p0).tobytes() == system.points(system.p0).tobytes()
     assert m.evaluate().M.tobytes() == system.evaluate().M.tobytes()
     for section in ("Parameters", "Returns", "Examples"):
-        assert f"    {section}\n    ---" in MECHANISMS[name].__doc__
+        assert f"\n{section}\n---" in inspect.getdoc(MECHANISMS[name])
 
 
 def arguments(name):

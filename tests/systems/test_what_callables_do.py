@@ -100,6 +100,7 @@ def test_what_is_handed_out_cannot_be_made_writable():
     assert len(seen) > 10
 
 
+@pytest.mark.filterwarnings("ignore:Setting the shape:DeprecationWarning")      # by NumPy 2.5 and later
 def test_an_array_that_is_given_another_shape_is_so_for_nobody_else():
     def force(p, v, m, pull):
         p.shape = v.shape = pull.shape = (2, 1)

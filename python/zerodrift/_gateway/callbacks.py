@@ -142,7 +142,7 @@ class PythonCore(CoreSystem):
         system.provides = lib.ZD_TIMELESS if timeless else 0
         for name in names:
             system.provides |= TERMS[name].bit
-        system.evaluate = lib.zd_evaluate_in_python
+        system.evaluate = ffi.addressof(lib, "zd_evaluate_in_python")      # older versions of cffi want the address
         system.lengths = self._lengths = lengths(variables)
         self._declared = set_quaternions(system, quaternions), declare(system, packing)
         super().__init__(system, None)

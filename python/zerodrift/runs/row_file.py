@@ -131,7 +131,7 @@ class RowFile:
             self._put(HEADER.pack(MAGIC, self.rows, self._begin - HEADER.size))
             self._file.seek(self._begin + self.rows * self._row)
             self._file.truncate()       # part of a row, where the disk was full
-            self._put(rest.getbuffer())
+            self._put(rest.getvalue())
 
 
 def _columns(path: Path, begin: int, rows: int, row: int, columns: Mapping[str, Any],
