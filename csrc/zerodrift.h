@@ -182,6 +182,10 @@ double zd_count_steps(double t0, double t1, double step);
 
 /* Whether a run with these settings takes direct functions, where its system brings any; for another they need not be made. */
 int zd_takes_direct(const zd_settings *settings);
+/* Whether these are others, namely for formulations in independent velocities. */
+int zd_takes_embeddings(const zd_settings *settings);
+/* Whether the formulation can take such functions of this system. */
+int zd_may_have_direct(const zd_system *system, const zd_settings *settings);
 /* The vector unit of the direct functions that a run of this system takes; -1: it takes none. */
 int zd_direct_unit(const zd_system *system, const zd_settings *settings);
 

@@ -12,6 +12,8 @@ FOLDER = ROOT / "csrc" / "systems" / "direct"
 # Where in the doubles of a system those of its direct functions begin: behind its own, or with these where they are the same.
 BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0,
           "oscillator": 0, "knife_edge": 0, "vertical_disc": 0}
+# Systems that bring their own D have no independent velocities that are entries of v.
+EMBEDS = {"chaplygin_sleigh": (False,), "knife_edge": (False,)}
 HEADING = f"/* Written by tests/direct_sources.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
 
 
@@ -23,7 +25,7 @@ def sources():
         symbol, count = f"zd_{name}_direct", len(system.parameters)
         heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/units.h"']
         texts[f"{name}.c"], constants = direct.write(
-            *system._direct._definition, offset=count, symbol=symbol, heading=heading,
+            *system._direct._definition, offset=count, symbol=symbol, heading=heading, embeds=EMBEDS.get(name, (False, True)),
             file=f"{name}.c", lanes_header='"../../include/zerodrift/lanes.h"',
             data=f"(const double *)data + {BEGINS[name]} * ZD_LANES" if BEGINS[name] else "data")
         sizes[name] = count + constants

@@ -70,7 +70,8 @@ def direct_sets(system):
         library = direct.library_of("|".join(known), QUICKLY)
         table = ffi.cast("const zd_direct *", _gateway.address_of(library, "zd_symbolic_direct"))
         rows = [table[i] for i in range(len(known))]
-        data = doubles_of(system._written, direct, library) if hasattr(system, "_written") else system._with_direct_data(library)
+        data = (doubles_of(system._written, direct, library) if hasattr(system, "_written") else
+                system._with_direct_data(library, direct))
     else:
         c, kind = system._core.c, _gateway.kinds()[system.name].c
         rows = [c.direct[i] for i in range(c.directs)]

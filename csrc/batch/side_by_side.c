@@ -14,7 +14,7 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
     if (!batch->lanes || !batch->doubles || system->structure || system->quaternions || settings->events || settings->outputs
-        || settings->given_jacobian || system->mh + system->mn > system->nv || !zd_takes_direct(settings)
+        || settings->given_jacobian || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;
     return zd_lane_functions_of(system, settings->vector, &direct) != NULL;

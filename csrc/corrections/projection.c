@@ -264,15 +264,20 @@ static int after_step(void *memory, zd_motion *motion)
     int velocities = self->given.velocities != 0 && (motion->corrects & ZD_C);
     int status = ZD_DONE;
     if (zd_is_direct(motion) && !self->plain) {
-        if (!zd_constraints(&motion->system)) return ZD_DONE;
+        positions &= (motion->drifts_from & ZD_PHI) != 0;
+        velocities &= (motion->drifts_from & ZD_C) != 0;
+        if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
         zd_point *point = motion->point;
-        return motion->road.lands ? zd_direct_land(motion, point->t, point->p, point->v)
-                                  : correct_directly(self, motion, positions, velocities);
+        if (motion->road.lands) return zd_direct_land(motion, point->t, point->p, point->v);
+        status = correct_directly(self, motion, positions, velocities);
+        /* What is corrected next goes by the velocities that follow from these positions. */
+        return !status && zd_is_embedded(motion) && motion->corrections > 1 ? zd_embed_settle(motion) : status;
     }
     if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
     if (motion->drifts_from & ZD_C) return velocities ? correct_velocities(self, motion) : ZD_DONE;
-    return motion->formulation->settle ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
+    const int settles = motion->formulation->settle && !zd_is_direct(motion);
+    return settles ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {

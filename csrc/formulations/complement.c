@@ -173,6 +173,11 @@ int zd_complement_review(zd_complement *self, zd_point *point)
     return zd_complement_at(self, point);
 }
 
+double zd_complement_steepest(const zd_complement *self)
+{
+    return self->chosen && !self->own ? WORSE * self->reference : 0;
+}
+
 void zd_complement_particular(const zd_complement *self, const double *rhs, double *x)
 {
     int n = self->n, m = self->m;

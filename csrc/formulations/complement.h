@@ -38,6 +38,8 @@ void zd_complement_lend(const zd_complement *self, double **Q, double **G);
 int zd_complement_at(zd_complement *self, zd_point *point);
 /* Takes these velocities (r,) for u, until they are badly conditioned. */
 void zd_complement_prefer(zd_complement *self, const int *independent);
+/* The largest entry of W^-1 U, in natural units, that u is kept up to; 0: it is not known, or u is no part of v. */
+double zd_complement_steepest(const zd_complement *self);
 /* Chooses u anew where the present choice is badly conditioned at the point, and counts that. */
 int zd_complement_review(zd_complement *self, zd_point *point);
 /* x with C x = rhs */

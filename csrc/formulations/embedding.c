@@ -311,3 +311,9 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
     if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
     return choose_anew(self, point, changed);
 }
+
+double zd_embedding_steepest(const zd_embedding *self)
+{
+    if (!self->chosen) return 0;
+    return !self->mh ? INFINITY : self->embed ? MOST_RESPONSE : WORSE * self->reference;
+}

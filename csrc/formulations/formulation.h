@@ -10,6 +10,13 @@ enum zd_many {
     ZD_MANY_ROWS_WITHOUT_A,     /* where pdot = v */
 };
 
+/* What a state in independent velocities is made of, where that is entries of p and v: behind all of p, or some of it, some of v. */
+typedef struct zd_entries {
+    const int *q;           /* (nv - mh,): entries of p; NULL: all */
+    const int *u;           /* (nv - m,): of v */
+    double steepest;        /* entry of D, in natural units, that they are kept up to, and not chosen anew */
+} zd_entries;
+
 typedef struct zd_formulation {
     zd_card card;
     int drifts_from;        /* ZD_PHI, ZD_C: which of (3), (5) its solutions drift from */
@@ -33,6 +40,10 @@ typedef struct zd_formulation {
     int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
     /* Gives the point the v that follows from its p and the state; NULL where v is part of the state. */
     int (*settle)(void *self, zd_point *point);
+    /* Of such formulations: whether the state can be entries of p and v, as direct functions of the system have it; and whether it is, and which.
+     * NULL together with settle(). */
+    int (*may_have_entries)(const zd_system *system);
+    int (*entries)(const void *self, zd_entries *entries);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
 } zd_formulation;
 

@@ -91,6 +91,31 @@ static int rate(void *memory, zd_point *point, double *ydot)
     return zd_minimal_rate(&self->minimal, point, ydot + embedding->k);      /* (19), (22) */
 }
 
+static int have_same(int count, const int *a, const int *b)
+{
+    int same = 0;
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++) same += a[i] == b[j];
+    return same == count;
+}
+
+/* Those of (19); and of nonholonomic constraints alone, where q is p. */
+static int may_have_entries(const zd_system *system)
+{
+    return zd_minimal_may_have_entries(system) && !(system->provides & ZD_A) && !(system->mh && system->mn);
+}
+
+static int entries(const void *memory, zd_entries *entries)
+{
+    const independent *self = memory;
+    const zd_embedding *embedding = &self->embedding;
+    if (!zd_minimal_entries(&self->minimal, entries)) return 0;
+    const double steepest = zd_embedding_steepest(embedding);
+    entries->q = embedding->index;
+    if (steepest < entries->steepest) entries->steepest = steepest;
+    return embedding->k == embedding->nq || have_same(embedding->k, entries->q, entries->u);
+}
+
 const zd_formulation zd_independent = {
     .card = {
         .name = "independent",
@@ -115,5 +140,7 @@ const zd_formulation zd_independent = {
     .enter = enter,
     .leave = leave,
     .settle = zd_minimal_settle,
+    .may_have_entries = may_have_entries,
+    .entries = entries,
     .rate = rate,
 };

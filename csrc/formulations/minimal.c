@@ -182,3 +182,17 @@ int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot)
     zd_partitioned_pick_speeds(self->many, point->vdot, udot);
     return ZD_DONE;
 }
+
+int zd_minimal_may_have_entries(const zd_system *system)
+{
+    return !(system->provides & ZD_COMPLEMENT) && !zd_rank_is_of_many(system);
+}
+
+int zd_minimal_entries(const void *memory, zd_entries *entries)
+{
+    const zd_minimal *self = memory;
+    const zd_complement *complement = &self->complement;
+    if (self->many || complement->r != self->size) return 0;
+    *entries = (zd_entries){NULL, complement->order + complement->m, zd_complement_steepest(complement)};
+    return entries->steepest > 0;
+}

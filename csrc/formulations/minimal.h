@@ -3,6 +3,7 @@
 #define ZD_MINIMAL_H
 
 #include "complement.h"
+#include "formulation.h"
 #include "partitioned.h"
 
 typedef struct zd_minimal {
@@ -35,5 +36,8 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);
+/* Whether a system's velocities u are entries of v, and, where they have been chosen, which. */
+int zd_minimal_may_have_entries(const zd_system *system);
+int zd_minimal_entries(const void *self, zd_entries *entries);
 
 #endif

@@ -64,5 +64,7 @@ const zd_formulation zd_mixed = {
     .enter = enter,
     .leave = leave,
     .settle = zd_minimal_settle,
+    .may_have_entries = zd_minimal_may_have_entries,
+    .entries = zd_minimal_entries,
     .rate = rate,
 };

@@ -3,7 +3,7 @@
 
 #include "../constraints/limits.h"
 #include "../linalg/small.h"
-#include "motion.h"
+#include "embed.h"
 
 static void stabilize(zd_motion *motion)
 {
@@ -27,9 +27,12 @@ static int accelerate_directly(zd_motion *motion)
         stabilize(motion);
         added = point->rhs;
     }
-    motion->statistics.evaluations++;
-    status = road->order->accelerate(point->system->data, &point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
-                                     motion->balance.input ? &road->power : NULL, road->pivots);
+    if (road->embeds) status = zd_embed_accelerate(motion, added);
+    else {
+        motion->statistics.evaluations++;
+        status = road->order->accelerate(point->system->data, &point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
+                                         motion->balance.input ? &road->power : NULL, road->pivots);
+    }
     if (status) return ZD_CALLBACK;
     point->known |= ZD_ACCELERATED;
     road->smallest = 0;
@@ -54,7 +57,7 @@ int zd_motion_accelerate_anew(zd_motion *motion)
     return ZD_DONE;
 }
 
-static void extra_rates(const zd_motion *motion, double *ydot)
+void zd_motion_extra_rates(const zd_motion *motion, double *ydot)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
@@ -71,7 +74,7 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = motion->formulation->rate(motion->solver, motion->point, ydot);
     if (status) return status;
-    if (motion->corrections_size) extra_rates(motion, ydot);
+    if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = zd_motion_power(motion);
     return ZD_DONE;
 }
@@ -87,7 +90,7 @@ static int direct_rate_of_point(zd_motion *motion, double t, const double *y, do
     if (status) return status;
     ZD_SIZED(zd_copy, nq, point->terms.A ? motion->road.pdot : point->v, ydot);
     ZD_SIZED(zd_copy, nv, point->vdot, ydot + nq);
-    if (motion->corrections_size) extra_rates(motion, ydot);
+    if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = motion->road.power;
     return ZD_DONE;
 }

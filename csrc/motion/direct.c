@@ -12,6 +12,7 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "embed.h"
 #include "pivots.h"
 
 static const double LARGE = 0x1p-3;     /* the first order with such pivots is taken, */
@@ -22,12 +23,13 @@ static const double SHRUNK = 0x1p-4;    /* within a step: what lies between its 
 static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
 static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
 
-const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit)
+const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
-    if (zd_constraints(system) > system->nv) return NULL;
+    if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
     const zd_direct *found = NULL;
     for (int i = 0; i < system->directs; i++) {
         const zd_direct *direct = &system->direct[i];
+        if (!(formulation->settle ? direct->embeddings : direct->orders)) continue;
         if (direct->lanes == 1 && direct->unit <= unit && (!found || direct->unit > found->unit)) found = direct;
     }
     return found;
@@ -36,11 +38,14 @@ const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit)
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 {
     const zd_system *system = &motion->system;
-    const zd_direct *direct = zd_direct_of(system, unit);
+    const zd_direct *direct = zd_direct_of(system, motion->formulation, unit);
     if (!direct) return;
+    const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
     motion->road = (zd_road){
         .direct = direct,
-        .scale = zd_take_doubles(arena, (size_t)(direct->orders * system->nv)),
+        .first = embeds ? direct->embedding : direct->order,
+        .orders = orders,
+        .scale = zd_take_doubles(arena, (size_t)(orders * system->nv)),
         .pivots = zd_take_doubles(arena, (size_t)system->nv),
         .before = zd_take_doubles(arena, (size_t)system->nv),
         .pdot = zd_take_doubles(arena, (size_t)system->nq),
@@ -48,11 +53,12 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
         .dp = zd_take_doubles(arena, (size_t)system->nq),
         .allowed = zd_take_doubles(arena, (size_t)system->mh),
     };
+    if (embeds) zd_embed_take(&motion->road, arena, system);
 }
 
 static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 {
-    return motion->road.scale + (order - motion->road.direct->order) * motion->system.nv;
+    return motion->road.scale + (order - motion->road.first) * motion->system.nv;
 }
 
 /* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. Pivots of D^T M D are shares
@@ -124,7 +130,7 @@ static void remember_pivots(zd_motion *motion)
 {
     zd_road *road = &motion->road;
     const double *scale = scale_of(motion, road->order), factor = 1 / sqrt(SHRUNK);
-    if (road->order != road->direct->order) return;
+    if (road->order != road->first) return;
     for (int k = 0; k < motion->system.nv; k++) road->range[k] = (zd_range){0, 0};
     for (int k = 0; k < count_pivots(motion); k++) {
         const double x = road->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
@@ -142,8 +148,9 @@ static void use(zd_motion *motion, const zd_elimination *order)
     if (order) forget_pivots(motion);
     motion->road.lands = order && order->land && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
-    motion->rate.evaluate = order ? zd_motion_direct_rate : zd_motion_rate;
-    motion->rate.direct = motion->is_stabilized || motion->rate.size > motion->formulation_size ? NULL : order;
+    const int embeds = motion->road.embeds;
+    motion->rate.evaluate = !order ? zd_motion_rate : embeds ? zd_motion_embedded_rate : zd_motion_direct_rate;
+    motion->rate.direct = motion->is_stabilized || embeds || motion->rate.size > motion->formulation_size ? NULL : order;
 }
 
 void zd_direct_leave(zd_motion *motion)
@@ -170,21 +177,33 @@ static void begin(zd_motion *motion)
 {
     ZD_SIZED(zd_copy, count_pivots(motion), motion->road.pivots, motion->road.before);
     zd_direct_remember_energy(motion);
+    if (motion->road.embeds) zd_embed_begin(motion);
+}
+
+/* Whether the pivots of an order are so large at the point. */
+static int takes(zd_motion *motion, const zd_elimination *order, double enough)
+{
+    if (!(*scale_of(motion, order) > 0)) measure(motion, order);
+    use(motion, order);
+    if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) return 0;
+    begin(motion);
+    return 1;
 }
 
 /* The first order whose pivots are so large at the point, if there is one. */
 static int find_order(zd_motion *motion, double enough)
 {
-    zd_road *road = &motion->road;
-    for (int i = 0; i < road->direct->orders; i++) {
-        const zd_elimination *order = road->direct->order + i;
-        if (!(*scale_of(motion, order) > 0)) measure(motion, order);
-        use(motion, order);
-        if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) continue;
-        begin(motion);
-        return 1;
-    }
+    const zd_road *road = &motion->road;
+    for (int i = 0; i < road->orders; i++)
+        if (takes(motion, road->first + i, enough)) return 1;
     return 0;
+}
+
+/* For a state in independent velocities there is one at most. */
+static int find_embedding(zd_motion *motion)
+{
+    const zd_elimination *order = zd_embed_find(motion);
+    return order && takes(motion, order, LARGE_ENOUGH);
 }
 
 void zd_direct_choose(zd_motion *motion)
@@ -192,8 +211,9 @@ void zd_direct_choose(zd_motion *motion)
     const zd_road *road = &motion->road;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
     /* Mostly it is the one of the step before, whose end this is. */
-    if (all_count && road->order == road->direct->order && (motion->point->known & ZD_ACCELERATED) && road->smallest >= LARGE) begin(motion);
-    else if (!all_count || !(find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH))) use(motion, NULL);
+    if (all_count && road->order == road->first && (motion->point->known & ZD_ACCELERATED) && road->smallest >= LARGE) begin(motion);
+    else if (!all_count || !(road->embeds ? find_embedding(motion) : find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH)))
+        use(motion, NULL);
 }
 
 int zd_direct_compare(zd_motion *motion, double moved)
@@ -206,6 +226,7 @@ int zd_direct_compare(zd_motion *motion, double moved)
     const int count = count_pivots(motion);
     for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
         if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
+    if (road->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
     road->smallest = smallest;
     road->was_taken = 1;
     remember_pivots(motion);

@@ -85,6 +85,13 @@ typedef struct zd_road {
     double energy_corrected;
     int skipped_since_row;
     double power;           /* W: at the point, of a system with energy input */
+    const zd_elimination *first;    /* of the orders that serve the formulation, and how many there are */
+    int orders;
+    int embeds;             /* whether the state is in independent velocities; all that follows is for that: embed.c */
+    zd_entries state;       /* what it has of p and v */
+    double *p, *v, *vdot, *Phi;     /* (nq,), (nv,), (nv,), (mh,): of the state that is looked at; the point may be another */
+    double *unbounded;      /* (mh,): what is allowed of Phi where p is what it is */
+    double *D;              /* (m, nv - m): at the point, of the velocities that are solved for */
 } zd_road;
 
 struct zd_motion {
@@ -145,11 +152,12 @@ static inline int zd_motion_accelerate(zd_motion *motion)
 }
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
+void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* of what corrections integrate along */
 
 /* direct.c */
-/* Those for one trajectory, and not several at once, of the last unit up to this one; NULL: the system brings none. */
-const zd_direct *zd_direct_of(const zd_system *system, enum zd_unit unit);
-/* Lays out the direct road, where the system brings one for this vector unit or one before it; the formulation's state has to be (p, v). */
+/* Those for one trajectory, and not several at once, of the last unit up to this one; NULL: the system brings none for such formulations. */
+const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
+/* Lays out the direct road, where the system brings one for the formulation and this vector unit or one before it. */
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Which road a step takes that begins at the point. */
 void zd_direct_choose(zd_motion *motion);
@@ -171,6 +179,13 @@ static inline int zd_direct_continues(zd_motion *motion)
     if (continues && motion->corrections > 1) zd_direct_remember_energy(motion);
     return continues;
 }
+
+static inline int zd_is_embedded(const zd_motion *motion) { return motion->road.order && motion->road.embeds; }
+/* embed.c: as a formulation's enter(), leave() and settle() are on the general road, from and to the state of a step that begins or ends at
+ * the point. */
+int zd_embed_enter(zd_motion *motion, double t, const double *y);
+int zd_embed_leave(zd_motion *motion, double *y);
+int zd_embed_settle(zd_motion *motion);
 
 /* land.c: the projection of p and v at the end t of a step on the direct road, and the point's acceleration there, by one function, where
  * road.lands says so. Both are the point's own, or have to be copied there. */

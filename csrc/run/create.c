@@ -20,18 +20,28 @@ static const void *complete(zd_given *given, const zd_card *card)
     return given->value;
 }
 
-/* Methods that are stable at any step are implicit, and keep from step to step what they solve with: it would come from the other road.
- * Formulations that settle which variables are independent do so on the general road. */
+/* Methods that are stable at any step are implicit, and keep from step to step what they solve with: it would come from the other road. */
 int zd_takes_direct(const zd_settings *settings)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    return settings->direct && !integrator->step_of_motion && integrator->card.stability > 0 &&
-           !zd_formulation_of(settings->formulation)->settle;
+    return settings->direct && !integrator->step_of_motion && integrator->card.stability > 0;
+}
+
+int zd_takes_embeddings(const zd_settings *settings)
+{
+    return zd_formulation_of(settings->formulation)->settle != NULL;
+}
+
+int zd_may_have_direct(const zd_system *system, const zd_settings *settings)
+{
+    const zd_formulation *formulation = zd_formulation_of(settings->formulation);
+    return !formulation->settle || formulation->may_have_entries(system);
 }
 
 int zd_direct_unit(const zd_system *system, const zd_settings *settings)
 {
-    const zd_direct *direct = zd_takes_direct(settings) ? zd_direct_of(system, settings->vector) : NULL;
+    const zd_formulation *formulation = zd_formulation_of(settings->formulation);
+    const zd_direct *direct = zd_takes_direct(settings) ? zd_direct_of(system, formulation, settings->vector) : NULL;
     return direct ? (int)direct->unit : -1;
 }
 

@@ -120,10 +120,10 @@ static int check_operations(const zd_system *system, text message)
 }
 
 /* Rows are eliminated once each, for as many different velocities, in solves that are counted up. */
-static int is_an_elimination(const zd_system *system, const zd_elimination *order)
+static int is_an_elimination(const zd_system *system, const zd_elimination *order, int embeds)
 {
     int m = system->mh + system->mn, last = -1;
-    if (!order->accelerate || order->solves < 0 || order->solves > m || (order->solves == 0) != (m == 0)) return 0;
+    if (!(embeds ? order->embed != NULL : order->accelerate != NULL) || order->solves < 0 || order->solves > m || (order->solves == 0) != (m == 0)) return 0;
     if (m && !(order->correct && order->solve && order->row && order->column)) return 0;
     for (int k = 0; k < m; k++) {
         int row = order->row[k], column = order->column[k];
@@ -137,11 +137,20 @@ static int is_an_elimination(const zd_system *system, const zd_elimination *orde
 
 static int check_orders(const zd_system *system, int set, text message)
 {
-    for (int i = 0; i < system->direct[set].orders; i++)
-        if (!is_an_elimination(system, &system->direct[set].order[i]))
+    const zd_direct *direct = &system->direct[set];
+    for (int i = 0; i < direct->orders + direct->embeddings; i++) {
+        const int embeds = i >= direct->orders;
+        const zd_elimination *order = embeds ? direct->embedding + (i - direct->orders) : direct->order + i;
+        if (!is_an_elimination(system, order, embeds))
             return refuse(message, "direct: order %d of set %d is no elimination of %d rows, each once, for as many of %d velocities", i, set,
                           system->mh + system->mn, system->nv);
+    }
     return ZD_DONE;
+}
+
+static int is_no_number_of_orders(int count, const zd_elimination *order)
+{
+    return count < 0 || count > 4 || (count > 0 && !order);
 }
 
 static int check_direct(const zd_system *system, text message)
@@ -151,8 +160,10 @@ static int check_direct(const zd_system *system, text message)
         return refuse(message, "direct: there are %d sets of direct functions, and may be one for each vector unit and number of lanes", system->directs);
     for (int i = 0; i < system->directs; i++) {
         const zd_direct *direct = &system->direct[i];
-        if (direct->orders < 1 || direct->orders > 4)
-            return refuse(message, "direct: set %d has %d orders of elimination, and has 1 to 4", i, direct->orders);
+        if (is_no_number_of_orders(direct->orders, direct->order) || is_no_number_of_orders(direct->embeddings, direct->embedding))
+            return refuse(message, "direct: set %d has %d orders of elimination and %d for independent velocities, of each up to 4, and an array "
+                          "of them", i, direct->orders, direct->embeddings);
+        if (!(direct->orders + direct->embeddings)) return refuse(message, "direct: set %d has no orders of elimination", i);
         if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
             return refuse(message, "direct: set %d has %d lanes, and has 1, 2, 4 or 8", i, direct->lanes);
         if ((unsigned)direct->unit > ZD_AVX512)
@@ -160,7 +171,7 @@ static int check_direct(const zd_system *system, text message)
         if (known[direct->unit] & direct->lanes)
             return refuse(message, "direct: set %d is the second of %d lanes for its vector unit", i, direct->lanes);
         known[direct->unit] |= direct->lanes;
-        int status = direct->order ? check_orders(system, i, message) : refuse(message, "direct: set %d has no orders of elimination", i);
+        int status = check_orders(system, i, message);
         if (status) return status;
     }
     return ZD_DONE;

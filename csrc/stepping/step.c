@@ -62,6 +62,16 @@ int zd_stepper_integrate(zd_stepper *self, double h)
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
+/* What of the state follows from the rest comes from the system's direct functions. */
+static int land_embedded(zd_stepper *self, double t1, int64_t step, int forced)
+{
+    zd_motion *motion = self->motion;
+    int status = zd_embed_enter(motion, t1, self->y);
+    if (!status) status = zd_motion_correct(motion, step, forced);
+    if (!status) status = zd_embed_leave(motion, self->y);
+    return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
+}
+
 int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_motion *motion = self->motion;
@@ -69,6 +79,7 @@ int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
     self->t = t1;
     motion->state = self->y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
+    if (zd_is_embedded(motion)) return land_embedded(self, t1, step, forced);
     /* Where Phi drifts, the state begins with p; where it does not, p was put right when it was found. */
     if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
@@ -86,7 +97,8 @@ int zd_stepper_return(zd_stepper *self)
     motion->state = self->y;
     zd_copy(motion->rate.size, self->last.y, self->y);
     zd_point_move(motion->point, self->last.t, self->last.p, self->last.v);
-    /* The variables that the state has may be chosen anew. */
+    /* The variables that the state has may be chosen anew; on the direct road they stay. */
+    if (zd_is_embedded(motion)) return ZD_DONE;
     return motion->formulation->settle ? motion->formulation->leave(motion->solver, motion->point, self->y) : ZD_DONE;
 }
 
@@ -100,7 +112,9 @@ int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *
     zd_point_move(motion->point, t, p, v);
     zd_point_normalise(motion->point);
     int status = zd_point_measure(motion->point);
-    return status ? status : motion->formulation->leave(motion->solver, motion->point, self->y);
+    if (status) return status;
+    if (zd_is_embedded(motion)) return zd_embed_leave(motion, self->y);
+    return motion->formulation->leave(motion->solver, motion->point, self->y);
 }
 
 static size_t extras(const zd_motion *motion)

@@ -10,6 +10,7 @@ import symbolic_counterparts
 import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
+from random_symbolic import random_system
 from support import assert_close
 from zerodrift import _gateway
 from zerodrift.runs.settings import VECTOR_UNITS
@@ -78,16 +79,17 @@ def test_steps_that_are_chosen_take_it():
     assert direct.stats["factorizations"] < 5
 
 
-@pytest.mark.parametrize("options", [
-    {"formulation": "mixed"}, {"formulation": "independent"}, {"integrator": "rattle"}, {"integrator": "trapezoidal"},
-    {"direct": False},
+@pytest.mark.parametrize(("name", "options"), [
+    ("rolling_disc", {"formulation": "independent"}), ("sleigh", {"formulation": "mixed"}),
+    ("four_bar", {"integrator": "rattle"}), ("four_bar", {"integrator": "trapezoidal"}), ("four_bar", {"direct": False}),
 ], ids=str)
-def test_what_it_does_not_serve_takes_the_general_road(options, tmp_path):
-    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, **options)
+def test_what_it_does_not_serve_takes_the_general_road(name, options, tmp_path):
+    """Such as systems with a kinematic matrix, or with a complement of their own."""
+    sol = zd.simulate(zd.systems.chaplygin_sleigh() if name == "sleigh" else system(name), 0.1, step=0.01, **options)
     assert sol.stats["direct_steps"] == 0
     assert sol.settings["vector"] is None
     (name, value), = options.items()
-    why = f"{name} {value!r} takes none" if value else "direct=False"
+    why = f"{name} {value!r} takes none{' of such a system' * (name == 'formulation')}" if value else "direct=False"
     assert f"\n  road       no direct functions: {why}\n" in repr(sol)
     assert repr(zd.load(sol.save(tmp_path / "motion"))) == repr(sol)
 
@@ -125,6 +127,76 @@ def test_only_none_and_false_are_known(value):
         zd.simulate(system("four_bar"), 0.1, step=0.01, direct=value)
 
 
+# ---- formulations in independent velocities ----
+
+INDEPENDENT = ["mixed", "independent"]
+MOVING = {"four_bar": 1.0, "driven_four_bar": 1.0, "chaplygin_sleigh": 1.0, "rolling_disc": 1.0, 2: 0.5, 4: 0.5}      # s
+
+
+@functools.cache
+def moving(name):
+    return system(name) if isinstance(name, str) else random_system(name)
+
+
+@pytest.mark.parametrize("stabilization", ["none", "projection", "seldom", "identity", "baumgarte", "integral"])
+@pytest.mark.parametrize("equations", INDEPENDENT)
+@pytest.mark.parametrize("name", MOVING)
+def test_both_roads_integrate_the_same_independent_velocities(name, equations, stabilization):
+    """And choose others at the same steps, each of which the general road makes."""
+    options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization], "formulation": equations}
+    if stabilization == "projection" and name not in ("driven_four_bar", 4):     # where all motion is enforced, or nearly
+        options["energy"] = True
+    of = moving(name)
+    general, direct = both(of, MOVING[name], **options)
+    if equations == "independent" and (of.mh * of.mn or of.evaluate().A is not None):
+        assert direct.stats["direct_steps"] == 0
+    else:
+        assert_same_motion_but_where_it_is_left(general, direct)
+
+
+def assert_same_motion_but_where_it_is_left(general, direct):
+    assert direct.status == general.status
+    assert direct.stats["repartitions"] == general.stats["repartitions"]
+    left = direct.stats["steps"] - direct.stats["direct_steps"]
+    assert 0 <= left <= max(direct.stats["repartitions"], 0.1 * direct.stats["steps"])
+    direct.stats["direct_steps"] += left
+    assert_same_motion(general, direct, 10 * tol.STEPPED)
+
+
+def test_where_neither_order_nor_choice_lasts_the_general_road_does():
+    """A chain of seven links between two points has fifteen choices, and orders for four."""
+    chain = zd.models.symbolic.closed_pendulum(6)
+    for equations in INDEPENDENT:
+        general, direct = both(chain, 1.0, step=0.005, formulation=equations)
+        assert 0 < direct.stats["direct_steps"] < direct.stats["steps"]
+        assert direct.stats["repartitions"] == general.stats["repartitions"] > 2
+        assert_close(direct.p, general.p, 1e-10)
+
+
+@pytest.mark.parametrize("equations", INDEPENDENT)
+def test_independent_velocities_between_steps_and_again(equations):
+    options = {"formulation": equations, "step": 0.01}
+    sol = zd.simulate(system("four_bar"), SHORT, **options)
+    again = zd.simulate(system("four_bar"), SHORT, t_eval=[0.123, 0.3], **options)
+    assert again.stats["direct_steps"] == again.stats["steps"]
+    assert (again.p[1] == sol.p[30]).all()
+    p, v = sol(0.123)       # by a shorter step in velocities that are chosen there
+    assert_close(p, again.p[0], 1e-7)
+    assert_close(v, again.v[0], 1e-7)
+    repeated = zd.simulate(sol.system, sol.t_span, **sol.settings)
+    assert (repeated.p == sol.p).all()
+
+
+@pytest.mark.parametrize("equations", INDEPENDENT)
+def test_steps_that_are_chosen_take_independent_velocities(equations):
+    """Rejected ones, too: these go back to where they began, in the same velocities."""
+    options = {"rtol": 1e-9, "atol": 1e-9, "integrator": "dop853", "first_step": 0.3, "formulation": equations}
+    general, direct = both(system("four_bar"), 4.0, **options)
+    assert direct.stats["rejected"]
+    assert direct.stats["direct_steps"] > 0.9 * direct.stats["steps"]
+    assert_close(direct.p[-1], general.p[-1], 1e-6)
+
+
 # ---- where it is left ----
 
 
@@ -159,6 +231,18 @@ def test_bifurcations_are_judged_alike(name, on_singular, options):
         assert_close(direct.p, general.p, 1e-7)     # next to a branch, rounding is multiplied by what is left of a row
 
 
+@pytest.mark.parametrize("equations", INDEPENDENT)
+@pytest.mark.parametrize("name", ["parallelogram", "nearly", "near"])
+def test_bifurcations_are_judged_alike_in_independent_velocities(name, equations):
+    """The next to one is too hard for such steps in these: on both roads, the energy is off by a fifth of the kinetic energy."""
+    general, direct = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, step=1 / 137, on_singular="continue", formulation=equations)
+    assert direct.success == general.success == (name != "nearly")
+    assert direct.stats["repartitions"] == general.stats["repartitions"]
+    assert direct.stats["direct_steps"] < direct.stats["steps"]
+    assert abs(direct.t[-1] - general.t[-1]) < 0.02
+    assert_close(direct.p, general.p[:len(direct.p)], 1e-6)
+
+
 def test_a_step_too_long_to_be_known_from_its_ends_leaves_it():
     general, direct = both(bar(rate=30.0), 1.0, step=0.05)      # more than a radian in each
     assert direct.status == general.status
@@ -178,8 +262,11 @@ class Failing:
     """The four-bar, one of whose direct functions does not know from a time on; or only then."""
 
     def __init__(self, member, fails):
-        self.core = system("four_bar")._direct_core()
-        order = self.core.c.direct[0].order[0]
+        embeds, functions = member == "embed", system("four_bar")._direct
+        functions = functions.embedding if embeds else functions
+        self.core = system("four_bar")._direct_core(embeds=embeds)
+        direct = self.core.c.direct[0]
+        order = (direct.embedding if embeds else direct.order)[0]
         self.order = ffi.new("zd_elimination[1]", [order])
         inner = getattr(order, member)
 
@@ -190,11 +277,12 @@ class Failing:
         if member == "correct":     # which is called where nothing lands
             self.order[0].land = ffi.NULL
         setattr(self.order[0], member, self.function)
-        self.direct = ffi.new("zd_direct[1]", [{"lanes": 1, "orders": 1, "order": self.order}])
+        orders = {"embeddings": 1, "embedding": self.order} if embeds else {"orders": 1, "order": self.order}
+        self.direct = ffi.new("zd_direct[1]", [{"lanes": 1} | orders])
         self.system = system("four_bar").starting()
-        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data(self.system._direct.library())
+        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data(functions.library(), functions)
         made = self.core.with_direct(address, data, self)
-        self.system._with_direct = dict.fromkeys(VECTOR_UNITS, made)
+        self.system._with_direct = dict.fromkeys([(vector, embeds) for vector in VECTOR_UNITS], made)
 
 
 @pytest.mark.parametrize("options", [
@@ -208,6 +296,18 @@ def test_functions_that_do_not_know_are_done_without(member, options):
     assert sol.stats["steps"] == general.stats["steps"]
     assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)     # rounding may choose other steps
     assert_close(sol.multipliers[-1], general.multipliers[-1], 1e-6)
+
+
+@pytest.mark.parametrize("options", [
+    {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
+@pytest.mark.parametrize("equations", INDEPENDENT)
+def test_embeddings_that_do_not_know_are_done_without(equations, options):
+    options = options | {"formulation": equations}
+    sol = zd.simulate(Failing("embed", lambda t: 0.1 < t < 0.2).system, 0.4, **options)
+    assert 0 < sol.stats["direct_steps"] < sol.stats["steps"]
+    general = zd.simulate(system("four_bar"), 0.4, direct=False, **options)
+    assert sol.stats["steps"] == general.stats["steps"]
+    assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)
 
 
 @pytest.mark.parametrize("member", ["correct", "land"])

@@ -60,16 +60,28 @@ def listed(member, *content):
     return lambda made: made.array(member, list(content))
 
 
+ELIMINATION = {"solve": [0, 1, 1, 1], "row": [3, 0, 1, 2], "column": [5, 0, 1, 2]}
+
+
 def direct(*sets, **changed):
     """Each with four orders, which eliminate one row and then three for four of six velocities."""
     def make(made):
-        tables = {"solve": [0, 1, 1, 1], "row": [3, 0, 1, 2], "column": [5, 0, 1, 2]} | changed
+        tables = ELIMINATION | changed
         order = {name: ffi.NULL if values is None else made.array("int", values) for name, values in tables.items()
                  if name in ("solve", "row", "column")}
         functions = {name: made.function("zd_elimination", name) for name in ("accelerate", "correct") if name not in changed}
         order |= {"solves": changed.get("solves", 2)} | functions
         orders = made.array("zd_elimination", [order] * 4)
         return made.array("zd_direct", [{"orders": 1, "lanes": 1, "order": orders} | each for each in sets])
+    return make
+
+
+def embedding(function):
+    """A set of one order, for formulations in independent velocities, that brings this function besides its correction."""
+    def make(made):
+        order = {"solves": 2} | {name: made.array("int", values) for name, values in ELIMINATION.items()}
+        order |= {name: made.function("zd_elimination", name) for name in ("correct", function)}
+        return made.array("zd_direct", [{"lanes": 1, "embeddings": 1, "embedding": made.array("zd_elimination", [order])}])
     return make
 
 
@@ -107,6 +119,7 @@ FITTING = {
     "no constraints": {"mh": 0, "mn": 0, "structure": {"groups": 0}},
     "operations": {"operations": lambda made: made.of("zd_operations", {})},
     "direct": {"directs": 3, "direct": direct({"lanes": 4}, {"orders": 4}, {"unit": 2})},
+    "direct, embedding": {"directs": 1, "direct": embedding("embed")},
     "series": {"series": brought("zd_series", "evaluate")},
     "measures": {"measures": measures({}, {"size": 3, "depends": 2})},
     "residuals": {"residuals": brought("zd_residuals", "derivative", scratch=5)},
@@ -153,12 +166,15 @@ def in_structure(**changed):
     ({"directs": 1}, "direct: there are 1 sets"),
     ({"direct": direct({})}, "direct: there are 0 sets"),
     ({"directs": 13, "direct": direct(*[{}] * 13)}, "direct: there are 13 sets"),
-    ({"directs": 1, "direct": direct({"orders": 5})}, "set 0 has 5 orders of elimination, and has 1 to 4"),
-    ({"directs": 1, "direct": direct({"orders": 0})}, "set 0 has 0 orders"),
+    ({"directs": 1, "direct": direct({"orders": 5})}, "set 0 has 5 orders of elimination and 0 for independent velocities, "),
+    ({"directs": 1, "direct": direct({"orders": 0})}, "set 0 has no orders of elimination"),
     ({"directs": 2, "direct": direct({}, {"lanes": 3})}, "set 1 has 3 lanes, and has 1, 2, 4 or 8"),
     ({"directs": 2, "direct": direct({}, {})}, "set 1 is the second of 1 lanes"),
     ({"directs": 2, "direct": direct({}, {"unit": 3})}, "set 1 is for vector unit 3, and there are 0 to 2"),
-    ({"directs": 1, "direct": direct({"order": ffi.NULL})}, "set 0 has no orders of elimination"),
+    ({"directs": 1, "direct": direct({"order": ffi.NULL})}, "set 0 has 1 orders of elimination and 0 .* and an array of them$"),
+    ({"directs": 1, "direct": direct({"embeddings": 1})}, "set 0 has 1 orders of elimination and 1 .* and an array of them$"),
+    ({"directs": 1, "direct": direct({"embeddings": 5})}, "set 0 has 1 orders of elimination and 5 "),
+    ({"directs": 1, "direct": embedding("accelerate")}, "order 0 of set 0 is no elimination of 4 rows"),
     *[({"directs": 1, "direct": direct({}, **changed)}, "order 0 of set 0 is no elimination of 4 rows") for changed in (
         {"accelerate": None}, {"correct": None}, {"row": None}, {"solves": 0}, {"solves": 5}, {"solves": 1},
         {"row": [3, 0, 1, 4]}, {"row": [3, 0, 1, 1]}, {"column": [5, 0, 1, 6]}, {"column": [5, 0, 0, 1]},

@@ -32,8 +32,9 @@ def of(array):
 class Direct:
     """The direct functions of a system, called one by one."""
 
-    def __init__(self, system):
-        self.core = system._direct_core()
+    def __init__(self, system, core=None):
+        self.system = system
+        self.core = core or system._direct_core()
         self.direct = self.core.c.direct[0]
         self.orders = range(self.direct.orders)
 
@@ -61,9 +62,19 @@ class Direct:
                             of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
         return status, landed, {name: array for name, (array, _) in found.items()}
 
-    def smallest(self, i, pivots, C):
+    def embed(self, i, t, p, v, added, allowed):
+        core = self.core
+        order, embedded = self.direct.embedding[i], np.array(v)
+        r = core.nv - core.m
+        found = {"Phi": doubles(core.mh), "dp": doubles(core.nq), "D": doubles(core.m, r), "pdot": doubles(core.nq),
+                 "vdot": doubles(core.nv), "lambda": doubles(core.m), "power": doubles(1), "pivots": doubles(order.solves + r)}
+        status = order.embed(core.c.data, ffi.new("double *", t), of(p), ffi.from_buffer("double[]", embedded), of(added),
+                             of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
+        return status, embedded, {name: array for name, (array, _) in found.items()}
+
+    def smallest(self, order, pivots, C):
         """The smallest pivot of the rows, in parts of the largest entries of these."""
-        order, relative = self.direct.order[i], np.abs(pivots[: self.direct.order[i].solves])
+        relative = np.abs(pivots[: order.solves])
         for k in range(self.core.m):
             relative[order.solve[k]] /= np.abs(C[order.row[k]]).max()
         return relative.min(initial=1.0)
@@ -118,7 +129,7 @@ def test_direct_functions_solve_the_equations(seed):
         vdot, multipliers, condition = solved(e, e.force, e.xi + added)
         for i in direct.orders:
             a = direct.accelerate(i, t, p, v, added)
-            smallest = direct.smallest(i, a["pivots"], e.C)
+            smallest = direct.smallest(direct.direct.order[i], a["pivots"], e.C)
             if smallest < ALWAYS_SOUND:
                 continue
             compared += 1
@@ -139,6 +150,55 @@ def test_direct_functions_solve_the_equations(seed):
             assert_near(c["dp"], e.A @ solved(e, zero, np.concatenate([e.Phi, np.zeros(system.mn)]))[0], error)
             assert_lands(direct, i, t, p, v, c)
     assert compared >= 3
+
+
+@pytest.mark.parametrize("seed", SEEDS[:5])
+def test_functions_for_independent_velocities_solve_the_equations(seed):
+    """Each order for other velocities: these stay, and all else follows from them."""
+    system = random_system(seed)
+    if not system._direct.embedding.source:
+        assert not system._direct.source
+        return
+    core = system._direct_core(embeds=True)
+    direct, rng, compared, sets = Direct(system, core), np.random.default_rng(seed), 0, set()
+    for i in range(direct.direct.embeddings):
+        order = direct.direct.embedding[i]
+        solved_for = [order.column[k] for k in range(system.m)]
+        free = [j for j in range(system.nv) if j not in solved_for]
+        sets.add(tuple(free))
+        for t, p, v in states(system, seed):
+            compared += assert_embeds(direct, i, (t, p, v), free, solved_for, rng.normal(size=system.m))
+    assert compared >= 3
+    assert len(sets) == direct.direct.embeddings
+
+
+def assert_embeds(direct, i, state, free, solved_for, added):
+    """What an embedding leaves; whether it is sound there, and so was compared."""
+    t, p, v = state
+    system, (status, embedded, found) = direct.system, direct.embed(i, t, p, v, added, np.inf)
+    assert status == 0
+    e = numbers(system, t, p, embedded)
+    W, U = e.C[:, solved_for], e.C[:, free]
+    smallest = direct.smallest(direct.direct.embedding[i], found["pivots"], e.C)
+    assert (embedded[free] == v[free]).all()
+    if smallest < ALWAYS_SOUND:
+        return False
+    vdot, multipliers, condition = solved(e, e.force, e.xi + added)
+    error = tol.SOLVED * condition / smallest**2
+    assert_near(e.C @ embedded, -e.Phi_t, error)
+    assert_near(found["D"], -np.linalg.solve(W, U), error)
+    assert_near(found["vdot"], vdot, error)
+    assert_near(found["lambda"], multipliers, error)
+    assert_near(found["power"], e.power + multipliers @ e.Phi_t, 10 * error)
+    assert_near(found["Phi"], e.Phi, tol.SAME)
+    w = np.zeros(system.nv)
+    w[solved_for] = np.linalg.solve(W, np.concatenate([e.Phi, np.zeros(system.mn)]))
+    if system.mh:
+        status, embedded, found = direct.embed(i, t, p, v, added, -1.0)
+        assert status == lib.ZD_NO_CONVERGENCE
+        assert (embedded == v).all()
+        assert_near(found["dp"], e.A @ w, error)
+    return True
 
 
 def test_orders_are_for_different_places():
@@ -256,10 +316,15 @@ def test_they_are_made_for_runs_that_take_them_and_for_no_others(formulation, in
                          p0=pendulum.p0)
     options = {"step": 0.001, "formulation": formulation, "integrator": integrator}
     zd.simulate(system, 0.01, direct=False, **options)
-    assert not system._direct._libraries
+    embeds = formulation in ("mixed", "independent")
+    functions, others = system._direct, system._direct.embedding
+    if embeds:
+        functions, others = others, functions
+    assert not functions._libraries
     sol = zd.simulate(system, 0.01, **options)
-    made = bool(system._direct._libraries)
+    made = bool(functions._libraries)
     sol(0.0055)
-    assert bool(system._direct._libraries) == made      # values between rows are made as the run was
-    system._direct_core()
+    assert bool(functions._libraries) == made      # values between rows are made as the run was
+    assert not others._libraries
+    system._direct_core(embeds=embeds)
     assert (zd.simulate(system, 0.01, **options).stats["direct_steps"] > 0) == made

@@ -178,6 +178,11 @@ typedef struct zd_elimination {
      * there with nothing added. Else only dp, v stays, and it returns ZD_NO_CONVERGENCE. NULL: the core calls both of the others. */
     int (*land)(const void *data, const double *t, const double *p, double *v, const double *allowed, double *Phi, double *dp, double *pdot,
                 double *vdot, double *lambda, double *power, double *pivots);
+    /* The same for a state in the velocities that are not solved for, and where dp is wanted in as many coordinates: with `added` as above, and
+     * with steps that keep these instead of Newton's shortest, so that the v left is all that follows from them. D (m, nv - m), which goes with
+     * the pivots and may be NULL without them: dv of the velocities solved for to dv of each of the others, in their order. */
+    int (*embed)(const void *data, const double *t, const double *p, double *v, const double *added, const double *allowed, double *Phi,
+                 double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
 } zd_elimination;
 
 /* The processors' vector units: a processor that has one has those before it. */
@@ -194,6 +199,8 @@ typedef struct zd_direct {
                              * too; and what the functions return has a bit for each trajectory that they do not know */
     int orders;             /* at most 4: the first whose pivots are large enough is taken, which depends on the state alone */
     const zd_elimination *order;    /* (orders,) */
+    int embeddings;         /* at most 4, for formulations in independent velocities: the one is taken that solves for all but these */
+    const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); of one lane alone */
 } zd_direct;
 
 /* Taylor coefficients of the motion from (t, p, v) on: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being p and v. */

@@ -53,22 +53,22 @@ static const int column_1[] = {0};
 
 const zd_direct zd_chaplygin_sleigh_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
-    {0, 1, 2, orders_0_1},
+    {0, 1, 2, orders_0_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_BASELINE_2
-    {0, 2, 2, orders_0_2},
+    {0, 2, 2, orders_0_2, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_1
-    {1, 1, 2, orders_1_1},
+    {1, 1, 2, orders_1_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_4
-    {1, 4, 2, orders_1_4},
+    {1, 4, 2, orders_1_4, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_1
-    {2, 1, 2, orders_2_1},
+    {2, 1, 2, orders_2_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_8
-    {2, 8, 2, orders_2_8},
+    {2, 8, 2, orders_2_8, 0, NULL},
 #endif
 };
 
@@ -423,8 +423,8 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
 #define ZD_LANDING(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0)},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1)},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1), NULL},
 };
 #undef ZD_LANDING
 

@@ -27,6 +27,9 @@ void zd_driven_four_bar_direct_constants(double *k)
 static const int solve_0[] = {0, 1, 1};
 static const int row_0[] = {2, 0, 1};
 static const int column_0[] = {0, 1, 2};
+static const int solve_1[] = {0, 1, 2};
+static const int row_1[] = {2, 1, 0};
+static const int column_1[] = {0, 1, 2};
 
 /* The functions below, for each vector unit. */
 #if (ZD_SETS) & ZD_SET_BASELINE_1
@@ -62,22 +65,22 @@ static const int column_0[] = {0, 1, 2};
 
 const zd_direct zd_driven_four_bar_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
-    {0, 1, 1, orders_0_1},
+    {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif
 #if (ZD_SETS) & ZD_SET_BASELINE_2
-    {0, 2, 1, orders_0_2},
+    {0, 2, 1, orders_0_2, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_1
-    {1, 1, 1, orders_1_1},
+    {1, 1, 1, orders_1_1, 1, embeddings_1_1},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_4
-    {1, 4, 1, orders_1_4},
+    {1, 4, 1, orders_1_4, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_1
-    {2, 1, 1, orders_2_1},
+    {2, 1, 1, orders_2_1, 1, embeddings_2_1},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_8
-    {2, 8, 1, orders_2_8},
+    {2, 8, 1, orders_2_8, 0, NULL},
 #endif
 };
 
@@ -315,14 +318,176 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
 #endif
 
 #if ZD_LANES == 1
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_time, const double *at_p,
+    const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
+{
+    const zd_stored *restrict const k = (const zd_stored *)((const double *)data + 18 * ZD_LANES);
+    const zd_stored *restrict const time = (const zd_stored *)at_time;
+    const zd_stored *restrict const p = (const zd_stored *)at_p;
+    const zd_stored *restrict const v = (const zd_stored *)at_v;
+    zd_stored *restrict const Phi = (zd_stored *)to_Phi;
+    zd_stored *restrict const dp = (zd_stored *)to_dp;
+    zd_stored *restrict const dv = (zd_stored *)to_dv;
+    const zd_real t = *time;
+    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
+    const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
+    const zd_real x132 = t * k[14];
+    const zd_real angle16[ZD_PADDED(4)] = {p1, p0, p2, x132};
+    zd_real sine16[ZD_PADDED(4)], cosine16[ZD_PADDED(4)];
+    ZD_SINES(4, angle16, sine16, cosine16);
+    const zd_real x116 = cosine16[2] * k[3];
+    const zd_real x117 = cosine16[0] * k[2];
+    const zd_real x118 = k[1] * cosine16[1];
+    const zd_real x122 = x116 + (x117 + (x118 - k[0]));
+    const zd_real x123 = sine16[2] * k[3];
+    const zd_real x124 = k[1] * sine16[1];
+    const zd_real x125 = sine16[0] * k[2];
+    const zd_real x127 = x123 + (x124 + x125);
+    const zd_real x139 = ZD_FNMA(t, k[12], ZD_FNMA(sine16[3], k[13], p0 - k[11]));
+    const zd_real x259 = v0 - ZD_FMA(cosine16[3], k[26], k[12]);
+    const zd_real x264 = ZD_FNMA(x118, x139, x127);
+    const zd_real x278 = ZD_FNMA(x118, x259, ZD_FMA(v2, x116, ZD_FMA(v1, x117, v0 * x118)));
+    const zd_real x383 = 1.0 / x117;
+    const zd_real x384 = x125 * x383;
+    const zd_real x391 = 1.0 / ZD_FMS(x116, x384, x123);
+    const zd_real x395 = x391 * ZD_FMA(x264, x384, ZD_FMA(x124, x139, x122));
+    const zd_real x402 = x391 * ZD_FMA(x278, x384, ZD_FMS(x124, x259, ZD_FMA(v2, x123, ZD_FMA(v1, x125, v0 * x124))));
+    Phi[0] = x122;
+    Phi[1] = x127;
+    Phi[2] = x139;
+    dp[0] = x139;
+    dp[1] = x383 * ZD_FNMA(x116, x395, x264);
+    dp[2] = x395;
+    dv[0] = x259;
+    dv[1] = x383 * ZD_FNMA(x116, x402, x278);
+    dv[2] = x402;
+    return ZD_DONE;
+}
+#endif
+
+#if ZD_LANES == 1
+ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time, const double *at_p,
+    double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
+    double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
+{
+    const zd_stored *restrict const k = (const zd_stored *)((const double *)data + 18 * ZD_LANES);
+    const zd_stored *restrict const time = (const zd_stored *)at_time;
+    const zd_stored *restrict const p = (const zd_stored *)at_p;
+    const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
+    const zd_stored *restrict const added = (const zd_stored *)with_added;
+    zd_stored *restrict const v = (zd_stored *)to_v;
+    zd_stored *restrict const Phi = (zd_stored *)to_Phi;
+    zd_stored *restrict const dp = (zd_stored *)to_dp;
+    zd_stored *restrict const D = (zd_stored *)to_D;
+    zd_stored *restrict const pdot = (zd_stored *)to_pdot;
+    zd_stored *restrict const vdot = (zd_stored *)to_vdot;
+    zd_stored *restrict const lambda = (zd_stored *)to_lambda;
+    zd_stored *restrict const power = (zd_stored *)to_power;
+    zd_stored *restrict const pivots = (zd_stored *)to_pivots;
+    const zd_real t = *time;
+    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
+    const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
+    const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0), added2 = added ? (zd_real)added[2] : ZD_SPLAT(0.0);
+    const zd_real x132 = t * k[14];
+    const zd_real angle16[ZD_PADDED(4)] = {p1, p0, p2, x132};
+    zd_real sine16[ZD_PADDED(4)], cosine16[ZD_PADDED(4)];
+    ZD_SINES(4, angle16, sine16, cosine16);
+    const zd_real x116 = cosine16[2] * k[3];
+    const zd_real x117 = cosine16[0] * k[2];
+    const zd_real x118 = k[1] * cosine16[1];
+    const zd_real x122 = x116 + (x117 + (x118 - k[0]));
+    const zd_real x123 = sine16[2] * k[3];
+    const zd_real x124 = k[1] * sine16[1];
+    const zd_real x125 = sine16[0] * k[2];
+    const zd_real x127 = x123 + (x124 + x125);
+    const zd_real x139 = ZD_FNMA(t, k[12], ZD_FNMA(sine16[3], k[13], p0 - k[11]));
+    Phi[0] = x122;
+    Phi[1] = x127;
+    Phi[2] = x139;
+    if (!(fabs(Phi[0]) <= allowed[0]) || !(fabs(Phi[1]) <= allowed[1]) || !(fabs(Phi[2]) <= allowed[2])) {
+        const zd_real x264 = ZD_FNMA(x118, x139, x127);
+        const zd_real x383 = 1.0 / x117;
+        const zd_real x384 = x125 * x383;
+        const zd_real x390 = ZD_FMS(x116, x384, x123);
+        const zd_real x391 = 1.0 / x390;
+        const zd_real x395 = x391 * ZD_FMA(x264, x384, ZD_FMA(x124, x139, x122));
+        dp[0] = x139;
+        dp[1] = x383 * ZD_FNMA(x116, x395, x264);
+        dp[2] = x395;
+        return ZD_NO_CONVERGENCE;
+    }
+    const zd_real x383 = 1.0 / x117;
+    const zd_real x384 = x125 * x383;
+    const zd_real x390 = ZD_FMS(x116, x384, x123);
+    const zd_real x391 = 1.0 / x390;
+    const zd_real angle143[ZD_PADDED(1)] = {x132};
+    zd_real sine143[ZD_PADDED(1)], cosine143[ZD_PADDED(1)];
+    ZD_SINES(1, angle143, sine143, cosine143);
+    const zd_real x146 = ZD_FMA(cosine143[0], k[26], k[12]);
+    const zd_real x306 = before0 - x146;
+    const zd_real x311 = ZD_FNMA(x118, x306, ZD_FMA(x116, before2, ZD_FMA(x117, before1, x118 * before0)));
+    const zd_real x408 = ZD_FMA(x311, x384, ZD_FMS(x124, x306, ZD_FMA(x123, before2, ZD_FMA(x125, before1, x124 * before0))));
+    const zd_real x409 = x391 * x408;
+    const zd_real v0 = before0 - x306;
+    const zd_real v1 = before1 - (x383 * ZD_FNMA(x116, x409, x311));
+    const zd_real v2 = before2 - x409;
+    const zd_real x78 = v1 * v1;
+    const zd_real x82 = v2 * v2;
+    const zd_real x89 = v0 * v0;
+    const zd_real x180 = ZD_FNMA(sine16[3], k[27], added2);
+    const zd_real x190 = ZD_FNMA(x118, x180, ZD_FMA(x82, x123, ZD_FMA(x78, x125, x89 * x124)) + added1);
+    const zd_real x416 = x391 * ZD_FMA(x190, x384, ZD_FMA(x124, x180, ZD_FMA(x82, x116, ZD_FMA(x78, x117, x89 * x118)) + added0));
+    const zd_real x419 = x383 * ZD_FNMA(x116, x416, x190);
+    v[0] = v0;
+    v[1] = v1;
+    v[2] = v2;
+    vdot[0] = x180;
+    vdot[1] = x419;
+    vdot[2] = x416;
+    if (lambda || power) {
+        const zd_real x36 = ZD_FMA(sine16[0], sine16[1], cosine16[0] * cosine16[1]) * k[16];
+        const zd_real x44 = ZD_FNMA(cosine16[1], sine16[2], sine16[1] * cosine16[2]);
+        const zd_real x53 = ZD_FMA(sine16[1], sine16[2], cosine16[1] * cosine16[2]) * k[18];
+        const zd_real x63 = ZD_FNMA(cosine16[0], sine16[2], sine16[0] * cosine16[2]);
+        const zd_real x71 = ZD_FMA(sine16[0], sine16[2], cosine16[0] * cosine16[2]) * k[21];
+        const zd_real x79 = ZD_FNMA(sine16[0], cosine16[1], cosine16[0] * sine16[1]) * k[16];
+        const zd_real x424 = ZD_FMA(cosine16[1], k[23], ZD_FMA(x82, x44 * k[18], x78 * x79)) + ZD_FMA(x53, x416, ZD_FMA(x36, x419, k[15] * x180));
+        const zd_real x430 = ZD_FMA(cosine16[0], k[24], ZD_FNMA(x79, x89, x82 * (x63 * k[21]))) + ZD_FMA(x71, x416, ZD_FMA(k[19], x419, x36 * x180));
+        const zd_real x436 = ZD_FNMA(cosine16[2], k[25], 0.5 * ZD_FMA(x78, x63 * k[20], x89 * (x44 * k[17]))) - ZD_FMA(k[22], x416, ZD_FMA(x71, x419, x53 * x180));
+        const zd_real x437 = x383 * x430;
+        const zd_real x442 = x391 * ZD_FMA(x116, x437, x436);
+        const zd_real x445 = ZD_FMS(x384, x442, x437);
+        const zd_real x450 = x424 + ZD_FNMA(x124, x442, x118 * x445);
+        if (lambda) lambda[0] = x442;
+        if (lambda) lambda[1] = x445;
+        if (lambda) lambda[2] = -x450;
+        if (power) power[0] = x146 * x450;
+    }
+    if (pivots) {
+        pivots[0] = ZD_SPLAT(1.0);
+        pivots[1] = x117;
+        pivots[2] = x390;
+    }
+    return ZD_DONE;
+}
+#endif
+
+#if ZD_LANES == 1
 #define ZD_LANDING(name) ZD_NAMED(name)
 #else
 #define ZD_LANDING(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {2, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0)},
+    {2, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
 };
 #undef ZD_LANDING
+#if ZD_LANES == 1
+static const zd_elimination ZD_NAMED(embeddings)[] = {
+    {3, solve_1, row_1, column_1, NULL, ZD_NAMED(correct_1), NULL, ZD_NAMED(embed_1)},
+};
+#endif
 
 #undef ZD_UNIT
 #undef ZD_LANES

@@ -52,22 +52,22 @@ static const int column_1[] = {0};
 
 const zd_direct zd_knife_edge_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
-    {0, 1, 2, orders_0_1},
+    {0, 1, 2, orders_0_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_BASELINE_2
-    {0, 2, 2, orders_0_2},
+    {0, 2, 2, orders_0_2, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_1
-    {1, 1, 2, orders_1_1},
+    {1, 1, 2, orders_1_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX2_4
-    {1, 4, 2, orders_1_4},
+    {1, 4, 2, orders_1_4, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_1
-    {2, 1, 2, orders_2_1},
+    {2, 1, 2, orders_2_1, 0, NULL},
 #endif
 #if (ZD_SETS) & ZD_SET_AVX512_8
-    {2, 8, 2, orders_2_8},
+    {2, 8, 2, orders_2_8, 0, NULL},
 #endif
 };
 
@@ -184,7 +184,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     const zd_real x109 = x47 * (x30 * x106);
     const zd_real v0 = before0 - x109;
     const zd_real v1 = before1 - ZD_FNMA(x45, x106, x78 * x109);
-    const zd_real v2 = before2 - 0.0;
+    const zd_real v2 = before2;
     const zd_real x16 = ZD_FMA(sine7[0], v1, cosine7[0] * v0) * v2;
     const zd_real x118 = x47 * ZD_FNMA(x16, x30, cosine7[0] * (k[2] * cosine7[0]));
     const zd_real x123 = ZD_FMA(x78, x118, x16 * x45);
@@ -317,7 +317,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
     const zd_real x158 = x61 * (x28 * x106);
     const zd_real v0 = before0 - ZD_FNMA(x136, x158, x60 * x106);
     const zd_real v1 = before1 - (-x158);
-    const zd_real v2 = before2 - 0.0;
+    const zd_real v2 = before2;
     const zd_real x16 = ZD_FMA(sine7[0], v1, cosine7[0] * v0) * v2;
     const zd_real x169 = x61 * ZD_FMA(x16, x28, sine7[0] * (k[2] * cosine7[0]));
     const zd_real x173 = ZD_FNMA(x16, x60, x136 * x169);
@@ -346,8 +346,8 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
 #define ZD_LANDING(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0)},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1)},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1), NULL},
 };
 #undef ZD_LANDING
 

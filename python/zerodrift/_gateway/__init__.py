@@ -49,6 +49,7 @@ from .runs import (
     settings,
     step,
     takes_direct,
+    takes_embeddings,
 )
 from .systems import CoreSystem, Kind, kinds
 
@@ -58,7 +59,8 @@ __all__ = [
     "InLibrary", "Kind", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run",
     "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps",
     "default", "direct_unit", "doubles", "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data",
-    "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings", "step", "takes_direct", "terms_of",
+    "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings", "step", "takes_direct",
+    "takes_embeddings", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

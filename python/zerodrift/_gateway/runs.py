@@ -42,9 +42,14 @@ def settings(options: dict[str, Any], like: Any = None) -> Any:
     return made
 
 
-def takes_direct(options: Any) -> bool:
-    """Whether a run with this `zd_settings` takes direct functions, where its system brings any."""
-    return bool(lib.zd_takes_direct(options))
+def takes_direct(core: CoreSystem, options: Any) -> bool:
+    """Whether a run of this system with this `zd_settings` takes direct functions, where there are any."""
+    return bool(lib.zd_takes_direct(options) and lib.zd_may_have_direct(core.c, options))
+
+
+def takes_embeddings(options: Any) -> bool:
+    """Whether these are those for formulations in independent velocities."""
+    return bool(lib.zd_takes_embeddings(options))
 
 
 def direct_unit(core: CoreSystem, options: Any) -> int | None:

@@ -12,7 +12,7 @@ from ..runs import diagnosis, settings
 from ..runs.operations import assembly
 from ..runs.simulate import solution_of_rows
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem, direct_core_of
+from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.tables import NumberTables
 from .part import ROADS, Part, nothing
 from .plan import OPTIONS, Plan
@@ -27,7 +27,7 @@ class Batch(NamedTuple):
     options: Any                            # of the core
     rows: int                               # that a run saves at most
     columns: dict[str, tuple[str, int]]     # where each output is: in "p", "v" or "multipliers"
-    vector: str | None                      # the unit of direct functions; None: none are taken
+    direct: tuple[str, bool] | None         # the vector unit of direct functions, and whether they embed; None: none are taken
     assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
     chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
 
@@ -55,8 +55,9 @@ def _batch(plan: Plan) -> Batch | None:
     found = settings.plan(system, _check.span(plan.t_span), **options)
     if found.rows is None:
         return None
+    takes_direct = _gateway.takes_direct(core_of(system), found.options)
     return Batch(system, found.options, found.rows, columns,
-                 found.chosen["vector"] if _gateway.takes_direct(found.options) else None,
+                 (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None,
                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen)
 
 
@@ -83,7 +84,7 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
 
 def _make(plan: Plan, batch: Batch, first: int, last: int, wanted: tuple[str, ...],
           stop: _gateway.Stop | None = None) -> tuple[_gateway.BatchResults, NumberTables]:
-    tables = batch.system._number_tables(plan.runs.parameters_from(first, last), last - first, batch.vector)
+    tables = batch.system._number_tables(plan.runs.parameters_from(first, last), last - first, batch.direct)
     p0, v0 = plan.runs.starts(tables, first, last)
     made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
                               tuple(dict.fromkeys(wanted)), batch.assembly, stop)
@@ -108,7 +109,7 @@ def _solution_in_lanes(plan: Plan, run: int) -> Solution | None:
         return None
     states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}
     system, span = plan.runs.system(run), _check.span(plan.t_span)
-    core = direct_core_of(system, batch.vector)
+    core = direct_core_of(system, batch.chosen["vector"], batch.options)
     p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
     again, record = _gateway.Run(core, batch.options, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
     again.record_states(record, states)

@@ -143,22 +143,24 @@ class MechanismSystem(BaseSystem):
         return self._written.key, self._written.direct_functions(p0, is_length)
 
     @functools.cached_property
-    def _cores_with_direct(self) -> dict[str, MechanismCore]:
-        """By vector unit."""
+    def _cores_with_direct(self) -> dict[tuple[str, bool], MechanismCore]:
+        """By vector unit, and whether they embed."""
         return {}
 
-    def _direct_core(self, vector: str = "baseline") -> MechanismCore:
+    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> MechanismCore:
         if not self.compiled:
             return self._core
         cores = self._cores_with_direct
-        if vector not in cores:
-            cores[vector] = self._written.with_direct(self._direct[1], vector)
-        return cores[vector]
+        if (vector, embeds) not in cores:
+            functions = self._direct[1]
+            cores[vector, embeds] = self._written.with_direct(functions.embedding if embeds else functions, vector)
+        return cores[vector, embeds]
 
-    def _why_not_direct(self) -> str | None:
+    def _why_not_direct(self, embeds: bool = False) -> str | None:
         if not self._is_written_out:
             return None
-        return self._direct[1].why_none if self.compiled else NO_COMPILER
+        functions = self._direct[1]
+        return (functions.embedding if embeds else functions).why_none if self.compiled else NO_COMPILER
 
     @functools.cached_property
     def p0(self) -> np.ndarray:

@@ -125,10 +125,12 @@ def simulate(
         redundant and the mass matrix is definite, a warning and ``repr`` of the solution say where least was left of a row.
     direct : None or False
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
-        constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve dependent
-        formulations and explicit integrators, where no constraint is redundant. A step at whose ends the elimination is not
-        sound is made by the formulation's leading matrix; `repr` of the solution says how many were, or why all.
-        False makes all steps so.
+        constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve explicit
+        integrators, where no constraint is redundant. A step at whose ends the elimination is not sound is made by the
+        formulation's leading matrix, and of "mixed" and "independent" one at whose end other velocities are chosen to be
+        independent, or for whose none was written: that is for four choices at most. "independent" takes them where ``pdot = v``
+        and constraints are all holonomic or all nonholonomic; neither of the two where the system brings its own complement
+        `D`. `repr` of the solution says how many steps were made otherwise, or why all. False makes all steps so.
     vector : {"baseline", "avx2", "avx512"}, optional
         The vector unit that direct functions may use. Left out: what the environment variable ZERODRIFT_VECTOR says, else the
         last that the processor has. With "baseline", all processors give the same bits; the units round less often, give the
@@ -202,7 +204,7 @@ def simulate(
     plan = settings.plan(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct, vector)
-    core = direct_core_of(system, plan.chosen["vector"]) if _gateway.takes_direct(plan.options) else core_of(system)
+    core = direct_core_of(system, plan.chosen["vector"], plan.options)
     plan.chosen["vector"] = road.unit(core, plan.options)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..systems.base import BaseSystem, core_of, direct_core_of
+from ..systems.base import BaseSystem, direct_core_of
 from ..systems.watching import AXES
 from .saving import write
 from .settings import core_settings, corrections_of
@@ -335,8 +335,7 @@ class Solution:
         p, v = self.p[row].copy(), self.v[row].copy()
         if t > self.t[row]:
             options = core_settings((float(self.t[row]), float(t)), self.settings | {"step": float(t - self.t[row])})
-            takes_direct, vector = _gateway.takes_direct(options), self.settings.get("vector") or "baseline"
-            _gateway.step(direct_core_of(self.system, vector) if takes_direct else core_of(self.system), options, p, v)
+            _gateway.step(direct_core_of(self.system, self.settings.get("vector") or "baseline", options), options, p, v)
         return p, v
 
     @property

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from . import direct_emission, orders
 from .direct_emission import Bounded
+from .elimination import Elimination
 from .joint import elimination
 from .lowering import Lowering
 from .plain import NAMED, Function
@@ -33,6 +35,16 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
     return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}
 
 
+def _projecting(of: Elimination) -> dict[str, dict[str, list[int]]]:
+    """The functions of an order for formulations in dependent velocities."""
+    return {"accelerate": of.accelerations()} | ({"correct": of.corrections(), "land": of.landing()} if of.order else {})
+
+
+def _embedding(of: Elimination) -> dict[str, dict[str, list[int]]]:
+    """The same for formulations in independent velocities."""
+    return ({"correct": of.corrections()} if of.order else {}) | {"embed": of.embedding()}
+
+
 def _function(name: str) -> Any:
     """The function of that name: where there is one without SymPy, that."""
     return NAMED.get(name) or getattr(_sympy(), name)
@@ -45,16 +57,20 @@ def _sympy() -> Any:
 
 
 def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters: np.ndarray, p0: np.ndarray | None,
-          lengths: np.ndarray, *, offset: int, symbol: str, heading: list[str] | None = None,
+          lengths: np.ndarray, *, offset: int, symbol: str, embeds: Sequence[bool] = (False,), heading: list[str] | None = None,
           file: str = "system.c", lanes_header: str = "<zerodrift/lanes.h>", data: str = "data") -> tuple[str, int]:
-    """The C source and its number of constants; raises `Unwritten` where no order serves, or there are too many operations."""
+    """The C source and its number of constants; raises `Unwritten` where no order serves, or there are too many operations.
+
+    They are for formulations in dependent velocities, or in independent ones where that is among `embeds`.
+    """
     lowering = Bounded(None)
     terms = restored(lowering, program["operations"], program["terms"], _function)
-    chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths)
-    eliminations = [elimination(lowering, terms, sizes, order) for order in chosen]
-    functions = [{"accelerate": each.accelerations()} | ({"correct": each.corrections(), "land": each.landing()}
-                                                         if each.order else {"correct": {}, "land": {}})
-                 for each in eliminations]
+    eliminations, functions = [], []
+    for embedding in embeds:
+        chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths, embedding)
+        found = [elimination(lowering, terms, sizes, order) for order in chosen]
+        functions += [(_embedding if embedding else _projecting)(each) for each in found]
+        eliminations += found
     return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
                                   heading=HEADING if heading is None else heading, file=file,
                                   lanes_header=lanes_header, data=data)

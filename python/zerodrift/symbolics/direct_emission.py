@@ -19,8 +19,11 @@ ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_
 CORRECT = (AT, "    const double *at_v, double *to_Phi, double *to_dp, double *to_dv)")
 LAND = (AT, "    double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,",
         "    double *to_lambda, double *to_power, double *to_pivots)")
-OPTIONAL = ("lambda", "power"), ("pivots",)     # outputs that may not be wanted, those together that share something
-HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND}
+OPTIONAL = ("lambda", "power"), ("pivots", "D")     # outputs that may not be wanted, those together that share something
+EMBED = (AT, "    double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,",
+         "    double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)")
+HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND, "embed": EMBED}
+FOR_ONE = "land", "embed"       # of several trajectories, some may have to be iterated and others not
 
 
 class Bounded(Lowering):
@@ -65,9 +68,9 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
            symbol: str, heading: list[str], file: str, lanes_header: str, data: str) -> tuple[str, int]:
     """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
 
-    `functions` has, for each order, the outputs of "accelerate", "correct" and "land"; `data` is C for the doubles of a system,
-    `file` what the source is called, which it includes again for each vector unit, and `lanes_header` where it finds
-    zerodrift/lanes.h.
+    `functions` has, for each order, the outputs of "accelerate", "correct" and "land", or of "correct" and "embed"; `data` is C
+    for the doubles of a system, `file` what the source is called, which it includes again for each vector unit, and
+    `lanes_header` where it finds zerodrift/lanes.h.
     """
     stored, orders = _constants(lowering, functions), [each.order for each in eliminations]
     outside = [heading[0], "#ifndef ZD_LANES", *heading[1:], "", *_constants_function(lowering, stored, offset, symbol), "",
@@ -75,14 +78,21 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
     inside = [f"#include {lanes_header}"]
     for i, of in enumerate(functions):
         for name, head in HEADS.items():
-            if of[name]:
+            if of.get(name):
                 signature = [line.format(name=f"{name}_{i}") for line in head]
                 program = _Program(lowering, of[name], stored)
-                lines = (_landing if name == "land" else _function)(program, signature, offset, data)
-                inside += ["", *(["#if ZD_LANES == 1", *lines, "#endif"] if name == "land" else lines)]
-    inside += ["", *_table(orders)]
+                lines = (_landing if name in FOR_ONE else _function)(program, signature, offset, data)
+                inside += ["", *(["#if ZD_LANES == 1", *lines, "#endif"] if "embed" in of or name in FOR_ONE else lines)]
+    embed = [i for i, of in enumerate(functions) if "embed" in of]
+    others = [i for i in range(len(functions)) if i not in embed]
+    inside += ["", *_table(orders, others), *_embedding_table(orders, embed)]
     sets = for_each_set(lambda unit, lanes: [f"#define ZD_UNIT {unit}", f"#define ZD_LANES {lanes}", f'#include "{file}"'])
-    rows = for_each_set(lambda unit, lanes: [f"    {{{unit}, {lanes}, {len(functions)}, orders_{unit}_{lanes}}},"])
+
+    def counted(name: str, numbers: list[int], unit: int, lanes: int) -> str:
+        return f"{len(numbers)}, {name}_{unit}_{lanes}" if numbers and (lanes == 1 or name == "orders") else "0, NULL"
+
+    rows = for_each_set(lambda unit, lanes: [f"    {{{unit}, {lanes}, {counted('orders', others, unit, lanes)}, "
+                                             f"{counted('embeddings', embed, unit, lanes)}}},"])
     return "\n".join([*outside, "", "/* The functions below, for each vector unit. */", *sets, "",
                       f"const zd_direct {symbol}[] = {{", *rows, "};", "",
                       "#else", *inside, "", "#undef ZD_UNIT", "#undef ZD_LANES", "#endif", ""]), len(stored)
@@ -159,7 +169,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
 
 def _landing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
     """Phi is looked at first; where it is small, velocities are corrected, and what follows depends on these."""
-    writer, outputs = _writer(program, offset), program.outputs
+    writer, outputs, lowering = _writer(program, offset), program.outputs, program.lowering
     done = program.needed(["Phi"])
     body = _statements(writer, done) + writer._entries("Phi", outputs["Phi"])
     if outputs["Phi"]:
@@ -168,7 +178,9 @@ def _landing(program: _Program, head: list[str], offset: int, data: str) -> list
         body += [f"if ({large}) {{", *indented([*aside, "return ZD_NO_CONVERGENCE;"]), "}"]
     more = _further(program, writer, done, ["dv"])
     velocities = [writer.value(number) for number in outputs["dv"]]
-    body += [*more, *(f"const zd_real v{i} = before{i} - {value};" for i, value in enumerate(velocities))]
+    is_kept = [lowering.operations[number].code == "number" for number in outputs["dv"]]    # which is then zero
+    body += [*more, *(f"const zd_real v{i} = before{i}{'' if kept else f' - {value}'};"
+                      for i, (value, kept) in enumerate(zip(velocities, is_kept, strict=True)))]
     rest = [name for name in ("pdot", "vdot") if outputs.get(name)]
     body += _further(program, writer, done, rest) + [f"v[{i}] = v{i};" for i in range(len(velocities))]
     body += [line for name in rest for line in writer._entries(name, outputs[name])] + _optional(program, writer, done)
@@ -205,10 +217,11 @@ def _statements(writer: LaneWriter, numbers: list[int]) -> list[str]:
 def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
-    lands = "Phi" in program.outputs and "vdot" in program.outputs
-    inputs = {"k": f"({data})", "time": "at_time", "p": "at_p"} | (
-        {"allowed": "where_allowed"} if lands else {"v": "at_v"} | ({"added": "with_added"} if "vdot" in program.outputs else {}))
-    outputs = ["v"] * lands + ["Phi", "dp"] * ("Phi" in program.outputs) + (
+    lands, embeds = ("Phi" in program.outputs and name in program.outputs for name in ("vdot", "D"))
+    inputs = {"k": f"({data})", "time": "at_time", "p": "at_p"} | ({"allowed": "where_allowed"} if lands else {"v": "at_v"})
+    if "vdot" in program.outputs and (embeds or not lands):
+        inputs["added"] = "with_added"
+    outputs = ["v"] * lands + ["Phi", "dp"] * ("Phi" in program.outputs) + ["D"] * embeds + (
         ["pdot", "vdot", "lambda", "power", "pivots"] if "vdot" in program.outputs else ["dv"])
     lines = [f"const zd_stored *restrict const {name} = (const zd_stored *){of};" for name, of in inputs.items()]
     lines += [f"zd_stored *restrict const {name} = (zd_stored *)to_{name};" for name in outputs]
@@ -233,10 +246,24 @@ def _solves(orders: list[Order]) -> list[str]:
     return lines
 
 
-def _table(orders: list[Order]) -> list[str]:
-    """The descriptors of one set: in lanes, of which some may have to be iterated and others not, there is none that lands."""
+def _table(orders: list[Order], numbers: list[int]) -> list[str]:
+    """The descriptors of one set: in lanes there is none that lands."""
+    if not numbers:
+        return []
     lines = ["#if ZD_LANES == 1", "#define ZD_LANDING(name) ZD_NAMED(name)", "#else", "#define ZD_LANDING(name) NULL", "#endif",
              "static const zd_elimination ZD_NAMED(orders)[] = {"]
-    lines += [f"    {{{len(order)}, solve_{i}, row_{i}, column_{i}, ZD_NAMED(accelerate_{i}), "
-              f"{f'ZD_NAMED(correct_{i}), ZD_LANDING(land_{i})' if order else 'NULL, NULL'}}}," for i, order in enumerate(orders)]
+    lines += [f"    {_head(orders, i)}, ZD_NAMED(accelerate_{i}), "
+              f"{f'ZD_NAMED(correct_{i}), ZD_LANDING(land_{i})' if orders[i] else 'NULL, NULL'}, NULL}}," for i in numbers]
     return [*lines, "};", "#undef ZD_LANDING"]
+
+
+def _embedding_table(orders: list[Order], numbers: list[int]) -> list[str]:
+    """The same of orders for formulations in independent velocities."""
+    lines = [f"    {_head(orders, i)}, NULL, {f'ZD_NAMED(correct_{i})' if orders[i] else 'NULL'}, NULL, ZD_NAMED(embed_{i})}},"
+             for i in numbers]
+    head = ["#if ZD_LANES == 1", "static const zd_elimination ZD_NAMED(embeddings)[] = {"]
+    return [*head, *lines, "};", "#endif"] if lines else []
+
+
+def _head(orders: list[Order], i: int) -> str:
+    return f"{{{len(orders[i])}, solve_{i}, row_{i}, column_{i}"

@@ -31,13 +31,22 @@ class DirectFunctions:
     """
 
     def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int], values: np.ndarray,
-                 p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data") -> None:
+                 p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False) -> None:
         self._definition = program, sizes, values, p0, is_length
+        self._embeds = embeds       # whether they are for formulations in independent velocities
+        self._others: DirectFunctions | None = None
         self._offset, self._data = offset, data     # `data` is C for the doubles of a system
         self._libraries: dict[str, ctypes.CDLL | None] = {}
         self._written: tuple[str, int] | None = None
         self.why_none = program if isinstance(program, str) else ""     # as far as is known before they are written
         self._is_written = bool(self.why_none)
+
+    @property
+    def embedding(self) -> DirectFunctions:
+        """Those for formulations in independent velocities."""
+        if self._others is None:
+            self._others = DirectFunctions(*self._definition, self._offset, self._data, embeds=True)
+        return self._others
 
     def _write(self) -> tuple[str, int] | None:
         """The C source and how many constants it has; None: there is none."""
@@ -60,13 +69,14 @@ class DirectFunctions:
         calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
         limits = direct_emission.MOST_OPERATIONS, direct_emission.MOST_STATEMENTS
         return kept.digest_of("direct functions", _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
-                              None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data)
+                              None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds)
 
     def _written_anew(self) -> dict[str, Any]:
         from . import direct
         from .elimination import Unwritten
         try:
-            source, constants = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data)
+            source, constants = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data,
+                                             embeds=(self._embeds,))
         except Unwritten as reason:
             return {"source": "", "constants": 0, "why": str(reason)}
         return {"source": source, "constants": constants, "why": ""}

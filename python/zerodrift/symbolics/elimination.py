@@ -7,11 +7,14 @@ eliminated from each row (block LU), C x = rhs becomes x = x0 + D a, and with fo
     dp   = A (x0 + D a),    D^T M D a = -(M D)^T x0,    C x0 = [Phi; 0]         and dv likewise from Psi
     C_s^T lambda = (f - d - M vdot)_s                   s: the velocities that are solved for
 
+Where all but s is given, as formulations in independent velocities have it, dp = A x0 and dv = x0: what is given stays.
+
 Zeros and ones take no operations, and no operation is written twice.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from .arithmetic import Arithmetic, Matrix, Vector, adjugate
@@ -153,8 +156,12 @@ class Elimination:
 
     def accelerations(self) -> dict[str, Vector]:
         """The pdot of systems with A, vdot, lambda, power and pivots."""
+        return self._accelerations(self._with_added())
+
+    def _with_added(self) -> Vector:
+        """The xi with what is added to it."""
         added = [self.do.lowering.emit("leaf", "added", k) for k in range(self.m)]
-        return self._accelerations([self.do.plus(*each) for each in zip(self._vector("xi", self.m), added, strict=True)])
+        return [self.do.plus(*each) for each in zip(self._vector("xi", self.m), added, strict=True)]
 
     def _accelerations(self, right: Vector) -> dict[str, Vector]:
         do = self.do
@@ -169,21 +176,38 @@ class Elimination:
 
     def corrections(self) -> dict[str, Vector]:
         """Phi, dp and dv."""
-        return self._corrections(self._leaves("v"))
+        return self._corrections(self._leaves("v"), self._projected)
 
     def landing(self) -> dict[str, Vector]:
         """Phi, dp, the dv of the velocities before, and what accelerations there are with the velocities after it."""
-        return self._corrections(self._leaves("before")) | self._accelerations(self._vector("xi", self.m))
+        return self._corrections(self._leaves("before"), self._projected) | self._accelerations(self._vector("xi", self.m))
+
+    def embedding(self) -> dict[str, Vector]:
+        """The same with steps that keep what is free, with the added xi, and with D: how what is solved for follows that."""
+        found = self._corrections(self._leaves("before"), self._kept) | self._accelerations(self._with_added())
+        return found | {"D": [entry for solve in self.order for j in solve.columns for entry in self._share_of(j)]}
+
+    def _projected(self, right: Vector) -> Vector:
+        """The shortest x with C x = right in the metric of M."""
+        return self.solution(None, right)
+
+    def _kept(self, right: Vector) -> Vector:
+        """The x with C x = right that is zero where velocities are free."""
+        return self.particular(right)
+
+    def _share_of(self, j: int) -> Vector:
+        """The row of D of a velocity."""
+        return self.D[j]
 
     def _leaves(self, kind: str) -> Vector:
         return [self.do.lowering.emit("leaf", kind, i) for i in range(self.nv)]
 
-    def _corrections(self, v: Vector) -> dict[str, Vector]:
+    def _corrections(self, v: Vector, step: Callable[[Vector], Vector]) -> dict[str, Vector]:
         do = self.do
         Phi = self._vector("Phi", self.mh)
         Psi = [do.plus(do.dot(row, v), by_time) for row, by_time in zip(self.C, self._vector("Phi_t", self.m), strict=True)]
-        dp = self.solution(None, Phi + [do.zero] * (self.m - self.mh)) if self.mh else [do.zero] * self.nv
-        return {"Phi": Phi, "dp": self._rates(dp), "dv": self.solution(None, Psi)}
+        dp = step(Phi + [do.zero] * (self.m - self.mh)) if self.mh else [do.zero] * self.nv
+        return {"Phi": Phi, "dp": self._rates(dp), "dv": step(Psi)}
 
     def _rates(self, x: Vector) -> Vector:
         """A x."""

@@ -66,6 +66,12 @@ class Joint(Elimination):
             x[i] = value
         return x
 
+    def _kept(self, right: Vector) -> Vector:
+        return [self.do.times(value, self.share) for value in super()._kept(right)]
+
+    def _share_of(self, j: int) -> Vector:
+        return [self.do.times(entry, self.share) for entry in super()._share_of(j)]
+
     def multipliers(self, force: Vector) -> Vector:
         return [self.do.times(value, self.share) for value in super().multipliers(force)]
 

@@ -9,6 +9,7 @@ which the second waits for the first.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from itertools import combinations
 
@@ -29,11 +30,13 @@ SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or 
 
 
 def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
-           p0: np.ndarray | None, lengths: np.ndarray) -> list[Order]:
+           p0: np.ndarray | None, lengths: np.ndarray, embeds: bool = False) -> list[Order]:
     """The orders to be written, best first; raises `Unwritten` where no order serves the start.
 
     Parameters
     ----------
+    embeds : bool
+        Whether they are for formulations in independent velocities: then each is for other ones.
     lengths : ndarray (nq + nv,) of bool
         Which coordinates and velocities are lengths.
     p0 : ndarray (nq,), optional
@@ -48,6 +51,20 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
         C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
     except numeric.Unknown as unknown:
         raise Unwritten(f"{unknown} is no function of NumPy's") from None
+    orders = _for_sets(C) if embeds else _for_places(C / _largest(C))
+    if not orders:
+        raise Unwritten("constraints depend on each other at the start, or nearly")
+    return orders
+
+
+def _largest(C: np.ndarray) -> np.ndarray:
+    """The largest entry of each row, for all of it."""
+    rows = np.abs(C).max(axis=2, keepdims=True)
+    return np.where(rows == 0, 1.0, rows)
+
+
+def _for_places(C: np.ndarray) -> list[Order]:
+    """An order, and others for where it does not serve."""
     orders: list[Order] = []
     while len(orders) < MOST and len(C):
         order, served = max((_Search(C, LARGE, at_once).run() for at_once in (True, False)), key=lambda each: each[1].sum())
@@ -57,14 +74,39 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
             break
         orders.append(order)
         C = C[~served]
-    if not orders:
-        raise Unwritten("constraints depend on each other at the start, or nearly")
     return orders
+
+
+def _for_sets(C: np.ndarray) -> list[Order]:
+    """An order for each of the sets of dependent velocities that formulations choose most often, that of the start first."""
+    sets = [tuple(np.flatnonzero(row)) for row in _dependent(C / _largest(C[:1]))]
+    found = [(chosen, C[[other == chosen for other in sets]]) for chosen, _ in Counter(sets).most_common()]
+    orders: list[Order] = []
+    for chosen, where in sorted(found, key=lambda each: each[0] != sets[0]):
+        order, served = _Search((where / _largest(where))[:, :, chosen], ENOUGH).run()
+        if served.any():
+            orders.append(tuple(Solve(solve.rows, tuple(chosen[j] for j in solve.columns)) for solve in order))
+    return orders[:MOST]
+
+
+def _dependent(C: np.ndarray) -> np.ndarray:
+    """Which velocities (k, nv) complete pivoting solves for in each of C (k, m, nv)."""
+    C, each = C.copy(), np.arange(len(C))
+    k, m, nv = C.shape
+    left, found = np.ones((k, m), dtype=bool), np.zeros((k, nv), dtype=bool)
+    for _ in range(m):
+        row, column = np.divmod(np.where(left[:, :, None], np.abs(C), -1.0).reshape(k, -1).argmax(axis=1), nv)
+        pivot = C[each, row]
+        share = C[each, :, column] / np.where(pivot[each, column] == 0, 1.0, pivot[each, column])[:, None]
+        left[each, row], found[each, column] = False, True
+        C -= np.where(left, share, 0.0)[:, :, None] * pivot[:, None, :]
+        C[each, :, column] = 0.0
+    return found
 
 
 def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
                     p0: np.ndarray | None, lengths: np.ndarray) -> np.ndarray:
-    """C (k, m, nv) in parts of the largest entry of each row, in natural units, at the start and around it."""
+    """C (k, m, nv) in natural units, at the start and around it."""
     nq, nv, mh, _ = sizes
     chance = np.random.default_rng(20)
     start = np.zeros(nq) if p0 is None else p0
@@ -79,12 +121,10 @@ def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tupl
         p = p - _newton(evaluate(t, p), sizes)
     found = evaluate(t, p)
     C = found["C"].reshape(len(t), -1, nv) * unit_v
-    rows = np.abs(C).max(axis=2)
-    rows[rows == 0] = 1.0
     closed = np.isfinite(C).all(axis=(1, 2))
     if mh:
-        closed &= (np.abs(found["Phi"]) <= CLOSED * rows[:, :mh]).all(axis=1)
-    return (C / rows[:, :, None])[closed]
+        closed &= (np.abs(found["Phi"]) <= CLOSED * _largest(C)[:, :mh, 0]).all(axis=1)
+    return C[closed]
 
 
 def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> np.ndarray:

@@ -82,7 +82,7 @@ class SymbolicSystem(BaseSystem):
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
         self._direct = direct or DirectFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
-        self._with_direct: dict[str, _gateway.NativeCore] = {}     # by vector unit
+        self._with_direct: dict[tuple[str, bool], _gateway.NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
@@ -98,32 +98,38 @@ class SymbolicSystem(BaseSystem):
         data.flags.writeable = False
         return data
 
-    def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
-        library = self._direct.library(vector) if self.compiled else None
+    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
+        functions = self._functions(embeds)
+        library = functions.library(vector) if self.compiled else None
         if library is None:
             return self._core
-        if vector not in self._with_direct:
-            data = self._with_direct_data(library)
-            self._with_direct[vector] = self._core.with_direct(_gateway.address_of(library, DIRECT), data, library)
-        return self._with_direct[vector]
+        if (vector, embeds) not in self._with_direct:
+            data = self._with_direct_data(library, functions)
+            self._with_direct[vector, embeds] = self._core.with_direct(_gateway.address_of(library, DIRECT), data, library)
+        return self._with_direct[vector, embeds]
 
-    def _why_not_direct(self) -> str:
-        return self._direct.why_none if self.compiled else NO_COMPILER
+    def _why_not_direct(self, embeds: bool = False) -> str:
+        return self._functions(embeds).why_none if self.compiled else NO_COMPILER
 
-    def _with_direct_data(self, library: ctypes.CDLL) -> np.ndarray:
+    def _functions(self, embeds: bool) -> DirectFunctions:
+        return self._direct.embedding if embeds else self._direct
+
+    def _with_direct_data(self, library: ctypes.CDLL, functions: DirectFunctions) -> np.ndarray:
         """The same with the constants of the direct functions behind them."""
-        data = np.concatenate([self._data(), np.zeros(self._direct.constants)])
+        data = np.concatenate([self._data(), np.zeros(functions.constants)])
         library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
         return data
 
-    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
+                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
         if not parameters or not self.compiled:
-            return super()._number_tables(parameters, count, vector)
+            return super()._number_tables(parameters, count, direct)
         if any(each.ndim > 1 for each in parameters.values()):
             return None
-        core = self._core if vector is None else self._direct_core(vector)
-        library = self._library if core is self._core else self._direct.library(vector or "")
-        further = 0 if library is self._library else self._direct.constants
+        vector, embeds = direct or ("", False)
+        core, functions = self._direct_core(vector, embeds) if direct else self._core, self._functions(embeds)
+        library = self._library if core is self._core else functions.library(vector)
+        further = 0 if library is self._library else functions.constants
         data = np.zeros((count, len(self._values) + self._code.constants + 1 + further))
         data[:, :len(self._values)] = self._values
         for name, each in parameters.items():

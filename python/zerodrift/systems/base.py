@@ -204,19 +204,21 @@ class BaseSystem:
             return least
         return f"{self.nv - rank}" + (f", as {self.m - rank} rows follow from others at the start" if rank < self.m else "")
 
-    def _direct_core(self, vector: str = "baseline") -> _gateway.CoreSystem:
+    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
+        """With direct functions, of which those for formulations in independent velocities are others: they `embed`."""
         return self._core
 
-    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
-        """So many systems with these parameters, (count,) or (count, size) each, and direct functions for a vector unit, if
-        they are wanted and there are any; None where each has to be made, or run, in Python.
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
+                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
+        """So many systems with these parameters, (count,) or (count, size) each, and direct functions, if they are wanted and
+        there are any, for a vector unit and of those that embed or do not; None where each has to be made, or run, in Python.
         """
         core = getattr(self, "_core", None)
         if parameters or core is None or core.for_run() is not core:
             return None
-        return NumberTables(core if vector is None else self._direct_core(vector), None, 0, self.p0, self.v0, {})
+        return NumberTables(core if direct is None else self._direct_core(*direct), None, 0, self.p0, self.v0, {})
 
-    def _why_not_direct(self) -> str | None:
+    def _why_not_direct(self, embeds: bool = False) -> str | None:
         """Why it has no direct functions, as far as is known; empty: it has some; None: systems of its kind have none."""
         core = getattr(self, "_core", None)
         return "" if core is not None and core.has_direct else None
@@ -350,11 +352,15 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
     return tuple(places)
 
 
-def direct_core_of(system: Any, vector: str) -> _gateway.CoreSystem:
-    """The same with the system's direct functions for a vector unit, where it has any: made when they are first wanted."""
-    core_of(system)
-    core = system._direct_core(vector)
-    core.name_rows(system)
+def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSystem:
+    """The same with the system's direct functions for a vector unit, where it has any that serve a run with this `zd_settings`.
+
+    They are made when they are first wanted.
+    """
+    core = core_of(system)
+    if _gateway.takes_direct(core, options):
+        core = system._direct_core(vector, _gateway.takes_embeddings(options))
+        core.name_rows(system)
     return core
 
 

@@ -40,7 +40,8 @@ class SystemOfKind(BaseSystem):
     def _parameter_units(self) -> dict[str, str]:
         return {parameter.name: parameter.unit for parameter in self._kind.parameters}
 
-    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, vector: str | None = None) -> NumberTables | None:
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
+                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
         if not parameters:
             return NumberTables(self._core, None, self._kind.constants, self.p0, self.v0, {})
         columns, wrong = [], not_finite(parameters, count)

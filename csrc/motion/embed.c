@@ -1,0 +1,210 @@
+/* The direct road of formulations in independent velocities. The state has entries of p and v, and a system's embed() finds all others:
+ *
+ *     w = -W^-1 (U u + Phi_t)                 (14), (16): velocities w that are solved for, C = [U W]
+ *     p <- p - dp until every |Phi| is small  (18), where p is not part of the state; dp moves what is solved for
+ *
+ * and the accelerations with them. Which entries the state has is for the formulation to choose, on the general road: a step whose end has
+ * one of those that are solved for follow more steeply than that allows is made there.
+ */
+#include "embed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "../point/quaternions.h"
+#include "../point/units.h"
+
+enum { MAX_ITERATIONS = 8 };
+static const double ROUNDING = 16 * 0x1p-52;    /* of the sizes of Phi and p: what is left of Phi then */
+static const double LEAST_TERMS = 16;           /* of a row, for whose rounding that is enough */
+
+void zd_embed_take(zd_road *road, zd_arena *arena, const zd_system *system)
+{
+    const size_t nv = (size_t)system->nv, m = (size_t)zd_constraints(system), mh = (size_t)system->mh;
+    road->embeds = 1;
+    road->p = zd_take_doubles(arena, (size_t)system->nq);
+    road->v = zd_take_doubles(arena, nv);
+    road->vdot = zd_take_doubles(arena, nv);
+    road->Phi = zd_take_doubles(arena, mh);
+    road->unbounded = zd_take_doubles(arena, mh);
+    road->D = zd_take_doubles(arena, m * (nv - m));
+    for (size_t k = 0; road->unbounded && k < mh; k++) road->unbounded[k] = INFINITY;
+}
+
+/* ---- the order for the state's velocities ---- */
+
+static int solves_for(const zd_elimination *order, int m, int j)
+{
+    for (int k = 0; k < m; k++)
+        if (order->column[k] == j) return 1;
+    return 0;
+}
+
+const zd_elimination *zd_embed_find(zd_motion *motion)
+{
+    const int m = zd_constraints(&motion->system), r = motion->system.nv - m;
+    zd_road *road = &motion->road;
+    if (!motion->formulation->entries || !motion->formulation->entries(motion->solver, &road->state)) return NULL;
+    for (int i = 0; i < road->orders; i++) {
+        int serves = 1;
+        for (int j = 0; j < r; j++) serves &= !solves_for(road->first + i, m, road->state.u[j]);
+        if (serves) return road->first + i;
+    }
+    return NULL;
+}
+
+void zd_embed_begin(zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    if (!motion->road.state.q) return;
+    const double of_p = fmax(1, zd_max_scaled(point->system->nq, point->p, point->inverse_unit_p));
+    const double terms = fmax(1, point->system->nv / LEAST_TERMS);
+    for (int k = 0; k < point->system->mh; k++) motion->road.allowed[k] = ROUNDING * terms * of_p * point->size[k];
+}
+
+int zd_embed_is_steep(const zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    const zd_elimination *order = motion->road.order;
+    const int m = zd_constraints(&motion->system), n = motion->system.nv;
+    const double *D = motion->road.D;
+    double steepest = 0;
+    for (int j = 0; j < n; j++) {
+        if (solves_for(order, m, j)) continue;
+        for (int k = 0; k < m; k++) steepest = fmax(steepest, fabs(D[k * (n - m)]) * point->inverse_unit[order->column[k]] * point->unit[j]);
+        D++;
+    }
+    return !(steepest <= motion->road.state.steepest);
+}
+
+/* ---- between the state and p, v ---- */
+
+/* How many entries of p the state has */
+static int positions(const zd_motion *motion)
+{
+    const zd_system *system = &motion->system;
+    return motion->road.state.q ? system->nv - system->mh : system->nq;
+}
+
+/* p where the motion leads from the point, where nothing is nearer. */
+static void predict(const zd_motion *motion, double t, double *p)
+{
+    const zd_point *point = motion->point;
+    const double h = t - point->t, half = point->known & ZD_ACCELERATED ? h / 2 : 0;
+    for (int i = 0; i < point->system->nq; i++) p[i] = point->p[i] + h * (point->v[i] + half * (half ? point->vdot[i] : 0));
+}
+
+void zd_embed_read(zd_motion *motion, double t, const double *y)
+{
+    zd_road *road = &motion->road;
+    const zd_system *system = &motion->system;
+    const int k = positions(motion), r = system->nv - zd_constraints(system);
+    if (road->state.q) predict(motion, t, road->p);
+    for (int i = 0; i < k; i++) road->p[road->state.q ? road->state.q[i] : i] = y[i];
+    /* Those that are solved for begin at zero, so that they follow from the others to the last bit. */
+    for (int j = 0; j < system->nv; j++) road->v[j] = 0;
+    for (int j = 0; j < r; j++) road->v[road->state.u[j]] = y[k + j];
+}
+
+static void read_point(zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    zd_road *road = &motion->road;
+    const int r = point->system->nv - zd_constraints(point->system);
+    ZD_SIZED(zd_copy, point->system->nq, point->p, road->p);
+    for (int j = 0; j < point->system->nv; j++) road->v[j] = 0;
+    for (int j = 0; j < r; j++) road->v[road->state.u[j]] = point->v[road->state.u[j]];
+}
+
+void zd_embed_write(const zd_motion *motion, const double *p, const double *v, double *y)
+{
+    const zd_entries *state = &motion->road.state;
+    const int k = positions(motion), r = motion->system.nv - zd_constraints(&motion->system);
+    for (int i = 0; i < k; i++) y[i] = p[state->q ? state->q[i] : i];
+    for (int j = 0; j < r; j++) y[k + j] = v[state->u[j]];
+}
+
+/* ---- what follows from the state ---- */
+
+/* Whether an iteration may follow, and p after it */
+static int improve(zd_motion *motion, int iteration, double *first)
+{
+    zd_road *road = &motion->road;
+    double residual = 0;
+    for (int k = 0; k < motion->system.mh; k++) residual = fmax(residual, fabs(road->Phi[k]) * motion->point->inverse_size[k]);
+    if (iteration == MAX_ITERATIONS || (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first))) return ZD_NO_EMBEDDING;
+    if (iteration == 0) *first = residual;
+    ZD_SIZED(zd_subtract, motion->system.nq, road->p, road->dp, road->p);
+    return ZD_DONE;
+}
+
+int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to)
+{
+    zd_road *road = &motion->road;
+    const double *allowed = finds_p ? road->allowed : road->unbounded;
+    double first = 0;
+    for (int iteration = 0;; iteration++) {
+        motion->statistics.evaluations++;
+        int status = road->order->embed(motion->system.data, &t, road->p, road->v, added, allowed, road->Phi, road->dp, to->D, road->pdot,
+                                        to->vdot, to->lambda, to->power, to->pivots);
+        if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
+        else {
+            motion->statistics.embedding_iterations += finds_p ? iteration : 0;
+            return status ? ZD_CALLBACK : ZD_DONE;
+        }
+        if (status) return status;
+    }
+}
+
+/* The same with all that the point has of its acceleration */
+static int embed_point(zd_motion *motion, double t, int finds_p, const double *added)
+{
+    zd_road *road = &motion->road;
+    const zd_embedded of_point = {road->D, motion->point->vdot, motion->point->lambda, motion->balance.input ? &road->power : NULL, road->pivots};
+    return zd_embed_entries(motion, t, finds_p, added, &of_point);
+}
+
+int zd_embed_accelerate(zd_motion *motion, const double *added)
+{
+    read_point(motion);
+    return embed_point(motion, motion->point->t, 0, added);
+}
+
+/* ---- the end of a step ---- */
+
+static void move_there(zd_motion *motion, double t)
+{
+    zd_point_move(motion->point, t, motion->road.p, motion->road.v);
+    if (!motion->is_stabilized) motion->point->known |= ZD_ACCELERATED;
+}
+
+int zd_embed_enter(zd_motion *motion, double t, const double *y)
+{
+    zd_road *road = &motion->road;
+    zd_embed_read(motion, t, y);
+    const int finds_p = road->state.q != NULL, is_corrected_first = !finds_p && motion->corrections < 2;
+    if (!finds_p) zd_quaternions_normalise(&motion->system, road->p);
+    int status = is_corrected_first ? ZD_DONE : embed_point(motion, t, finds_p, NULL);
+    if (status) return status;
+    move_there(motion, t);
+    if (is_corrected_first) motion->point->known &= ~ZD_ACCELERATED;
+    return ZD_DONE;
+}
+
+int zd_embed_settle(zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    if (point->known & ZD_ACCELERATED) return ZD_DONE;
+    read_point(motion);
+    int status = embed_point(motion, point->t, 0, NULL);
+    if (!status) move_there(motion, point->t);
+    return status;
+}
+
+int zd_embed_leave(zd_motion *motion, double *y)
+{
+    zd_embed_write(motion, motion->point->p, motion->point->v, y);
+    return zd_embed_settle(motion);
+}
