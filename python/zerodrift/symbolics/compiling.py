@@ -15,6 +15,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -27,6 +28,10 @@ from ..systems.native import get_include
 from . import cache, compilers
 
 OPTIMIZED = ("-O3",)
+# Functions for one trajectory are one expression after the other, of which a compiler that looks for loops and vectors makes the
+# same in a third to two thirds more time. Behind functions of vector units, one of GCC's expensive optimizations clears the upper
+# halves of registers; else all that follows them is several times as slow.
+QUICKLY = ("-O1", "-fexpensive-optimizations", "-fschedule-insns2")
 SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
 SOURCE, PRODUCT = "system.c", "system.dll" if cache.AS_WINDOWS else "system.so"
@@ -35,7 +40,7 @@ PLACE = re.compile(rf"{re.escape(SOURCE)}[:(](\d+)")     # of what a compiler co
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None,
             symbols: Sequence[str] = SYMBOLS, defined: Sequence[str] = (),
-            optimized: Sequence[str] = OPTIMIZED) -> ctypes.CDLL | None:
+            optimized: Sequence[str] = QUICKLY) -> ctypes.CDLL | None:
     """The library of a C source with these symbols, compiled where the cache does not have it; None: there is no compiler.
 
     `defined` are macros, as compilers take them: ``["NAME=value"]``; `optimized` are flags that change no bits.
@@ -147,13 +152,21 @@ def _run(line: list[str], folder: Path, environment: dict[str, str] | None) -> t
             why = "it, or the program that its first line names, is missing or for another machine"
             raise _failure(line, f"cannot be run ({error.strerror})", f": {why}. {compilers.advice()}") from None
         try:
-            status = process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
-            raise _failure(line, f"did not end within {PATIENCE:g} s", f". {compilers.advice()}") from None
+            status = _wait(process)
+            if status is None:
+                raise _failure(line, f"did not end within {PATIENCE:g} s", f". {compilers.advice()}")
         finally:
             _end(process)
         said.seek(0)
         return status, said.read().decode(errors="replace")
+
+
+def _wait(process: subprocess.Popen[bytes]) -> int | None:
+    """The status of a process at its end; None: it goes on for too long. `Popen.wait` with a limit sleeps for 50 ms at a time."""
+    waiting = threading.Thread(target=process.wait, daemon=True)
+    waiting.start()
+    waiting.join(PATIENCE)
+    return process.returncode
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:

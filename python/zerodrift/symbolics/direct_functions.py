@@ -14,10 +14,6 @@ from . import cache as kept
 from . import compiling
 from .plain import NAMED
 
-# Functions for one trajectory are one expression after the other, of which a compiler that looks for loops and vectors makes the
-# same in a third more time. Behind functions of vector units, one of GCC's expensive optimizations clears the upper halves of
-# registers; else all that follows them is several times as slow.
-QUICKLY = ("-O1", "-fexpensive-optimizations", "-fschedule-insns2")
 DIRECT = "zd_symbolic_direct"       # what they are called in their library
 NO_COMPILER = "there is no C compiler"      # why a system has none
 
@@ -100,7 +96,7 @@ class DirectFunctions:
 
     def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
         """The library of those for one trajectory and a vector unit; None: there are none."""
-        return self.library_of(f"ZD_SET_{vector.upper()}_1", QUICKLY)
+        return self.library_of(f"ZD_SET_{vector.upper()}_1", compiling.QUICKLY)
 
     def library_of(self, sets: str, optimized: tuple[str, ...] = compiling.OPTIMIZED) -> ctypes.CDLL | None:
         """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""
