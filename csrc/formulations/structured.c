@@ -11,20 +11,27 @@ zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static int factor_bodywise(zd_structured *self, zd_point *point)
-{
-    if (!self->bodywise) self->bodywise = zd_bodywise_create(point->rank->store, point);
-    return self->bodywise ? zd_bodywise_factor(self->bodywise, point) : ZD_NO_MEMORY;
-}
-
 /* A small pivot is told, and decides nothing: somewhere in a long chain there is one wherever the motion comes near a bifurcation. */
-static void note_pivot(const zd_coupling *coupling, const zd_point *point)
+static void note_pivot(const zd_weighted *weighted, double share, int smallest, const zd_point *point)
 {
     zd_statistics *statistics = point->statistics;
-    if (!statistics || (statistics->smallest_pivot > 0 && !(coupling->share < statistics->smallest_pivot))) return;
-    statistics->smallest_pivot = coupling->share;
+    if (!statistics || (statistics->smallest_pivot > 0 && !(share < statistics->smallest_pivot))) return;
+    statistics->smallest_pivot = share;
     statistics->smallest_pivot_time = point->t;
-    statistics->smallest_pivot_row = zd_weighted_row(coupling->weighted, coupling->smallest);
+    statistics->smallest_pivot_row = zd_weighted_row(weighted, smallest);
+}
+
+static int factor_bodywise(zd_structured *self, zd_point *point)
+{
+    zd_store *store = point->rank->store;
+    int status = zd_point_need(point, ZD_M | ZD_C);     /* a system's own products do without them */
+    if (status) return status;
+    if (!self->bodywise) self->bodywise = zd_bodywise_create(store, point);
+    if (!self->lookout && point->rank->left_out) self->lookout = zd_lookout_create(store, point);
+    if (!self->bodywise || (point->rank->left_out && !self->lookout)) return ZD_NO_MEMORY;
+    if (self->lookout && zd_lookout_look(self->lookout, point))
+        note_pivot(self->lookout->weighted, self->lookout->share, self->lookout->smallest, point);
+    return zd_bodywise_factor(self->bodywise, point);
 }
 
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
@@ -34,7 +41,7 @@ int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
     zd_rows_use_all(point);
     self->is_coupled = rank->most_rows == rank->m && rank->m <= rank->n;
     if (self->is_coupled) status = zd_coupling_factor(self->coupling, point);
-    if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS)) note_pivot(self->coupling, point);
+    if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS)) note_pivot(self->coupling->weighted, self->coupling->share, self->coupling->smallest, point);
     if (!status || (status == ZD_NOT_DEFINITE && inverts_mass) || (status != ZD_NOT_DEFINITE && status != ZD_DEPENDENT_ROWS)) return status;
     self->is_coupled = 0;
     return factor_bodywise(self, point);

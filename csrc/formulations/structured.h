@@ -5,10 +5,12 @@
 #include "../constraints/rank.h"
 #include "bodywise.h"
 #include "coupling.h"
+#include "lookout.h"
 
 typedef struct zd_structured {
     zd_coupling *coupling;
     zd_bodywise *bodywise;      /* where M is singular or rows follow from others; NULL until then */
+    zd_lookout *lookout;        /* beside that */
     int is_coupled;             /* which of the two was factored */
 } zd_structured;
 

@@ -320,6 +320,12 @@ zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products
     return zd_blocks_factor(self->blocks, NULL, 0);
 }
 
+zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const double *W, unsigned char *without)
+{
+    fill_S(self, C, W);
+    return zd_blocks_factor(self->blocks, without, -1);
+}
+
 int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
 {
     const zd_layout *layout = self->layout;

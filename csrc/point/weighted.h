@@ -48,6 +48,8 @@ const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_syst
 /* S(W) and its factors, from C or from these products. */
 zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W);
 zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W);
+/* The same without the rows that are noted in `without`, in the order of S. */
+zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const double *W, unsigned char *without);
 /* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
  * once those eliminated before are taken out. Returns how many rows of welds are left out in the place of such, or -1 where there is no
  * memory. */

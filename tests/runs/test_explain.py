@@ -111,7 +111,7 @@ def test_links_that_cannot_close(bar):
 
 
 def test_too_much_is_held(bar):
-    with pytest.raises(zd.CorrectionFailed, match=r"; rows \d '.*' and \d 'p.* is held' follow from the others, and may contradict them$"):
+    with pytest.raises(zd.CorrectionFailed, match=r"; rows \d '.*' and \d 'p.* is held' follow from the others, and may .*$"):
         zd.assemble(bar, bar.p0 + 0.1, hold=("alpha1", "alpha2", "alpha3"))
 
 

@@ -121,8 +121,8 @@ def simulate(
         least acceleration. Constraints that are redundant in every position are no bifurcation, and need no choice. Among the
         rows of a declared structure with more than 40 of them, or more than 300 velocities, bifurcations are not looked for,
         neither at the end of a step nor within it, and "continue" is as "stop": a run goes on through one as its numbers lead
-        it, and loses digits. Two things are told of them. A start at one is refused with that error. Later, where no row is
-        redundant and the mass matrix is definite, a warning and ``repr`` of the solution say where least was left of a row.
+        it, and loses digits. Two things are told of them. A start at one is refused with that error. Later, where the mass
+        matrix is definite, a warning and ``repr`` of the solution say where least was left of a row.
     direct : None or False
         None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
         constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve explicit

@@ -1,0 +1,50 @@
+/* In the metric of M^-1, pivots of S = C M^-1 C^T are the squares of what is left of each row once those before it are taken out; without the
+ * rows that were redundant at the start, all of them are positive but at a bifurcation. Nothing is solved with these factors.
+ */
+#include "lookout.h"
+
+#include "../point/mass.h"
+
+typedef struct plan {
+    const zd_point *point;
+    int rows;               /* of S */
+} plan;
+
+static void *take(zd_arena *arena, const void *of)
+{
+    const plan *it = of;
+    zd_lookout self = {
+        .W = zd_take_doubles(arena, (size_t)zd_size_of_M(it->point->system)),
+        .without = zd_take(arena, (size_t)it->rows),
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* Rows that were redundant at the start, in the order of S. */
+static void leave_out(zd_lookout *self, const zd_rank *rank)
+{
+    const zd_layout *layout = self->weighted->layout;
+    for (int g = 0; rank->left_out && g < layout->groups; g++)
+        for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++)
+            self->without[self->weighted->row[g] + k - layout->row_at[g]] = rank->left_out[k];
+}
+
+zd_lookout *zd_lookout_create(zd_store *store, const zd_point *point)
+{
+    zd_weighted *weighted = zd_weighted_create(store, point->layout);
+    if (!weighted) return NULL;
+    zd_lookout *self = zd_store_take(store, take, &(plan){point, weighted->blocks->rows});
+    if (!self) return NULL;
+    self->weighted = weighted;
+    leave_out(self, point->rank);
+    return self;
+}
+
+int zd_lookout_look(zd_lookout *self, const zd_point *point)
+{
+    if (zd_mass_factor(point, self->W) < point->system->nv) return 0;
+    const zd_pivots pivots = zd_weighted_factor_without(self->weighted, point->terms.C, self->W, self->without);
+    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
+    self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
+    return 1;
+}

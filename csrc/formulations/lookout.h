@@ -1,0 +1,22 @@
+/* How near a structure is to a bifurcation, where rows follow from others, so that it is solved body by body: what a pivot of C M^-1 C^T tells
+ * of those that do not. */
+#ifndef ZD_LOOKOUT_H
+#define ZD_LOOKOUT_H
+
+#include "../constraints/rank.h"
+#include "../point/weighted.h"
+
+typedef struct zd_lookout {
+    zd_weighted *weighted;      /* S(M^-1) */
+    double *W;                  /* stored as M is: M^-1, by its factors */
+    unsigned char *without;     /* (rows of S,): those that are left out */
+    double share;               /* of its diagonal entry: the smallest pivot where it was last looked */
+    int smallest;               /* where that is in the order of S */
+} zd_lookout;
+
+/* NULL where there is no memory. */
+zd_lookout *zd_lookout_create(zd_store *store, const zd_point *point);
+/* M and C are known at the point. Returns whether M is definite: else nothing is seen. */
+int zd_lookout_look(zd_lookout *self, const zd_point *point);
+
+#endif

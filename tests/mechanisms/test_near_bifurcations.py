@@ -1,0 +1,77 @@
+"""Rows of parallelograms that swing through the line in which all links lie: digits that are lost there are told, also where rows
+follow from others.
+"""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+ANGLE, SPEED = 0.0501, -1.0     # of all cranks where they begin: at 0.05 s they are a ten-thousandth from the line
+
+
+def parallelograms(count, doubled=0, angle=ANGLE, gravity=0.0):
+    """So many, in absolute coordinates, and velocities with which all cranks turn alike. Some first pins are there twice."""
+    m = zd.Mechanism(f"{count} parallelograms", gravity=(0, -gravity))
+    tip = np.array([np.cos(angle), np.sin(angle)])
+    feet = np.column_stack([np.arange(count + 1), np.zeros(count + 1)])
+    cranks = [m.link(f"crank{i}", foot, foot + tip, mass=1.0) for i, foot in enumerate(feet)]
+    for i, crank in enumerate(cranks):
+        m.revolute(f"A{i}", m.ground, crank.start)
+    for i in range(count):
+        bar = m.link(f"bar{i}", feet[i] + tip, feet[i + 1] + tip, mass=1.0)
+        m.revolute(f"B{i}", cranks[i].end, bar.start)
+        m.revolute(f"C{i}", bar.end, cranks[i + 1].end)
+    for i in range(doubled):
+        m.revolute(f"A{i} again", m.ground, cranks[i].start)
+    system, across = m.system("absolute"), SPEED * np.array([-tip[1], tip[0], 0])
+    v = np.concatenate([np.tile(across / 2 + [0, 0, SPEED], count + 1), np.tile(across, count)])
+    return system, v
+
+
+def swung(count, doubled=0):
+    """Through the line; how far the angles are off at the end."""
+    system, v = parallelograms(count, doubled)
+    with pytest.warns(zd.AccuracyWarning, match=r"at t = 0\.05, .* was left of constraint '[ABC]\d+.*\.[xy]' once") as told:
+        sol = zd.simulate(system, 0.1, None, v, step=1e-3)
+    assert len(told) == 1
+    assert "digits     lost near a bifurcation" in repr(sol)
+    return sol, np.abs(sol.p[-1, 2 : 3 * (count + 1) : 3] - (ANGLE + 0.1 * SPEED)).max()
+
+
+def test_long_chains_that_lose_digits_say_so():
+    """Of 200 in a row, beside the one angle that all cranks have: at first they agree and nothing is told, later both change."""
+    count = 200
+    weight, inertia = (count + 1) / 2 + count, (count + 1) / 3 + count      # of uniform cranks and couplers, 1 m, 1 kg
+    angle = zd.System(1, mass=np.eye(1), force=lambda p: -9.81 * weight / inertia * np.cos(p), p0=[np.pi / 2], v0=[SPEED])
+    swing = zd.simulate(angle, 3.5, step=1e-3, integrator="dop853")
+    system, v = parallelograms(count, angle=np.pi / 2, gravity=9.81)
+
+    def off(sol):
+        return np.abs(sol.p[-1, 2 : 3 * (count + 1) : 3] - swing.p[len(sol.t) - 1]).max()
+
+    early = zd.simulate(system, 1.0, None, v, step=1e-3)
+    assert off(early) < 1e-10
+    assert "digits" not in repr(early)
+    with pytest.warns(zd.AccuracyWarning, match=r"was left of constraint '[ABC]\d+\.[xy]' once others are eliminated"):
+        late = zd.simulate(system, 3.5, None, v, step=1e-3)
+    assert "digits     lost near a bifurcation" in repr(late)
+    assert off(late) > 100 * off(early)
+
+
+def test_small_pivots_are_watched_where_rows_follow_from_others():
+    """As much is left there as without the pins that are there twice, and the motion is the same."""
+    (plain, off), (doubled, off_too) = swung(14), swung(14, doubled=2)
+    assert doubled.stats["rank"] == plain.stats["rank"] == 86
+    assert doubled.stats["smallest_pivot"] == pytest.approx(plain.stats["smallest_pivot"], rel=1)   # orders of elimination differ
+    assert max(off, off_too) < 1e-10
+
+
+def test_a_mechanism_whose_rows_follow_from_others_moves_as_without_these():
+    """All of its joints are revolute, so that C is only evaluated because of these rows: it has to be that of the point."""
+    (plain, v), (doubled, _) = parallelograms(14), parallelograms(14, doubled=2)
+    v = 3 * v
+    one, other = (zd.simulate(system, 0.01, None, v, step=1e-3) for system in (plain, doubled))
+    assert np.abs(one.p - other.p).max() < 1e-12
+    assert np.abs(one.v - other.v).max() < 1e-11
+    assert np.abs(other.energy_violation).max() < 1e-10
