@@ -7,12 +7,12 @@ Steps are least in the mass metric.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
+from .many_bodies import LEAST_MASS, Target, are_met, least_velocities
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
 SMALLEST = 1e-3         # of the largest row, and of the length: what counts as the size of a smaller row
@@ -22,15 +22,7 @@ TRACKED = 0.1           # how far a target moves at once, in rad or parts of the
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
 NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
 RANK = 1e-9             # of the largest singular value: what counts as dependent
-
-
-class Target(NamedTuple):
-    """A component of a measure, and the value it shall have."""
-
-    name: str
-    measure: int
-    component: int
-    value: float
+MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
 
 
 class Assembly:
@@ -63,7 +55,7 @@ class Assembly:
         M = self.core.evaluate_stored(self.t, self.core.origin, np.zeros(self.core.nv))["M"]
         mass = (np.diag(M) if self.core.packing is None else M) * self.scale**2     # of free bodies the diagonal is stored
         largest = mass.max(initial=0.0) or 1.0
-        self.weight = np.sqrt(np.maximum(mass, 1e-6 * largest))
+        self.weight = np.sqrt(np.maximum(mass, LEAST_MASS * largest))
 
     def _moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Positions after a step in scaled coordinates."""
@@ -87,13 +79,20 @@ class Assembly:
 
     def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """Whether all rows and held targets are met."""
-        if not held:
+        if not held or self.is_of_many:
             stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
             Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
-            if np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length:
+            allowed = CLOSED * SMALLEST * self.length
+            if np.abs(Phi).max(initial=0.0) <= allowed and are_met(self.core, self.t, p, held, allowed):
                 return True     # whatever the sizes of the rows, for which their dense matrix would have to be made
         residual, _ = self._residual(p, held)
         return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
+
+    @property
+    def is_of_many(self) -> bool:
+        """Whether there are so many rows that the core solves with them, and no dense matrix is made."""
+        has_diagonal_mass = self.core.packing is not None and self.core.stored("M") == (self.core.nv,)
+        return has_diagonal_mass and max(self.core.nv, self.core.m) > MOST_DENSE
 
     def led_to(self, p: np.ndarray, held: Sequence[Target] = ()) -> np.ndarray:
         """From closed positions, as at another time, to those to which drives lead, and what is held."""
@@ -101,6 +100,9 @@ class Assembly:
 
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
+        if self.is_of_many:
+            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities start from positions as they are "
+                                    "drawn: draw the joints closed, and what is held where it is held; velocities are found")
         terms = self._evaluate(p)
         values = terms["Phi"][self.kept] if self.core.mh else np.zeros(0)
         rows = terms["C"][self.kept] if self.core.mh else np.zeros((0, self.core.nv))
@@ -320,6 +322,8 @@ class Assembly:
         """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
         if self._may_rest(p) and not held and not wished:
             return np.zeros(self.core.nv)
+        if self.is_of_many and not wished:
+            return least_velocities(self.core, self.t, p, held)
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from .._gateway import Variable
+from .._gateway.consistent import nearest_velocities, redundant_rows
 from .assembly import Assembly
 from .drawing import Drawing
 from .forces import Actuator, Motor
@@ -30,6 +33,9 @@ class Count(NamedTuple):
         Rows whose reactions are not determined because of that.
     singular : tuple of str
         Rows that follow from others in this pose alone.
+    is_of_many : bool
+        Whether there are so many rows that the core has decided which follow from others, and that it was not looked for which
+        reactions are not determined.
     """
 
     velocities: int
@@ -38,6 +44,7 @@ class Count(NamedTuple):
     redundant: tuple[str, ...]
     undetermined: tuple[str, ...]
     singular: tuple[str, ...]
+    is_of_many: bool = False
 
     @property
     def freedom(self) -> int:
@@ -55,6 +62,8 @@ def count(drawing: Drawing) -> Count:
     start = Starting(drawing, AS_GIVEN)
     tables = tables_of(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
     assembly, p = start.assembled(0.0)
+    if assembly.is_of_many:
+        return _count_of_many(tables, assembly, p)
     rows = assembly.scaled_rows(p)
     names = [variable.name for variable in row_names(tables, assembly.core)]
     here = dependent(rows)
@@ -64,6 +73,24 @@ def count(drawing: Drawing) -> Count:
     undetermined = np.flatnonzero(np.abs(left).max(axis=1, initial=0.0) > 1e-6)
     return Count(assembly.core.nv, len(rows), len(rows) - len(redundant), _named(names, redundant), _named(names, undetermined),
                  _named(names, here - there))
+
+
+def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
+    """By the core's decision, at a cost that follows the bodies; a pose that is singular is its error."""
+    core = assembly.core
+    named = _Named(row_names(tables, core))
+    core.name_rows(named)
+    v = nearest_velocities(core, assembly.t, p, np.zeros(core.nv))
+    redundant = redundant_rows(core, assembly.t, p, v)
+    names = [variable.name for variable in named.constraints]
+    return Count(core.nv, core.m, core.m - len(redundant), _named(names, set(redundant)), (), (), is_of_many=True)
+
+
+@dataclass(frozen=True)
+class _Named:
+    """Whoever has the names of rows for the core's errors."""
+
+    constraints: tuple[Variable, ...]
 
 
 def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ..errors import ZerodriftError
 from . import cost
 from .counting import Count, count
@@ -11,6 +13,8 @@ from .joints import Joint
 from .made_forces import MadeForce
 from .numbers import AS_GIVEN
 from .tables import Tables
+
+MOST_NAMED = 40         # of rows or loops
 
 
 def headline(drawing: Drawing) -> str:
@@ -34,6 +38,8 @@ def report(drawing: Drawing) -> str:
     except (ZerodriftError, ValueError) as error:
         return f"{headline(drawing)}\n it cannot start: {error}"
     lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
+    if counted.is_of_many and counted.redundant:
+        lines.append(" which reactions that leaves undetermined was not looked for among so many rows")
     if counted.undetermined:
         lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
     if counted.singular:
@@ -59,7 +65,7 @@ def _freedom(drawing: Drawing, counted: Count) -> str:
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}
     cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]
-    closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {', '.join(cuts)}" if cuts else "")
+    closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {_listed(cuts)}" if cuts else "")
     return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); joint coordinates {core.nv}{closing}; "
             f"absolute {counted.velocities}, {_several(counted.rows, 'row')}")
 
@@ -68,7 +74,14 @@ def _rows(counted: Count) -> str:
     if not counted.redundant:
         return "no redundant rows"
     follow = "follows" if len(counted.redundant) == 1 else "follow"
-    return f"{len(counted.redundant)} of {_several(counted.rows, 'row')} {follow} from others: {', '.join(counted.redundant)}"
+    return f"{len(counted.redundant)} of {_several(counted.rows, 'row')} {follow} from others: {_listed(counted.redundant)}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names, not all of many."""
+    if len(names) <= MOST_NAMED:
+        return ", ".join(names)
+    return f"{', '.join(names[:MOST_NAMED])} and {len(names) - MOST_NAMED} others"
 
 
 def _several(number: int, word: str, plural: str = "") -> str:
