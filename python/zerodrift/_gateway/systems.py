@@ -78,8 +78,8 @@ class CoreSystem(Measuring):
     def name_rows(self, system: Any) -> None:
         """Has the core tell of rows of C by the names that they have in a system whose core this is."""
         if self.row_names is None:
-            self.row_names = RowNames()
-            self.c.name_row, self.c.names = lib.zd_name_row_in_python, self.row_names.handle
+            names = self.__dict__.setdefault("row_names", RowNames())       # one, whichever thread comes first
+            self.c.name_row, self.c.names = lib.zd_name_row_in_python, names.handle
         self.row_names.take_from(system)
 
     def structure_count(self) -> float:
