@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -205,6 +206,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="processes of this system are not killed by signals")
 def test_a_cluster_whose_worker_is_killed(tmp_path):
     """Of processes on one machine: another takes its runs. What is in the store is what threads make, and is not made again."""
     pytest.importorskip("distributed", reason="needs dask's cluster: pip install 'zerodrift[cluster]'")

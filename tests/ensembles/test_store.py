@@ -50,6 +50,7 @@ zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 60)}, s
 """
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="processes of this system are not killed by signals")
 def test_a_killed_study_goes_on(tmp_path, monkeypatch):
     """With another number of runs in a chunk and of threads; nothing that was finished is made again."""
     folder, counted = tmp_path / "study", tmp_path / "counted"
