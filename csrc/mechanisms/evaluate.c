@@ -74,22 +74,12 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
-/* The weight of bodies that are free, on which nothing else acts */
-static void write_weight(const zd_mechanism *self, double *f)
-{
-    for (const zd_link *link = self->tree.link + 1; link <= self->tree.link + self->tree.bodies; link++) {
-        *f++ = link->mass * self->gravity.x;
-        *f++ = link->mass * self->gravity.y;
-        if (link->hang == ZD_HANGS_FREE) *f++ = 0;
-    }
-}
-
 /* What is known of packed terms without the bodies' poses. */
 static void write_packed(const zd_mechanism *self, const zd_frame *frame, int want, const double *p, const double *v, const zd_terms *out)
 {
     if (want & ZD_MOVED) zd_pins_turn(&self->packing->pins, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
-    if ((want & ZD_FORCE) && !self->efforts) write_weight(self, out->f);
+    if ((want & ZD_FORCE) && !self->efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
     zd_pins_write(&self->packing->pins, self, frame, want, p, v, out);
 }
 

@@ -20,7 +20,16 @@ static void times_C(const void *data, const zd_terms *terms, const double *x, do
     }
 }
 
-static int has_angle(const zd_pins *self, const zd_link *link) { return self->have_angles || link->hang == ZD_HANGS_FREE; }
+/* Of body i, which is looked at only where bodies differ. */
+static int has_angle(const zd_mechanism *mechanism, int i)
+{
+    return mechanism->packing->pins.have_angles || mechanism->tree.link[i].hang == ZD_HANGS_FREE;
+}
+
+static int coordinate_of(const zd_mechanism *mechanism, int i)
+{
+    return mechanism->packing->pins.have_angles ? 3 * (i - 1) : mechanism->tree.link[i].coordinate;
+}
 
 /* Of both ends of a pin, and of two ends that are on one side or not */
 static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
@@ -34,9 +43,9 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
     const zd_vector *arm = arms_in(terms->scratch);
     const int *end_at = self->end_at, *ends = self->end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
-        const zd_link *link = mechanism->tree.link + i;
-        const double *w = W + link->coordinate;
-        double *own = x + link->coordinate, forward = 0, upward = 0, torque = 0;
+        const int at_body = coordinate_of(mechanism, i);
+        const double *w = W + at_body;
+        double *own = x + at_body, forward = 0, upward = 0, torque = 0;
         for (const int last = end_at[i + 1]; k < last; k++) {
             const int end = ends[k];
             const double *of = y + place[end & ~1], sign = SIGN[end & 1], y0 = sign * of[0], y1 = sign * of[1];
@@ -46,7 +55,7 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
         }
         own[0] -= w[0] * forward;
         own[1] -= w[1] * upward;
-        if (has_angle(self, link)) own[2] -= w[2] * torque;
+        if (has_angle(mechanism, i)) own[2] -= w[2] * torque;
     }
 }
 
@@ -75,8 +84,7 @@ static void add_weighted(const void *data, const zd_terms *terms, const double *
     const zd_vector *arm = arms_in(terms->scratch);
     const int *end_at = self->end_at, *ends = self->end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
-        const zd_link *link = mechanism->tree.link + i;
-        const double w[] = {W[link->coordinate], W[link->coordinate + 1], has_angle(self, link) ? W[link->coordinate + 2] : 0};
+        const double *own = W + coordinate_of(mechanism, i), w[] = {own[0], own[1], has_angle(mechanism, i) ? own[2] : 0};
         for (const int first = k, last = end_at[i + 1]; k < last; k++) {
             const int end = ends[k];
             const zd_vector u = zd_times(w[2], arm[end]);

@@ -4,6 +4,7 @@
 void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
 {
 #define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+    TAKE(weight, 3 * bodies);
     TAKE(row, rows);
     TAKE(near, terms);
     TAKE(far, terms);
@@ -91,6 +92,16 @@ static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
     pins->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
 }
 
+static void plan_weight(zd_packing *self, const zd_mechanism *mechanism)
+{
+    double *f = self->weight;
+    for (const zd_link *link = mechanism->tree.link + 1; link <= mechanism->tree.link + mechanism->tree.bodies; link++) {
+        *f++ = link->mass * mechanism->gravity.x;
+        *f++ = link->mass * mechanism->gravity.y;
+        if (link->hang == ZD_HANGS_FREE) *f++ = 0;
+    }
+}
+
 int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
 {
     int bodies = mechanism->tree.bodies;
@@ -108,5 +119,6 @@ int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
         if (self->first[group] == self->first[group + 1]) return 0;
     }
     plan_pins(self, mechanism);
+    plan_weight(self, mechanism);
     return 1;
 }

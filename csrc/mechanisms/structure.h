@@ -8,6 +8,7 @@
 typedef struct zd_packing {
     zd_structure structure;
     int size_of_C;          /* entries that are stored */
+    double *weight;         /* (nv,) f of (2), where nothing else acts */
     int *row;               /* (m,) where each row begins in C */
     int *near, *far;        /* (terms,) where in a row the entries of its first and second body begin; -1: it is the ground */
     zd_pins pins;
