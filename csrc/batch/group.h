@@ -20,6 +20,7 @@ typedef struct zd_lane_group {
     const zd_single *own;
     const zd_lane_functions *functions;
     zd_run *run;            /* looks at starts and at ends */
+    void *start;            /* its memory for that */
     zd_lanes lanes;
     zd_lane_run run_of[ZD_MOST_LANES];
     int64_t next, active;   /* the run that begins next; how many are in lanes */

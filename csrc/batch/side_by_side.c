@@ -41,6 +41,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
         .functions = zd_lane_functions_of(system, batch->settings->vector, &direct),
+        .start = zd_take(arena, zd_run_start_memory(run)),
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .C = zd_take_doubles(arena, rows),
@@ -61,7 +62,7 @@ static int find_next(zd_lane_group *self)
         const int64_t number = self->next++;
         const zd_system system = zd_single_system(batch, number);
         int status = zd_single_start(batch, &system, self->own, number);
-        if (!status) status = zd_run_start_elsewhere(self->run, system.data, self->own->p, self->own->v);
+        if (!status) status = zd_run_start_elsewhere(self->run, self->start, system.data, self->own->p, self->own->v);
         if (!status) return 1;
         zd_single_run(batch, self->own, number);
     }

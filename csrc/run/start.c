@@ -273,18 +273,20 @@ static void forget(zd_run *run, const void *data)
     for (int i = 0; i < road->direct->orders * motion->system.nv; i++) road->scale[i] = 0;
 }
 
-int zd_run_start_elsewhere(zd_run *run, const void *data, const double *p0, const double *v0)
+size_t zd_run_start_memory(const zd_run *run)
 {
     zd_arena arena = {NULL, 0};
-    forget(run, data);
     lay_out(&arena, &run->motion);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
-    if (!arena.base) return ZD_NO_MEMORY;
+    return arena.used;
+}
+
+int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0)
+{
+    zd_arena arena = {memory, 0};
     const workspace work = lay_out(&arena, &run->motion);
+    forget(run, data);
     int status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
-    if (!status) status = check_elsewhere(run, &work, p0, v0);
-    zd_release(arena.base);
-    return status;
+    return status ? status : check_elsewhere(run, &work, p0, v0);
 }
 
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)

@@ -8,6 +8,7 @@
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0);
 /* The same for a run that has direct functions and is not to be advanced: from another start, with other data, whose units, energy, order of
  * elimination, acceleration and first step it has then. Where the start is not one that direct functions can begin with, that is a status, too. */
-int zd_run_start_elsewhere(zd_run *run, const void *data, const double *p0, const double *v0);
+size_t zd_run_start_memory(const zd_run *run);      /* bytes that this needs meanwhile */
+int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0);
 
 #endif

@@ -162,3 +162,25 @@ def test_parameters_vary_from_lane_to_lane():
                  "position_violation"):
         assert np.abs(getattr(kept, name) - getattr(sol, name)).max() < 1e-9, name
     assert np.array_equal(kept.position_size, sol.position_size)
+
+
+def test_symbolic_systems_have_lanes_of_their_own():
+    """Two rods of a compound pendulum whose masses vary, one of them springy."""
+    import sympy as sp
+    from sympy.physics.mechanics import dynamicsymbols
+
+    x, y, s = dynamicsymbols("x y s")
+    L, m, g, c = sp.symbols("L m g c", positive=True)
+    t = dynamicsymbols._t
+    system = zd.symbolic([x, y, s], kinetic=m * (x.diff(t)**2 + y.diff(t)**2 + s.diff(t)**2) / 2, name="springy",
+                         potential=m * g * y + c * s**2 / 2 + c * x * s**2, constraints={"rod": x**2 + y**2 - L**2},
+                         parameters={L: 1.0, m: 1.0, g: 9.81, c: 2.0}, p0=[0.6, -0.8, 0.1], v0=[0.0, 0.0, 0.0])
+    masses, lengths = np.linspace(0.5, 2.0, 9), np.linspace(0.9, 1.1, 9)
+    ens = zd.ensemble(system, 0.5, parameters={"m": masses, "L": lengths}, step=0.01, outputs=["x", "s"])
+    assert "9 in vector lanes" in repr(ens)
+    for run in (0, 8):
+        own = system.with_parameters(m=masses[run], L=lengths[run])
+        sol = zd.simulate(own, 0.5, *zd.assemble(own, own.p0, own.v0), step=0.01)
+        for name in ("x", "s"):
+            assert np.abs(ens[name][run] - sol[name]).max() < 1e-12
+    assert np.array_equal(ens["s"][4], ens[4]["s"])

@@ -84,7 +84,9 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
         members["stop"] = stop.c
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
         raise MemoryError(f"there is no memory for the {capacity} rows of a run")
-    return BatchResults(columns, **of_runs, messages=[each.tobytes().partition(b"\0")[0].decode() for each in messages])
+    said = zip(messages, of_runs["status"].tolist(), strict=True)
+    return BatchResults(columns, **of_runs, messages=[each.tobytes().partition(b"\0")[0].decode() if status else ""
+                                                        for each, status in said])
 
 
 def error_name(status: int) -> str:

@@ -58,6 +58,19 @@ class NativeCore(CoreSystem):
         other._data = (*other._data, keep)
         return other
 
+    def with_lanes(self, address: int, keep: Any) -> NativeCore:
+        """The same system with one `zd_direct` more, at `address`, behind the one that it has; not where that is for one
+        trajectory, too, as with compilers that have no vectors.
+        """
+        more = ffi.cast("const zd_direct *", address)
+        if more.lanes == 1:
+            return self
+        other, both = copy.copy(self), ffi.new("zd_direct[]", [self.c.direct[0], more[0]])
+        other.c = ffi.new("zd_system *", self.c[0])
+        other.c.direct, other.c.directs = both, 2
+        other._data = (*self._data, both, keep)
+        return other
+
 
 def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     """What a compiled evaluation does wrong at (0, p, v), as a sentence; nothing where it is right.

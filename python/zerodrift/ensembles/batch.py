@@ -56,8 +56,9 @@ def _batch(plan: Plan) -> Batch | None:
     if found.rows is None:
         return None
     takes_direct = _gateway.takes_direct(core_of(system), found.options)
-    return Batch(system, found.options, found.rows, columns,
-                 (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None,
+    direct = (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None
+    system._number_tables(runs.parameters_from(0, 1), 1, direct)    # what has to be compiled is compiled here, once
+    return Batch(system, found.options, found.rows, columns, direct,
                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen)
 
 
@@ -138,6 +139,8 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:
     """What happened to each run; to one that did not begin, as its error says it."""
+    if not (made.status.any() or tables.refused):
+        return ["done"] * len(made.status)
     said = []
     for run, (status, way, message) in enumerate(zip(made.status.tolist(), made.way.tolist(), made.messages, strict=True)):
         if run in tables.refused:

@@ -14,6 +14,7 @@ from . import cache as kept
 from . import compiling
 from .plain import NAMED
 
+LANES = {"baseline": 2, "avx2": 4, "avx512": 8}
 DIRECT = "zd_symbolic_direct"       # what they are called in their library
 NO_COMPILER = "there is no C compiler"      # why a system has none
 
@@ -97,6 +98,10 @@ class DirectFunctions:
     def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
         """The library of those for one trajectory and a vector unit; None: there are none."""
         return self.library_of(f"ZD_SET_{vector.upper()}_1", compiling.QUICKLY)
+
+    def library_in_lanes(self, vector: str) -> ctypes.CDLL | None:
+        """The library of those for as many trajectories at once as the vector unit has lanes; None: there are none."""
+        return self.library_of(f"ZD_SET_{vector.upper()}_{LANES[vector]}")
 
     def library_of(self, sets: str, optimized: tuple[str, ...] = compiling.OPTIMIZED) -> ctypes.CDLL | None:
         """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""

@@ -114,6 +114,12 @@ class SymbolicSystem(BaseSystem):
     def _functions(self, embeds: bool) -> DirectFunctions:
         return self._direct.embedding if embeds else self._direct
 
+    def _core_in_lanes(self, vector: str, embeds: bool) -> _gateway.CoreSystem:
+        """The same with functions for several trajectories at once, too, which do not embed."""
+        core = self._direct_core(vector, embeds)
+        library = None if embeds or core is self._core else self._direct.library_in_lanes(vector)
+        return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
+
     def _with_direct_data(self, library: ctypes.CDLL, functions: DirectFunctions) -> np.ndarray:
         """The same with the constants of the direct functions behind them."""
         data = np.concatenate([self._data(), np.zeros(functions.constants)])
@@ -122,12 +128,12 @@ class SymbolicSystem(BaseSystem):
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
                        direct: tuple[str, bool] | None = None) -> NumberTables | None:
-        if not parameters or not self.compiled:
+        if not self.compiled:
             return super()._number_tables(parameters, count, direct)
         if any(each.ndim > 1 for each in parameters.values()):
             return None
         vector, embeds = direct or ("", False)
-        core, functions = self._direct_core(vector, embeds) if direct else self._core, self._functions(embeds)
+        core, functions = self._core_in_lanes(vector, embeds) if direct else self._core, self._functions(embeds)
         library = self._library if core is self._core else functions.library(vector)
         further = 0 if library is self._library else functions.constants
         data = np.zeros((count, len(self._values) + self._code.constants + 1 + further))

@@ -1,0 +1,169 @@
+"""What runs cost that go side by side in vector lanes: beside a step by hand in the same lanes, beside heyoka.py's batches of
+eight, and what a run takes beyond its steps.
+
+Run it with ``python tests/bench/bench_lanes.py``; it needs a C compiler, and heyoka.py for the rows beside that. It writes
+``results/lanes.csv``. All but the row of threads is processor time of one thread, least of interleaved rounds, of ensembles of
+the paper's four-bar over 8 s whose speeds differ.
+"""
+
+import ctypes
+import functools
+import itertools
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+import zerodrift as zd
+from measuring import least, record
+from zerodrift.ensembles.batch import batch_of, batch_range
+from zerodrift.ensembles.plan import checked
+from zerodrift.ensembles.runs import Runs
+from zerodrift.ensembles.threads import Threads
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
+FLAGS = {"avx2": ["-mavx2", "-mfma", "-DLANES=4"], "avx512": ["-mavx512f", "-mavx512dq", "-mavx512vl", "-mfma", "-DLANES=8",
+                                                              "-mprefer-vector-width=512"]}
+LANES = {"avx2": 4, "avx512": 8}
+RUNS, STEPS, STEP, END = 1024, 800, 0.01, 8.0
+RTOLS = {1e-6: 10.0 ** -np.arange(7, 8.6, 0.25), 1e-9: 10.0 ** -np.arange(10, 12.6, 0.25)}
+ROUNDS = 9
+BAR = zd.systems.four_bar()
+SPEEDS = np.linspace(0.9, 1.1, RUNS)
+
+
+def cpu(call):
+    """A callable that gives the processor's seconds of another."""
+    def seconds():
+        start = time.process_time()
+        call()
+        return time.process_time() - start
+    return seconds
+
+
+def runs(end=END, count=RUNS, outputs=("alpha1", "alpha2", "alpha3"), **options):
+    """A callable that makes all of them in this thread, and gives what came of them."""
+    made = Runs(BAR, None, None, SPEEDS[:count, None] * BAR.v0, None, (), assembles=True)
+    plan = checked(made, end, {"t_eval": [end], **options}, list(outputs), None, keeps=False)
+    return functools.partial(batch_range, plan, batch_of(plan), 0, count, None)
+
+
+def floor(folder, unit):
+    """The yardstick's steps, for as many runs."""
+    library, n = Path(folder) / f"{unit}.so", LANES[unit]
+    source = Path(__file__).with_name("four_bar_lanes_floor.c")
+    subprocess.run(["cc", "-O3", "-std=gnu11", *FLAGS[unit], "-fno-math-errno", "-shared", "-fPIC", "-o", library, source],
+                   check=True)
+    call, pointer = ctypes.CDLL(str(library)).floor_in_lanes, np.ctypeslib.ndpointer(float, flags="C")
+    call.argtypes, call.restype = [ctypes.c_int, ctypes.c_int, ctypes.c_double, pointer, pointer], None
+    speeds = SPEEDS.reshape(-1, 1, n)
+
+    def steps():
+        p, v = (np.ascontiguousarray(each) for each in (np.broadcast_to(BAR.p0[:, None], (RUNS // n, 3, n)),
+                                                        speeds * BAR.v0[:, None]))
+        call(RUNS // n, STEPS, STEP, p, v)
+        return p[:, 0, :].ravel()
+    return steps
+
+
+def steps_of_fixed_size():
+    """Rows: a step in lanes, by hand and here, and what a run takes besides."""
+    with tempfile.TemporaryDirectory() as folder:
+        units = [unit for unit in FLAGS if unit in ("avx2", zd.simulate(BAR, STEP, step=STEP).settings["vector"])]
+        calls = {}
+        for unit in units:
+            calls[unit, "by hand"] = floor(folder, unit)
+            calls[unit, "here"] = runs(step=STEP, vector=unit)
+            calls[unit, "short"] = runs(4 * STEP, step=STEP, vector=unit)
+            calls[unit, "alone"] = runs(4 * STEP, step=STEP, vector=unit, stabilization=zd.Projection(every=2))
+            apart = np.abs(calls[unit, "here"]().arrays["alpha1"] - calls[unit, "by hand"]()).max()
+            assert apart < 1e-7, apart
+        times = dict(zip(calls, least(ROUNDS, *map(cpu, calls.values())), strict=True))
+    for unit in units:
+        hand, here, short, alone = (times[unit, what] / RUNS for what in ("by hand", "here", "short", "alone"))
+        step = (here - short) / (STEPS - 4)
+        yield f"{unit}: a corrected step of rk4 by hand in {LANES[unit]} lanes", 1e9 * hand / STEPS, "ns", None
+        yield f"{unit}: the same here", 1e9 * step, "ns", None
+        yield f"{unit}: its rate to that by hand (at least 0.6)", hand / STEPS / step, "", None
+        yield f"{unit}: a run beyond its steps, in lanes", 1e6 * (short - 4 * step), "us", 1
+        yield f"{unit}: a run of four steps by itself", 1e6 * alone, "us", None
+
+
+def error_of(values, exact):
+    return np.abs(np.asarray(values) - exact).max()
+
+
+def fastest(options, solve, exact, target):
+    """Of settings that keep to the target, that which takes least."""
+    kept = [option for option in options if error_of(solve(option), exact) <= target]
+    times = least(3, *(cpu(functools.partial(solve, option)) for option in kept))
+    return kept[int(np.argmin(times))]
+
+
+def solved(option):
+    integrator, rtol = option
+    part = runs(integrator=integrator, rtol=rtol, atol=rtol)()
+    return np.stack([part.arrays[f"alpha{i}"] for i in (1, 2, 3)])
+
+
+def heyoka_batches():
+    """A function of the tolerance: angles at the end (3, RUNS)."""
+    import heyoka as hy
+    import problems
+    import with_heyoka
+
+    system, start = with_heyoka._reduced(problems.four_bar())
+    start = np.array(start)
+
+    @functools.cache
+    def integrator(tolerance):
+        return hy.taylor_adaptive_batch(system, np.zeros((len(start), 8)), tol=tolerance)
+
+    def solve(tolerance):
+        ta, found = integrator(tolerance), np.empty((3, RUNS))
+        for first in range(0, RUNS, 8):
+            ta.set_time(0.0)
+            ta.state[:3] = start[:3, None]
+            ta.state[3:] = start[3:, None] * SPEEDS[first:first + 8]
+            ta.propagate_until([END] * 8)
+            found[:, first:first + 8] = ta.state[:3]
+        return found
+    return solve
+
+
+def chosen_steps():
+    """Rows: runs per second to a largest error of all angles, here and by heyoka.py's batches."""
+    exact = solved(("dop853", 1e-13))
+    solve = heyoka_batches()
+    for target, rtols in RTOLS.items():
+        ours = fastest([*itertools.product(("dop853",), rtols)], solved, exact, target)
+        theirs = fastest(10.0 ** -np.arange(4, 14, 0.5), solve, exact, target)
+        here, there = least(ROUNDS, cpu(functools.partial(solved, ours)), cpu(functools.partial(solve, theirs)))
+        yield f"to {target:g}: runs a second, here ({ours[0]}, rtol = {ours[1]:.1e})", RUNS / here, "1/s", None
+        yield f"to {target:g}: heyoka.py in batches of 8 (tol = {theirs:.1e})", RUNS / there, "1/s", None
+        yield f"to {target:g}: ours to theirs (at least 1)", there / here, "", None
+
+
+def both_threads():
+    """Row: how much faster two threads make them than one; of wall time, so that other work shows."""
+    def by(threads):
+        plan = checked(Runs(BAR, None, None, np.tile(SPEEDS, 4)[:, None] * BAR.v0, None, (), assembles=True), END,
+                       {"t_eval": [END], "step": STEP}, ["alpha1"], None, keeps=False)
+        ranges = ((first, first + 64) for first in range(0, 4 * RUNS, 64))
+        start = time.perf_counter()
+        Threads(plan, ranges, lambda first, part: None).run(threads, lambda: None)
+        return time.perf_counter() - start
+    one, two = least(ROUNDS, functools.partial(by, 1), functools.partial(by, 2))
+    yield "two threads to one (at least 1.8, on two free cores)", one / two, "", None
+
+
+if __name__ == "__main__":
+    rows = [*steps_of_fixed_size(), *both_threads()]
+    try:
+        rows += chosen_steps()
+    except ImportError as error:
+        print(f"without heyoka.py: {error}")
+    record("lanes", rows, ("what", "value", "unit", "at most"))
