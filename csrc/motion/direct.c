@@ -161,6 +161,7 @@ void zd_direct_leave(zd_motion *motion)
 void zd_direct_remember_energy(zd_motion *motion)
 {
     motion->road.energy_skipped = motion->statistics.energy_skipped;
+    motion->road.energy_corrections = motion->statistics.energy_corrections;
     motion->road.energy_corrected = motion->statistics.energy_corrected;
     motion->road.skipped_since_row = motion->tally->energy_skipped;
 }
@@ -168,6 +169,7 @@ void zd_direct_remember_energy(zd_motion *motion)
 void zd_direct_forget_energy(zd_motion *motion)
 {
     motion->statistics.energy_skipped = motion->road.energy_skipped;
+    motion->statistics.energy_corrections = motion->road.energy_corrections;
     motion->statistics.energy_corrected = motion->road.energy_corrected;
     motion->tally->energy_skipped = motion->road.skipped_since_row;
 }

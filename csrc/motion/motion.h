@@ -82,6 +82,7 @@ typedef struct zd_road {
     double *allowed;        /* (mh,): of Phi, so that the projection's tolerance is kept */
     int lands;              /* whether what ends a step is one function: its acceleration is then that of the end */
     int64_t energy_skipped; /* where the step began, as the statistics have them: a step that leaves the road is made again */
+    int64_t energy_corrections;
     double energy_corrected;
     int skipped_since_row;
     double power;           /* W: at the point, of a system with energy input */
