@@ -26,7 +26,7 @@ def few(monkeypatch):
 @pytest.mark.parametrize(("make", "held"), [
     (four_bars, {}), (doubled, {}), (star, {"link3.angular_velocity": 2.0}), (chain, {}),
     (chain, {"link3.angular_velocity": 1.0, "link7.end.velocity.y": -0.2, "pin5.speed": 0.5}),
-    (chain, {"link2.angle": 0.0, "link4.angular_velocity": 1.0})], ids=str)
+    (chain, {"link2.angle": 0.0, "link4.angular_velocity": 1.0})], ids=lambda given: getattr(given, "__name__", str(given)))
 def test_velocities_that_are_held(make, held, few):
     """The least that all rows allow, in the mass metric."""
     m = make(9)
