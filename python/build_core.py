@@ -37,7 +37,7 @@ def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
     names = ("include/zerodrift/system.h", "joints/joint.h", "mechanisms/link.h", "mechanisms/mechanism.h",
              "space_joints/joint.h", "space/tables.h", "zerodrift.h", "python/interface.h")
-    headers = "".join((ROOT / "csrc" / name).read_text() for name in names)
+    headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)
     return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')
 
@@ -48,14 +48,23 @@ def preprocessed(text: str) -> str:
     customize_compiler(compiler)
     with tempfile.TemporaryDirectory() as folder:
         source, result = Path(folder, "headers.c"), Path(folder, "headers.i")
-        source.write_text(text)
+        source.write_text(text, encoding="utf-8")
         before = logging.root.manager.disable
         logging.disable(logging.INFO)       # distutils tells every command, and asks nobody for -q before there is a build
         try:
-            compiler.preprocess(str(source), str(result))
+            preprocess(compiler, str(source), str(result))
         finally:
             logging.disable(before)
-        return re.sub(r"^#.*$", "", result.read_text(), flags=re.MULTILINE)
+        return re.sub(r"^#.*$", "", result.read_text(encoding="utf-8"), flags=re.MULTILINE)
+
+
+def preprocess(compiler, source: str, result: str):
+    """As the compiler itself does it: setuptools knows how only for those that take Unix's options."""
+    if compiler.compiler_type != "msvc":
+        compiler.preprocess(source, result)
+        return
+    compiler.initialize()       # looks for cl.exe
+    compiler.spawn([compiler.cc, "/nologo", "/std:c11", "/utf-8", "/EP", "/P", f"/Fi{result}", source])
 
 
 ffibuilder = FFI()
