@@ -117,7 +117,7 @@ typedef struct zd_settings {
     zd_given correction[ZD_CORRECTIONS_MAX];        /* of each row of the table */
     enum zd_on_singular on_singular;
     int direct;                     /* whether direct functions are taken where the system brings any and they serve, */
-    enum zd_unit vector;            /* and the last vector unit that these may use, and eliminations of blocks */
+    enum zd_unit vector;            /* and the last vector unit that these may use */
     int given_jacobian;             /* whether somebody wrote C and Phi_t down beside Phi: they are then compared now and then */
 } zd_settings;
 

@@ -109,7 +109,6 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     zd_pivots pivots;
     if (!self->weighted) self->weighted = zd_weighted_create(point->rank->store, point->layout);
     if (!self->weighted) return ZD_NO_MEMORY;
-    self->weighted->blocks->unit = point->vector;
     self->layout = point->layout;
     self->C = point->terms.C;
     self->products = zd_weighted_products(self->weighted, point->system);

@@ -2,7 +2,6 @@
 #ifndef ZD_BLOCKS_H
 #define ZD_BLOCKS_H
 
-#include "../include/zerodrift/system.h"
 #include "../workspace.h"
 #include "ordering.h"
 
@@ -22,7 +21,6 @@ typedef struct zd_blocks {
     double *diagonal;       /* (rows,): of S before that */
     double *product;        /* room for one block */
     double *x;              /* (rows,) */
-    enum zd_unit unit;      /* the last vector unit that may be used; bits are the same with any */
 } zd_blocks;
 
 /* How far from singular the matrix was found. */

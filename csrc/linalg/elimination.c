@@ -11,7 +11,6 @@
 #include <math.h>
 
 #include "blocks.h"
-#include "elimination_on_avx2.h"
 #include "pivot.h"
 
 /* kernel(n, is_same, is_whole, ...), with sizes known to the compiler for which that is worth it */
@@ -165,8 +164,7 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
     zd_pivots pivots = {-1, 0, 1, 1};
     if (self->uniform && !left_out) {
         FOR_SIZE(keep_diagonals, self->uniform, 1, self)
-        if (zd_is_on_avx2(self)) zd_eliminate_on_avx2(self, &pivots);
-        else FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
+        FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
         return pivots;
     }
     keep_diagonals_of_any(self);
@@ -247,8 +245,7 @@ ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, con
 void zd_blocks_solve(const zd_blocks *self, double *x)
 {
     if (self->uniform) {
-        if (zd_is_on_avx2(self)) zd_solve_on_avx2(self, x);
-        else if (self->uniform == 2) solve_two(self, x);
+        if (self->uniform == 2) solve_two(self, x);
         else FOR_SIZE(solve_all, self->uniform, 1, self, x)
         return;
     }

@@ -35,7 +35,6 @@ typedef struct zd_point {
     double *inverse_size;       /* (m,): 1 / size */
     int measured;           /* whether these are known */
     int failed_index, failed_column;    /* the coordinate or row that a failed factorization names; of an asymmetric M, the column, too */
-    enum zd_unit vector;    /* the last vector unit that eliminations of blocks may use: their bits are the same with any */
     double residual_left;   /* what a failed iteration was left with */
 } zd_point;
 

@@ -73,6 +73,7 @@ def test_functions_that_cannot_travel_are_named(monkeypatch, processes):
         zd.ensemble(zd.systems.oscillator(), 1.0, executor=processes, step=0.1, hold=threading.Lock())
     monkeypatch.setattr(lowest, "__module__", "__main__")
     monkeypatch.setattr(sys.modules["__main__"], "lowest", lowest, raising=False)
+    monkeypatch.setattr(sys.modules["__main__"], "__file__", __file__, raising=False)   # pytest's own workers have none
     with pytest.raises(TypeError, match="lowest of __main__"):
         transport.packed(lowest)
     assert transport.unpacked(transport.packed(lowest, shares_main=True)) is lowest

@@ -8,7 +8,6 @@ import symbolic_counterparts
 import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
-from structured import four_bars
 from zerodrift.runs import settings
 
 UNITS = settings.VECTOR_UNITS[: lib.zd_processor_unit() + 1]
@@ -83,11 +82,3 @@ def test_solutions_of_before_used_none():
 def test_all_other_roads_have_the_same_bits_with_all_units():
     general = [run("built in", direct=False, vector=vector).p for vector in UNITS]
     assert all(np.array_equal(each, general[0]) for each in general)
-
-
-@pytest.mark.parametrize("bars", [2, 14], ids=["few rows", "many rows"])
-def test_eliminations_of_blocks_have_the_same_bits_with_all_of_them(bars):
-    baseline, *others = (zd.simulate(four_bars(bars).system(), 1.0, step=0.01, vector=vector) for vector in UNITS)
-    for sol in others:
-        assert np.array_equal(sol.p, baseline.p)
-        assert np.array_equal(sol.multipliers, baseline.multipliers)

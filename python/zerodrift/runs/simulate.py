@@ -134,8 +134,7 @@ def simulate(
     vector : {"baseline", "avx2", "avx512"}, optional
         The vector unit that direct functions may use. Left out: what the environment variable ZERODRIFT_VECTOR says, else the
         last that the processor has. With "baseline", all processors give the same bits; the units round less often, give the
-        same bits among each other, and shorten whole runs of a four-bar by 13 to 21 %. Eliminations of many joints in the plane
-        use AVX2, too, with the same bits as without.
+        same bits among each other, and shorten whole runs of a four-bar by 13 to 21 %.
     on_failure : {"raise", "return"}
         Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
         or returns that solution, whose `success` is then False.
