@@ -19,7 +19,7 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { MAX_ITERATIONS = 40 };
+enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* by a tenth each, the latter leave BALANCED of all */
 static const double WEIGHT = 0x1p25;            /* of a row in units of what its bodies have as mass in it */
 static const double BALANCED = 0x1p-36;         /* of the terms of the equations: the reactions are found */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
@@ -202,7 +202,7 @@ static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const doubl
 {
     double before = INFINITY, left = INFINITY;
     memset(self->lambda, 0, (size_t)zd_constraints(self->point->system) * sizeof *self->lambda);
-    for (int i = 0; i < MAX_ITERATIONS; i++) {
+    for (int i = 0; i < MAX_FOR_MULTIPLIERS; i++) {
         left = find_unbalanced(self, force, x);
         if (!(left > ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
         before = left;

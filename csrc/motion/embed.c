@@ -93,7 +93,7 @@ static void predict(const zd_motion *motion, double t, double *p)
 {
     const zd_point *point = motion->point;
     const double h = t - point->t, half = point->known & ZD_ACCELERATED ? h / 2 : 0;
-    for (int i = 0; i < point->system->nq; i++) p[i] = point->p[i] + h * (point->v[i] + half * (half ? point->vdot[i] : 0));
+    for (int i = 0; i < point->system->nq; i++) p[i] = point->p[i] + h * (point->v[i] + half * (half != 0 ? point->vdot[i] : 0));
 }
 
 void zd_embed_read(zd_motion *motion, double t, const double *y)
