@@ -12,7 +12,7 @@ typedef struct zd_lane_run {    /* in a lane */
     int64_t next;           /* of t_eval */
     double kinetic, energy; /* J: at its start; the energy without what has come in since */
     double *C;              /* (m, nv): in natural units, at the end of the step */
-    double number_of_C;     /* whose number this is; -1: of none */
+    double number_of_C;     /* the step at whose end C was evaluated; -1: not yet */
 } zd_lane_run;
 
 typedef struct zd_lane_group {
@@ -28,7 +28,7 @@ typedef struct zd_lane_group {
     zd_terms terms;         /* of the system, for C alone */
 } zd_lane_group;
 
-/* lanes.c: lays out the lanes of a run; done twice as ever. */
+/* lanes.c: lays out the lanes of a run. Called twice: the first time only counts the memory. */
 void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
                    int64_t doubles);
 /* The functions for the unit, and those of the system that go with them; NULL: there are none. */

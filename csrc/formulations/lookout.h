@@ -1,5 +1,5 @@
-/* How near a structure is to a bifurcation, where rows follow from others, so that it is solved body by body: what a pivot of C M^-1 C^T tells
- * of those that do not. */
+/* How near a structure with redundant rows is to a bifurcation. Such a structure is solved by bodywise.c, which has no pivots of rows; so
+ * C M^-1 C^T of its independent rows alone is factored here, and a small pivot tells. */
 #ifndef ZD_LOOKOUT_H
 #define ZD_LOOKOUT_H
 
