@@ -12,23 +12,17 @@
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
-    int *number, *row_of_relation, *angle;
+    int *number, *angle;
     zd_link *link;
     zd_joint *joint;
     zd_planned_joint *planned;
     zd_gauge *gauge;
-    zd_gauge_term *term;
-    double *coefficient;
-    zd_relation *row;
-    zd_row_owner *owner_of_row;
-    zd_effort *effort;
-    zd_observed *observed;
-    zd_measure *measure;
     zd_coordinate_owner *coordinate;
     int *lengths;
     zd_packing *packing;
     zd_hinged hinged;
-    int gauges, terms, rows, angles;        /* so many are there by now */
+    zd_use_parts uses;
+    int gauges, angles;     /* so many are there by now */
 } parts;
 
 /* ---- memory ---- */
@@ -45,35 +39,28 @@ static size_t most_rows(const zd_tables *tables)
 {
     int joints = tables->joints;
     for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].carrier >= 0;
-    return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->relations;
+    return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->uses.relations;
 }
 
 static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
 {
     size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints;
-    size_t extra = joints * (ZD_JOINT_ROWS + 1), rows = joints * ZD_JOINT_ROWS + (size_t)tables->relations;
+    size_t extra = joints * (ZD_JOINT_ROWS + 1), rows = joints * ZD_JOINT_ROWS;
 #define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
     TAKE(number, bodies + 1);
-    TAKE(row_of_relation, (size_t)tables->relations);
     TAKE(link, bodies + 1);
     TAKE(angle, bodies);
     TAKE(joint, joints);
     TAKE(planned, joints);
     TAKE(gauge, (size_t)tables->gauges + extra);
-    TAKE(term, (size_t)tables->terms + extra);
-    TAKE(coefficient, (size_t)tables->terms + extra);
-    TAKE(row, rows);
-    TAKE(owner_of_row, rows);
-    TAKE(effort, (size_t)tables->efforts);
-    TAKE(observed, (size_t)tables->measures);
-    TAKE(measure, (size_t)tables->measures);
     TAKE(coordinate, 3 * bodies);
     TAKE(lengths, 6 * bodies);
     TAKE(packing, 1);
 #undef TAKE
-    zd_packing none = {.size_of_C = 0};
+    zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
+    zd_packing none = {.weight = NULL};
     zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
-    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows, (size_t)tables->terms + extra);
+    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->uses.relations, (size_t)tables->uses.terms + extra);
 }
 
 /* ---- the tree ---- */
@@ -187,12 +174,7 @@ static void copy_gauges(const zd_tables *tables, parts *to)
         to->gauge[i].first = to->number[tables->gauge[i].first];
         to->gauge[i].second = to->number[tables->gauge[i].second];
     }
-    for (int i = 0; i < tables->terms; i++) {
-        to->term[i] = tables->term[i];
-        to->coefficient[i] = tables->term[i].coefficient;
-    }
     to->gauges = tables->gauges;
-    to->terms = tables->terms;
 }
 
 static double zero_of(const zd_joint *joint, enum zd_zero zero)
@@ -211,14 +193,7 @@ static void add_term(const zd_joint *joint, int kind, enum zd_zero zero, double 
     to->gauge[to->gauges] = (zd_gauge){
         kind, joint->first, joint->second, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
         {joint->axis[0], joint->axis[1]}, zero_of(joint, zero)};
-    to->coefficient[to->terms] = coefficient;
-    to->term[to->terms++] = (zd_gauge_term){to->gauges++, coefficient};
-}
-
-static void add_row(parts *to, zd_relation row, zd_row_owner owner)
-{
-    to->row[to->rows] = row;
-    to->owner_of_row[to->rows++] = owner;
+    zd_uses_add_term(&to->uses, to->gauges++, coefficient);
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
@@ -230,84 +205,31 @@ static void plan_rows(const zd_tables *tables, int nonholonomic, parts *to)
         for (int i = 0; i < kind->rows; i++) {
             const zd_joint_row *row = kind->row + i;
             if (row->nonholonomic != nonholonomic) continue;
-            int first = to->terms;
+            const int first = to->uses.terms;
             add_term(to->joint + j, (int)row->gauge, row->zero, 1, to);
             if (row->rolls) add_term(to->joint + j, ZD_GAUGE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
-            to->planned[j].rows[to->planned[j].row_count++] = to->rows;
-            add_row(to, (zd_relation){first, to->terms - first, nonholonomic, -1, 0, 0, j}, (zd_row_owner){ZD_OF_JOINT, j, i});
+            to->planned[j].rows[to->planned[j].row_count++] = to->uses.rows;
+            zd_uses_add_joint_row(&to->uses, first, nonholonomic, j, i);
         }
     }
-    for (int i = 0; i < tables->relations; i++) {
-        if (tables->relation[i].nonholonomic != nonholonomic) continue;
-        to->row_of_relation[i] = to->rows;
-        add_row(to, tables->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0});
-    }
+    zd_uses_add_relations(&tables->uses, nonholonomic, &to->uses);
 }
 
 /* ---- the system ---- */
 
-static int longest_of(const zd_tables *tables)
-{
-    int longest = 2;        /* a rolling joint's second row */
-    for (int i = 0; i < tables->relations; i++)
-        if (tables->relation[i].terms > longest) longest = tables->relation[i].terms;
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].terms > longest) longest = tables->effort[i].terms;
-    return longest;
-}
-
-static int forces_know_velocity(const zd_tables *tables)
-{
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].damping != 0 || tables->effort[i].kind == ZD_EFFORT_LAW) return 1;
-    return 0;
-}
-
-static int forces_have_power(const zd_tables *tables)
-{
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].damping != 0 || tables->effort[i].kind != ZD_EFFORT_SPRING) return 1;
-    return 0;
-}
-
-/* Whether a row's rate has a part of its own, dg/dt or a_0 of (5). */
-static int rows_have_explicit_rate(const zd_tables *tables)
-{
-    for (int i = 0; i < tables->relations; i++) {
-        const zd_relation *row = tables->relation + i;
-        if (row->slope != 0 || (row->nonholonomic && row->constant != 0)) return 1;
-        if (row->law >= 0 && (row->nonholonomic || tables->laws_know_time)) return 1;
-    }
-    return 0;
-}
-
-static int knows_time(const zd_tables *tables)
-{
-    for (int i = 0; i < tables->relations; i++)
-        if (tables->relation[i].slope != 0) return 1;
-    return tables->law && tables->laws_know_time;
-}
-
 static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tree)
 {
-    int terms = ZD_M | ZD_POTENTIAL;
-    int has_gravity = self->gravity.x != 0 || self->gravity.y != 0;
+    const int has_gravity = self->gravity.x != 0 || self->gravity.y != 0;
+    int terms = ZD_M | ZD_POTENTIAL | zd_uses_terms(&tables->uses, &self->uses);
     if (is_tree) terms |= ZD_BIAS;
-    if (has_gravity || tables->efforts) terms |= ZD_FORCE;
-    if (self->m) terms |= ZD_C | ZD_XI;
-    if (self->mh) terms |= ZD_PHI;
-    if (rows_have_explicit_rate(tables)) terms |= ZD_PHI_T;
-    if (forces_have_power(tables)) terms |= ZD_POWER;
-    if (!knows_time(tables)) terms |= ZD_TIMELESS;
+    if (has_gravity || self->uses.efforts) terms |= ZD_FORCE;
     return terms;
 }
 
 static void make_system(const zd_tables *tables, const parts *from, int coordinates, zd_mechanism *self)
 {
-    for (int i = 0; i < tables->efforts; i++) from->effort[i] = tables->effort[i];
-    for (int i = 0; i < tables->measures; i++) from->observed[i] = tables->measure[i];
     self->system = (zd_system){
-        .nq = coordinates, .nv = coordinates, .mh = self->mh, .mn = self->m - self->mh,
+        .nq = coordinates, .nv = coordinates, .mh = self->uses.mh, .mn = self->uses.m - self->uses.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
         .scratch = zd_frame_size(self),
         .evaluate = zd_mechanism_evaluate,
@@ -316,10 +238,10 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .length = zd_tables_length(tables),
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
-        .structure = self->packing ? &self->packing->structure : NULL,
+        .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->pins.are_all ? &zd_mechanism_products : NULL,
     };
-    self->measures = zd_mechanism_measures(self, from->measure);
+    self->measures = zd_mechanism_measures(self, from->uses.measure);
 }
 
 static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
@@ -327,25 +249,21 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     int coordinates = plan_tree(tables, all);
     plan_joints(tables, all);
     copy_gauges(tables, all);
+    zd_uses_copy(&tables->uses, &all->uses);
     plan_rows(tables, 0, all);
-    int mh = all->rows;
+    const int mh = all->uses.rows;
     plan_rows(tables, 1, all);
     *self = (zd_mechanism){
         .gravity = {tables->gravity[0], tables->gravity[1]},
         .tree = {tables->bodies, coordinates, all->link, all->angles, all->angle},
-        .joints = tables->joints, .relations = tables->relations, .efforts = tables->efforts, .mh = mh, .m = all->rows,
-        .longest = longest_of(tables),
-        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term,
-        .coefficient = all->coefficient, .row = all->row,
-        .owner_of_row = all->owner_of_row, .row_of_relation = all->row_of_relation, .effort = all->effort, .observed = all->observed,
+        .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
+        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
         .coordinate = all->coordinate,
-        .law = tables->law, .owner = tables->owner,
-        .has_velocity_forces = forces_know_velocity(tables),
     };
-    self->measures.count = tables->measures;
+    self->measures.count = tables->uses.measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
     self->pins = self->packing ? self->packing->pins.count : 0;
-    zd_hinged_plan(&all->hinged, &self->tree, self->mh, self->row, self->term, self->coefficient, self->gauge);
+    zd_hinged_plan(&all->hinged, &self->tree, &self->uses, self->gauge);
     self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);
 }
@@ -379,7 +297,7 @@ void zd_mechanism_free(zd_mechanism *mechanism)
 }
 
 const zd_system *zd_mechanism_system(const zd_mechanism *mechanism) { return &mechanism->system; }
-const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return mechanism->owner_of_row; }
+const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return mechanism->uses.owner_of_row; }
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism) { return mechanism->coordinate; }
 int zd_mechanism_data_size(void) { return (int)sizeof(zd_mechanism); }
 
@@ -387,11 +305,11 @@ void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double 
 {
     zd_mechanism *mine = data;
     *mine = *mechanism;
-    mine->owner = owner;
+    mine->uses.owner = owner;
     mine->numbers = numbers;
 }
 
 zd_plan zd_mechanism_plan(const zd_mechanism *mechanism)
 {
-    return (zd_plan){mechanism->tree.link, mechanism->gauge, mechanism->term, mechanism->row, mechanism->effort};
+    return (zd_plan){mechanism->tree.link, mechanism->gauge, mechanism->uses.term, mechanism->uses.row, mechanism->uses.effort};
 }

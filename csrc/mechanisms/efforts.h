@@ -4,11 +4,9 @@
 
 #include "plan.h"
 
-/* value <- the effort at (t, frame); rate <- that of its gauge, NULL: not wanted. Returns ZD_DONE or ZD_CALLBACK. */
-int zd_effort_value(const zd_mechanism *self, const zd_frame *frame, const zd_effort *effort, double t, double *value, double *rate);
-/* frame->wrench <- all that acts on the bodies but for constraints. */
+/* frame->wrench <- all that acts on the bodies but for constraints. Returns ZD_DONE or ZD_CALLBACK. */
 int zd_efforts_apply(const zd_mechanism *self, const zd_frame *frame, double t);
-int zd_efforts_power(const zd_mechanism *self, const zd_frame *frame, double t, double *power);   /* of (28) */
-double zd_efforts_potential(const zd_mechanism *self, const zd_frame *frame);
+int zd_mechanism_power(const zd_mechanism *self, const zd_frame *frame, double t, double *power);     /* of (28) */
+double zd_mechanism_potential(const zd_mechanism *self, const zd_frame *frame);
 
 #endif

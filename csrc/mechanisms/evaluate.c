@@ -25,10 +25,10 @@ static int write_force(const zd_mechanism *self, const zd_frame *frame, double t
 /* What is added up, long before it is: the machine waits where it adds to what a wider store has just cleared. */
 static void clear(const zd_mechanism *self, int want, const zd_terms *out)
 {
-    size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->size_of_C : (size_t)self->m * nv;
+    size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->uses.m * nv;
     if ((want & ZD_M) && !self->packing) memset(out->M, 0, nv * nv * sizeof *out->M);
     if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
-    if ((want & ZD_FORCE) && (self->efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
+    if ((want & ZD_FORCE) && (self->uses.efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
     if ((want & ZD_C) && !(self->packing && self->packing->pins.are_all)) memset(out->C, 0, size_of_C * sizeof *out->C);
 }
 
@@ -46,13 +46,13 @@ static void write_packed_mass(const zd_tree *tree, double *M)
 static int terms_of_bodies(const zd_mechanism *self, int want)
 {
     if (self->packing) {
-        const int known = ZD_M | (self->packing->pins.are_all ? ROWS : 0) | (self->efforts ? 0 : ZD_FORCE);
+        const int known = ZD_M | (self->packing->pins.are_all ? ROWS : 0) | (self->uses.efforts ? 0 : ZD_FORCE);
         return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     if (!self->hinged.is_whole) return left;
-    if (2 * self->hinged.closures == self->m) left &= ~ROWS;
-    return left & ~(ZD_M | ZD_BIAS | (self->efforts ? 0 : ZD_FORCE));
+    if (2 * self->hinged.closures == self->uses.m) left &= ~ROWS;
+    return left & ~(ZD_M | ZD_BIAS | (self->uses.efforts ? 0 : ZD_FORCE));
 }
 
 /* Bodies are placed once for each (t, p), when first a term needs it. */
@@ -60,7 +60,7 @@ static void place(const zd_mechanism *self, const zd_frame *frame, int left, con
 {
     if (*frame->is_placed == 0) zd_tree_place(&self->tree, p, frame->sines, frame->pose);
     *frame->is_placed = 1;
-    int is_moving = left & (ZD_BIAS | ZD_XI | ZD_POWER) || self->has_velocity_forces || self->law;
+    int is_moving = left & (ZD_BIAS | ZD_XI | ZD_POWER) || self->uses.has_velocity_forces || self->uses.law;
     if (is_moving) zd_tree_move(&self->tree, frame->pose, v, frame->twist);
 }
 
@@ -70,7 +70,7 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
     const zd_hinged *hinged = &self->hinged;
     if (want & ZD_M) zd_hinged_mass(hinged, &self->tree, frame->sines, out->M);
     if (want & ZD_BIAS) zd_hinged_bias(hinged, &self->tree, frame->sines, v, out->d);
-    if ((want & ZD_FORCE) && !self->efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
+    if ((want & ZD_FORCE) && !self->uses.efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
@@ -79,7 +79,7 @@ static void write_packed(const zd_mechanism *self, const zd_frame *frame, int wa
 {
     if (want & ZD_MOVED) zd_pins_turn(&self->packing->pins, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
-    if ((want & ZD_FORCE) && !self->efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
+    if ((want & ZD_FORCE) && !self->uses.efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
     zd_pins_write(&self->packing->pins, self, frame, want, p, v, out);
 }
 
@@ -98,8 +98,8 @@ int zd_mechanism_evaluate(const void *data, int want, double t, const double *p,
     if (self->hinged.is_whole) write_hinged(self, &frame, want, v, out);
     if (left & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
     if (left & ZD_BIAS) write_bias(self, &frame, out->d);
-    if (left & ZD_POTENTIAL) *out->V = zd_efforts_potential(self, &frame);
+    if (left & ZD_POTENTIAL) *out->V = zd_mechanism_potential(self, &frame);
     if ((left & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((left & ZD_POWER) && zd_efforts_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    if ((left & ZD_POWER) && zd_mechanism_power(self, &frame, t, out->power)) return ZD_CALLBACK;
     return left & ROWS ? zd_rows_write(self, &frame, left, t, out) : ZD_DONE;
 }

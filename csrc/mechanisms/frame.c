@@ -1,4 +1,5 @@
 /* How the scratch of a mechanism is divided. */
+#include "gauge.h"
 #include "plan.h"
 
 /* The next `count` structures of `size` doubles each. */
@@ -11,7 +12,7 @@ static double *next(double *scratch, int *used, int count, size_t bytes)
 
 static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
 {
-    int used = 0, bodies = self->tree.bodies + 1, longest = self->longest;
+    int used = 0, bodies = self->tree.bodies + 1, longest = self->uses.longest;
     to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
     to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
     to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
@@ -40,4 +41,24 @@ int zd_frame_size(const zd_mechanism *mechanism)
 {
     zd_frame frame;
     return divide(mechanism, NULL, &frame);
+}
+
+static double value_of(const void *mechanism, const void *frame, int gauge)
+{
+    const zd_mechanism *self = mechanism;
+    const zd_frame *at = frame;
+    return zd_gauge_read(self->gauge + gauge, at->pose).value;
+}
+
+static double rate_of(const void *mechanism, const void *frame, int gauge)
+{
+    const zd_mechanism *self = mechanism;
+    const zd_frame *at = frame;
+    double bias;
+    return zd_gauge_rate(self->gauge + gauge, at->pose, at->twist, &bias);
+}
+
+zd_readings zd_frame_readings(const zd_mechanism *mechanism, const zd_frame *frame)
+{
+    return (zd_readings){value_of, rate_of, mechanism, frame, frame->x, frame->xdot, frame->out};
 }

@@ -6,8 +6,7 @@
 #ifndef ZD_HINGED_H
 #define ZD_HINGED_H
 
-#include "../include/zerodrift/system.h"
-#include "../workspace.h"
+#include "../gauges/planned.h"
 #include "mechanism.h"
 #include "tree.h"
 
@@ -43,9 +42,7 @@ typedef struct zd_hinged {
 
 /* Memory for a tree of so many bodies, 0 where there is none, and at most so many rows. */
 void zd_hinged_take(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows);
-/* `row`, (rows,), are those of C with their terms and gauges; `coefficient` are those of the terms. */
-void zd_hinged_plan(zd_hinged *self, const zd_tree *tree, int rows, const zd_relation *row, const zd_gauge_term *term,
-                     const double *coefficient, const zd_gauge *gauge);
+void zd_hinged_plan(zd_hinged *self, const zd_tree *tree, const zd_planned_uses *uses, const zd_gauge *gauge);
 
 /* M, d, and the force of gravity, as far as they are wanted: all that is added up is zero before. `sines` is what zd_tree_turn() wrote. */
 void zd_hinged_mass(const zd_hinged *self, const zd_tree *tree, const double *sines, double *M);

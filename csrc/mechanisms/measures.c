@@ -1,26 +1,16 @@
 /* Measures are gauges with their rates and accelerations, and what goes through joints, springs and drives. */
 #include "measures.h"
 
-#include "efforts.h"
+#include "../gauges/observed.h"
 #include "gauge.h"
 #include "reactions.h"
-#include "rows.h"
+
+enum { OF_FORCES = 2, OF_TORQUES = 1 };      /* components */
 
 typedef struct state {
     double t;
     const double *v, *vdot, *lambda;
 } state;
-
-static int size_of(const zd_observed *measure)
-{
-    if (measure->quantity <= ZD_ACCELERATIONS) return measure->size;
-    return measure->quantity == ZD_JOINT_FORCE || measure->quantity == ZD_EFFORT_FORCE ? 2 : 1;
-}
-
-static enum zd_depends depends_on(const zd_observed *measure)
-{
-    return measure->quantity == ZD_VALUES ? ZD_OF_POSITIONS : measure->quantity == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
-}
 
 static void write_row(const zd_mechanism *self, const zd_frame *frame, const zd_gauge *gauge, double scale, double *row)
 {
@@ -58,49 +48,33 @@ static int measure_tension(const zd_mechanism *self, const zd_frame *frame, int 
     return status;
 }
 
-static int measure_effort(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
-{
-    double rate;
-    int status = zd_effort_value(self, frame, self->effort + measure->index, at->t, value, &rate);
-    if (measure->quantity == ZD_EFFORT_POWER) *value *= rate;
-    return status;
-}
-
 static int measure_effort_force(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
 {
+    const zd_readings readings = zd_frame_readings(self, frame);
     zd_vector force = {0, 0};
     double effort;
     int status = ZD_DONE;
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
-        const zd_gauge *gauge = self->gauge + self->effort[i].gauge;
-        status = zd_effort_value(self, frame, self->effort + i, at->t, &effort, NULL);
+        const zd_gauge *gauge = self->gauge + self->uses.effort[i].gauge;
+        status = zd_effort_say(&self->uses, &readings, self->uses.effort + i, at->t, &effort, NULL);
         force = zd_plus(force, zd_times(effort, zd_gauge_read(gauge, frame->pose).second.force));
     }
     value[0] = force.x, value[1] = force.y;
     return status;
 }
 
-static int measure_drive(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
-{
-    double bias;
-    int status = zd_drive_effort(self, frame, measure->index, measure->term, at->t, at->lambda, value);
-    const zd_relation *row = self->row + self->row_of_relation[measure->index];
-    if (measure->quantity == ZD_DRIVE_POWER)
-        *value *= zd_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist, &bias);
-    return status;
-}
-
 static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
 {
+    const zd_readings readings = zd_frame_readings(self, frame);
     zd_wrench reaction;
     int status;
     switch (measure->quantity) {
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER: return measure_effort(self, frame, measure, at, value);
+    case ZD_EFFORT_POWER: return zd_observed_effort(&self->uses, &readings, measure, at->t, value);
     case ZD_EFFORT_FORCE: return measure_effort_force(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return measure_drive(self, frame, measure, at, value);
+    case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
     default: status = zd_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
     }
     if (measure->quantity == ZD_JOINT_TORQUE) *value = reaction.torque;
@@ -108,21 +82,14 @@ static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, 
     return status;
 }
 
-static int has_what_it_needs(const zd_mechanism *self, const zd_observed *measure, const state *at)
-{
-    int quantity = measure->quantity, is_effort = quantity == ZD_EFFORT_VALUE || quantity == ZD_EFFORT_POWER || quantity == ZD_EFFORT_FORCE;
-    if (measure->quantity <= ZD_RATES || is_effort) return 1;
-    return at->vdot && (measure->quantity == ZD_ACCELERATIONS || at->lambda || self->m == 0);
-}
-
 static int evaluate(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                     const zd_measured *out, double *scratch)
 {
     const zd_mechanism *self = data;
-    const zd_observed *observed = self->observed + measure;
+    const zd_observed *observed = self->uses.observed + measure;
     const zd_frame frame = zd_frame_of(self, scratch);
     const state at = {t, v, vdot, lambda};
-    if (!has_what_it_needs(self, observed, &at)) return ZD_BAD_ARGUMENT;
+    if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
     zd_tree_turn(&self->tree, p, frame.sines);
     zd_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_tree_move(&self->tree, frame.pose, v, frame.twist);
@@ -132,16 +99,13 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     }
     if (!out->value) return ZD_DONE;
     int status = measure_transmitted(self, &frame, observed, &at, out->value);
-    for (int i = 0; i < size_of(observed); i++) out->value[i] *= observed->scale;
+    for (int i = 0; i < zd_observed_size(observed, OF_FORCES, OF_TORQUES); i++) out->value[i] *= observed->scale;
     return status;
 }
 
 zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
 {
-    int count = self->measures.count;
-    for (int i = 0; i < count; i++) {
-        const zd_observed *observed = self->observed + i;
-        measure[i] = (zd_measure){observed->name, observed->unit, size_of(observed), depends_on(observed)};
-    }
+    const int count = self->measures.count;
+    zd_observed_list(&self->uses, count, OF_FORCES, OF_TORQUES, measure);
     return (zd_measures){count, measure, zd_frame_size(self), evaluate};
 }

@@ -8,7 +8,7 @@
 
 static int is_plain(const zd_mechanism *mechanism, const zd_relation *row, int kind)
 {
-    const zd_gauge_term *term = mechanism->term + row->first;
+    const zd_gauge_term *term = mechanism->uses.term + row->first;
     return row->law < 0 && !row->nonholonomic && row->terms == 1 && row->constant == 0 && row->slope == 0 && term->coefficient == 1
         && mechanism->gauge[term->gauge].kind == kind;
 }
@@ -17,10 +17,10 @@ static int are_alike(const double *a, const double *b) { return a[0] == b[0] && 
 
 int zd_pin_is_at(const zd_mechanism *mechanism, int row)
 {
-    if (row + 1 >= mechanism->mh) return 0;
-    const zd_relation *x = mechanism->row + row, *y = x + 1;
+    if (row + 1 >= mechanism->uses.mh) return 0;
+    const zd_relation *x = mechanism->uses.row + row, *y = x + 1;
     if (!is_plain(mechanism, x, ZD_GAUGE_X) || !is_plain(mechanism, y, ZD_GAUGE_Y)) return 0;
-    const zd_gauge *a = mechanism->gauge + mechanism->term[x->first].gauge, *b = mechanism->gauge + mechanism->term[y->first].gauge;
+    const zd_gauge *a = mechanism->gauge + mechanism->uses.term[x->first].gauge, *b = mechanism->gauge + mechanism->uses.term[y->first].gauge;
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 

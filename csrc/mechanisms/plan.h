@@ -2,6 +2,8 @@
 #ifndef ZD_PLAN_H
 #define ZD_PLAN_H
 
+#include "../gauges/planned.h"
+#include "../gauges/readings.h"
 #include "mechanism.h"
 #include "tree.h"
 #include "hinged.h"
@@ -20,27 +22,18 @@ struct zd_mechanism {
     const double *numbers;          /* of functions that were written out from this; first, as they look for it here */
     zd_vector gravity;
     zd_tree tree;
-    int joints, relations, efforts, mh, m, longest;     /* `longest`: most terms of any relation or effort */
+    int joints;
+    zd_planned_uses uses;
     const int *number;              /* (bodies + 1,): of each body as given, in the tree */
     const zd_joint *joint;
     const zd_planned_joint *planned;    /* (joints,) */
     const zd_gauge *gauge;          /* those given, then those of the joints' rows */
-    const zd_gauge_term *term;
-    const double *coefficient;      /* those of the terms, one after another */
-    const zd_relation *row;         /* (m,) of the joints and the relations given, holonomic ones first */
-    const zd_row_owner *owner_of_row;           /* (m,) */
-    const int *row_of_relation;     /* (relations,) */
-    const zd_effort *effort;
-    const zd_observed *observed;
     const zd_coordinate_owner *coordinate;      /* (nq,) */
-    zd_law *law;
-    void *owner;
     zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
     int pins;                       /* in absolute coordinates, how many rows are in pairs of these: see pins.h */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
-    int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
 };
 
 /* What a mechanism keeps in a system's scratch while (t, p) stays; then what is made anew for each call. */
@@ -60,5 +53,7 @@ typedef struct zd_frame {
 
 zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch);
 int zd_frame_size(const zd_mechanism *mechanism);       /* doubles */
+/* The gauges of a frame that is placed, and moving where their rates are asked for. */
+zd_readings zd_frame_readings(const zd_mechanism *mechanism, const zd_frame *frame);
 
 #endif

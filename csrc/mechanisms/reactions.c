@@ -3,6 +3,7 @@
  * their accelerations beyond what else acts on them. */
 #include "reactions.h"
 
+#include "../gauges/observed.h"
 #include "efforts.h"
 #include "gauge.h"
 #include "rows.h"
@@ -27,12 +28,13 @@ static zd_wrench about(zd_wrench what, const zd_pose *body, zd_vector point)
 /* frame->wrench <- what each body needs beyond what acts on it, but for joints of the tree. */
 static int write_needs(const zd_mechanism *self, const zd_frame *frame, double t, const double *vdot, const double *lambda)
 {
+    const zd_readings at = zd_frame_readings(self, frame);
     int status = zd_efforts_apply(self, frame, t);
     if (status) return status;
-    for (int i = 0; i < self->m; i++) {
-        const double *factors = zd_row_factors(self, frame, self->row + i, t);
-        if (!factors) return ZD_CALLBACK;
-        zd_row_act(self, frame, self->row + i, factors, -lambda[i]);
+    for (int i = 0; i < self->uses.m; i++) {
+        zd_combined all;
+        if (zd_combine(&self->uses, &at, self->uses.row + i, t, &all)) return ZD_CALLBACK;
+        zd_row_act(self, frame, self->uses.row + i, all.factors, -lambda[i]);
     }
     zd_tree_accelerate(&self->tree, frame->pose, frame->twist, vdot, frame->spin);
     for (int i = 1; i <= self->tree.bodies; i++) {
@@ -71,38 +73,30 @@ static void add_gauge(const zd_mechanism *self, const zd_frame *frame, int index
 static void of_rows(const zd_mechanism *self, const zd_frame *frame, int joint, zd_vector point, const double *lambda, zd_wrench *to)
 {
     for (int k = 0; k < self->planned[joint].row_count; k++) {
-        const zd_relation *row = self->row + self->planned[joint].rows[k];
+        const zd_relation *row = self->uses.row + self->planned[joint].rows[k];
         for (int i = 0; i < row->terms; i++) {
-            const zd_gauge_term *term = self->term + row->first + i;
-            add_gauge(self, frame, term->gauge, point, -lambda[row - self->row] * term->coefficient, to);
+            const zd_gauge_term *term = self->uses.term + row->first + i;
+            add_gauge(self, frame, term->gauge, point, -lambda[row - self->uses.row] * term->coefficient, to);
         }
     }
-}
-
-int zd_drive_effort(const zd_mechanism *self, const zd_frame *frame, int relation, int term, double t, const double *lambda, double *effort)
-{
-    int row = self->row_of_relation[relation];
-    const double *factors = zd_row_factors(self, frame, self->row + row, t);
-    if (!factors) return ZD_CALLBACK;
-    *effort = -lambda[row] * factors[term];
-    return ZD_DONE;
 }
 
 /* Motors of the joint, by rows and by efforts, and its damping */
 static int of_drives(const zd_mechanism *self, const zd_frame *frame, int joint, zd_vector point, double t, const double *lambda,
                      zd_wrench *to)
 {
+    const zd_readings at = zd_frame_readings(self, frame);
     double value;
-    for (int i = 0; i < self->efforts; i++) {
-        if (self->effort[i].joint != joint) continue;
-        if (zd_effort_value(self, frame, self->effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->effort[i].gauge, point, value, to);
+    for (int i = 0; i < self->uses.efforts; i++) {
+        if (self->uses.effort[i].joint != joint) continue;
+        if (zd_effort_say(&self->uses, &at, self->uses.effort + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->uses.effort[i].gauge, point, value, to);
     }
-    for (int i = 0; i < self->relations; i++) {
-        const zd_relation *row = self->row + self->row_of_relation[i];
+    for (int i = 0; i < self->uses.relations; i++) {
+        const zd_relation *row = self->uses.row + self->uses.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(self, frame, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->term[row->first].gauge, point, value, to);
+        if (zd_drive_effort(&self->uses, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->uses.term[row->first].gauge, point, value, to);
     }
     return ZD_DONE;
 }

@@ -8,7 +8,5 @@
  * frame that is placed and moving. With the joint's drives and damping. Returns ZD_DONE or ZD_CALLBACK. */
 int zd_joint_reaction(const zd_mechanism *self, const zd_frame *frame, int joint, double t, const double *vdot, const double *lambda,
                       zd_wrench *reaction);
-/* The effort of a relation along the gauge of one of its terms, positive where it drives it up. */
-int zd_drive_effort(const zd_mechanism *self, const zd_frame *frame, int relation, int term, double t, const double *lambda, double *effort);
 
 #endif

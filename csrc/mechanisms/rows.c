@@ -1,56 +1,14 @@
 /* A row is a combination of gauges: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
 #include "rows.h"
 
+#include "../gauges/laws.h"
 #include "gauge.h"
 #include "structure.h"
-
-typedef struct combined {
-    double value;           /* g, but for the gauges' own part where the row has no law */
-    double explicit_rate;   /* of (5): dg/dt, or a_0 */
-    double second;          /* what (6) has besides the gauges' own second derivatives */
-    const double *factors;  /* dg/dx_i, or a_i: (terms,) */
-} combined;
-
-/* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
-static combined combine_linearly(const zd_mechanism *self, const zd_relation *row, double t)
-{
-    double target = row->constant + row->slope * t;
-    return row->nonholonomic ? (combined){0, -target, -row->slope, self->coefficient + row->first}
-                             : (combined){-target, -row->slope, 0, self->coefficient + row->first};
-}
-
-/* Hands a law the gauges of its row, and takes what it says. */
-static int ask_law(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t, combined *all)
-{
-    int k = row->terms;
-    double *out = frame->out, bias;
-    for (int i = 0; i < k; i++) {
-        const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
-        frame->x[i] = zd_gauge_read(gauge, frame->pose).value;
-        frame->xdot[i] = zd_gauge_rate(gauge, frame->pose, frame->twist, &bias);
-    }
-    if (self->law(self->owner, row->law, t, frame->x, frame->xdot, out)) return ZD_CALLBACK;
-    *all = (combined){out[0], out[k + 1], out[k + 2], out + 1};
-    return ZD_DONE;
-}
-
-static int combine(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t, combined *all)
-{
-    if (row->law >= 0) return ask_law(self, frame, row, t, all);
-    *all = combine_linearly(self, row, t);
-    return ZD_DONE;
-}
-
-const double *zd_row_factors(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t)
-{
-    combined all;
-    return combine(self, frame, row, t, &all) ? NULL : all.factors;
-}
 
 void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double scale)
 {
     for (int i = 0; i < row->terms; i++) {
-        const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
+        const zd_gauge *gauge = self->gauge + self->uses.term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         zd_add_wrench(frame->wrench + gauge->first, scale * factors[i], reading.first);
         zd_add_wrench(frame->wrench + gauge->second, scale * factors[i], reading.second);
@@ -65,10 +23,10 @@ static void add_packed(const zd_mechanism *self, int body, int at, double scale,
 
 static void add_to_row(const zd_mechanism *self, const zd_frame *frame, int term, double scale, const zd_reading *reading, double *to)
 {
-    const zd_gauge *gauge = self->gauge + self->term[term].gauge;
+    const zd_gauge *gauge = self->gauge + self->uses.term[term].gauge;
     if (self->packing) {
-        add_packed(self, gauge->first, self->packing->near[term], scale, reading->first, to);
-        add_packed(self, gauge->second, self->packing->far[term], scale, reading->second, to);
+        add_packed(self, gauge->first, self->packing->packed.near[term], scale, reading->first, to);
+        add_packed(self, gauge->second, self->packing->packed.far[term], scale, reading->second, to);
     } else {
         zd_tree_inward(&self->tree, frame->pose, gauge->first, scale, reading->first, to);
         zd_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading->second, to);
@@ -80,7 +38,7 @@ static double add_readings(const zd_mechanism *self, const zd_frame *frame, cons
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++) {
-        const zd_gauge *gauge = self->gauge + self->term[row->first + i].gauge;
+        const zd_gauge *gauge = self->gauge + self->uses.term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         sum += factors[i] * reading.value;
         if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
@@ -92,7 +50,7 @@ static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, con
 {
     double sum = 0, bias;
     for (int i = 0; i < row->terms; i++) {
-        zd_gauge_rate(self->gauge + self->term[row->first + i].gauge, frame->pose, frame->twist, &bias);
+        zd_gauge_rate(self->gauge + self->uses.term[row->first + i].gauge, frame->pose, frame->twist, &bias);
         sum += factors[i] * bias;
     }
     return sum;
@@ -100,16 +58,17 @@ static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, con
 
 int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, double t, const zd_terms *out)
 {
+    const zd_readings readings = zd_frame_readings(self, frame);
     int nv = self->tree.nv;
-    for (int i = 0; i < self->m; i++) {
+    for (int i = 0; i < self->uses.m; i++) {
         if (self->packing && self->packing->is_of_pin[i]) continue;
-        const zd_relation *row = self->row + i;
+        const zd_relation *row = self->uses.row + i;
         if (self->hinged.is_whole && self->hinged.is_closure[i]) continue;
-        combined all;
-        int status = combine(self, frame, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->mh;
+        zd_combined all;
+        int status = zd_combine(&self->uses, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->uses.mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
-            int at = self->packing ? self->packing->row[i] : i * nv;
+            int at = self->packing ? self->packing->packed.at[i] : i * nv;
             double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + at : NULL);         /* (5) */
             if (wants_Phi) out->Phi[i] = row->law < 0 ? sum + all.value : all.value;                            /* (3) */
         }

@@ -7,8 +7,6 @@
 /* Phi, C, Phi_t and xi, as far as they are wanted, from a frame that is placed and moving; C is zero before. Returns ZD_DONE or
  * ZD_CALLBACK. */
 int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, double t, const zd_terms *out);
-/* The factors of the row's gauges at (t, frame): (terms,). NULL where a law failed. */
-const double *zd_row_factors(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, double t);
 /* wrench on all bodies += scale times what a unit multiplier of the row is for each. */
 void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double scale);
 

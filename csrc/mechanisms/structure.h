@@ -2,18 +2,14 @@
 #ifndef ZD_MECHANISM_STRUCTURE_H
 #define ZD_MECHANISM_STRUCTURE_H
 
-#include "../workspace.h"
+#include "../gauges/packed.h"
 #include "pins.h"
 
 typedef struct zd_packing {
-    zd_structure structure;
-    int size_of_C;          /* entries that are stored */
+    zd_packed packed;
     double *weight;         /* (nv,) f of (2), where nothing else acts */
-    int *row;               /* (m,) where each row begins in C */
-    int *near, *far;        /* (terms,) where in a row the entries of its first and second body begin; -1: it is the ground */
     zd_pins pins;
     int *is_of_pin;         /* (m,) whether a row is of one of these */
-    int *coordinates, *mass, *rows, *first, *block;     /* those of the structure */
 } zd_packing;
 
 /* Memory for the packing of so many bodies, rows and terms of rows. */

@@ -4,7 +4,6 @@
 #include "check.h"
 #include "evaluate.h"
 #include "measures.h"
-#include "structure.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
@@ -13,42 +12,29 @@ typedef struct parts {
     zd_space_joint *joint;
     zd_planned_joint3 *planned;
     zd_space_gauge *gauge;
-    zd_gauge_term *term;
-    double *coefficient, *period;
-    zd_relation *row;
-    zd_row_owner *owner_of_row;
-    int *row_of_relation;
-    zd_effort *effort;
-    zd_observed *observed;
-    zd_measure *measure;
+    double *period;
+    zd_use_parts uses;
     int *lengths, *quaternion;
-    zd_packing3 packing;
-    int gauges, terms, rows, quaternions, nq, nv;       /* so many are there by now */
+    zd_packed packed;
+    int gauges, quaternions, nq, nv;       /* so many are there by now */
 } parts;
 
 static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
-    const size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints, relations = (size_t)tables->relations;
-    const size_t extra = joints * (ZD_SPACE_ROWS + 1), rows = joints * ZD_SPACE_ROWS + relations, terms = (size_t)tables->terms + extra;
+    const size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints, extra = joints * (ZD_SPACE_ROWS + 1);
+    const size_t rows = joints * ZD_SPACE_ROWS, relations = (size_t)tables->uses.relations, terms = (size_t)tables->uses.terms;
 #define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
     TAKE(self, 1);
     TAKE(body, bodies + 1);
     TAKE(joint, joints);
     TAKE(planned, joints);
     TAKE(gauge, (size_t)tables->gauges + extra);
-    TAKE(term, terms);
-    TAKE(coefficient, terms);
-    TAKE(period, rows);
-    TAKE(row, rows);
-    TAKE(owner_of_row, rows);
-    TAKE(row_of_relation, relations);
-    TAKE(effort, (size_t)tables->efforts);
-    TAKE(observed, (size_t)tables->measures);
-    TAKE(measure, (size_t)tables->measures);
+    TAKE(period, rows + relations);
     TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies);
     TAKE(quaternion, bodies);
 #undef TAKE
-    zd_packing3_take(&to->packing, arena, bodies, rows, terms);
+    zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
+    zd_packed_take(&to->packed, arena, bodies, rows + relations, terms + extra);
 }
 
 /* ---- bodies ---- */
@@ -75,14 +61,8 @@ static void copy(const zd_space_tables *tables, parts *to)
 {
     for (int i = 0; i < tables->joints; i++) to->joint[i] = tables->joint[i];
     for (int i = 0; i < tables->gauges; i++) to->gauge[i] = tables->gauge[i];
-    for (int i = 0; i < tables->efforts; i++) to->effort[i] = tables->effort[i];
-    for (int i = 0; i < tables->measures; i++) to->observed[i] = tables->measure[i];
-    for (int i = 0; i < tables->terms; i++) {
-        to->term[i] = tables->term[i];
-        to->coefficient[i] = tables->term[i].coefficient;
-    }
+    zd_uses_copy(&tables->uses, &to->uses);
     to->gauges = tables->gauges;
-    to->terms = tables->terms;
 }
 
 static void copy3(const double *from, double *to)
@@ -140,15 +120,7 @@ zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordi
 static void add_term(parts *to, zd_space_gauge gauge, double coefficient)
 {
     to->gauge[to->gauges] = gauge;
-    to->coefficient[to->terms] = coefficient;
-    to->term[to->terms++] = (zd_gauge_term){to->gauges++, coefficient};
-}
-
-static void add_row(parts *to, zd_relation row, zd_row_owner owner, double period)
-{
-    to->row[to->rows] = row;
-    to->period[to->rows] = period;
-    to->owner_of_row[to->rows++] = owner;
+    zd_uses_add_term(&to->uses, to->gauges++, coefficient);
 }
 
 static const double TURN = 6.283185307179586;
@@ -158,12 +130,12 @@ static void add_joint_row(parts *to, int j, int component)
     static const zd_space_pick angle = {.gauge = ZD_SPACE_ANGLE, .of_first = ZD_SPACE_NORMAL, .of_second = ZD_SPACE_NORMAL};
     const zd_space_joint *joint = to->joint + j;
     const zd_space_row *row = zd_space_joint_kind_of(joint->kind)->row + component;
-    const int first = to->terms, advances = row->advances;
+    const int first = to->uses.terms, advances = row->advances;
     add_term(to, gauge_of(joint, &row->pick), 1);
     if (advances) add_term(to, gauge_of(joint, &angle), -joint->length);
-    to->planned[j].rows[to->planned[j].row_count++] = to->rows;
-    add_row(to, (zd_relation){first, to->terms - first, row->nonholonomic, -1, 0, 0, j}, (zd_row_owner){ZD_OF_JOINT, j, component},
-            advances ? TURN * fabs(joint->length) : 0);
+    to->period[to->uses.rows] = advances ? TURN * fabs(joint->length) : 0;
+    to->planned[j].rows[to->planned[j].row_count++] = to->uses.rows;
+    zd_uses_add_joint_row(&to->uses, first, row->nonholonomic, j, component);
 }
 
 /* Rows of all joints, and of relations, if they are nonholonomic or not. */
@@ -174,67 +146,12 @@ static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to
         for (int i = 0; i < kind->rows; i++)
             if (kind->row[i].nonholonomic == nonholonomic) add_joint_row(to, j, i);
     }
-    for (int i = 0; i < tables->relations; i++) {
-        if (tables->relation[i].nonholonomic != nonholonomic) continue;
-        to->row_of_relation[i] = to->rows;
-        add_row(to, tables->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0}, tables->period[i]);
-    }
+    zd_uses_add_relations(&tables->uses, nonholonomic, &to->uses);
+    for (int i = 0; i < tables->uses.relations; i++)
+        if (tables->uses.relation[i].nonholonomic == nonholonomic) to->period[to->uses.row_of_relation[i]] = tables->period[i];
 }
 
 /* ---- the system ---- */
-
-static int longest_of(const zd_space_tables *tables)
-{
-    int longest = 2;        /* a screw's last row */
-    for (int i = 0; i < tables->relations; i++)
-        if (tables->relation[i].terms > longest) longest = tables->relation[i].terms;
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].terms > longest) longest = tables->effort[i].terms;
-    return longest;
-}
-
-static int forces_know_velocity(const zd_space_tables *tables)
-{
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].damping != 0 || tables->effort[i].kind == ZD_EFFORT_LAW) return 1;
-    return 0;
-}
-
-static int forces_have_power(const zd_space_tables *tables)
-{
-    for (int i = 0; i < tables->efforts; i++)
-        if (tables->effort[i].damping != 0 || tables->effort[i].kind != ZD_EFFORT_SPRING) return 1;
-    return 0;
-}
-
-/* Whether a row's rate has a part of its own, dg/dt or a_0 of (5). */
-static int rows_have_explicit_rate(const zd_space_tables *tables)
-{
-    for (int i = 0; i < tables->relations; i++) {
-        const zd_relation *row = tables->relation + i;
-        if (row->slope != 0 || (row->nonholonomic && row->constant != 0)) return 1;
-        if (row->law >= 0 && (row->nonholonomic || tables->laws_know_time)) return 1;
-    }
-    return 0;
-}
-
-static int knows_time(const zd_space_tables *tables)
-{
-    for (int i = 0; i < tables->relations; i++)
-        if (tables->relation[i].slope != 0) return 1;
-    return tables->law && tables->laws_know_time;
-}
-
-static int terms_of(const zd_space_tables *tables, const zd_space *self)
-{
-    int terms = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE;
-    if (self->m) terms |= ZD_C | ZD_XI;
-    if (self->mh) terms |= ZD_PHI;
-    if (rows_have_explicit_rate(tables)) terms |= ZD_PHI_T;
-    if (forces_have_power(tables)) terms |= ZD_POWER;
-    if (!knows_time(tables)) terms |= ZD_TIMELESS;
-    return terms;
-}
 
 /* How large it is in m: the longest way from a mass centre to a point of a joint, or a length of one; 1 where there is none. */
 static double length_of(const zd_space_tables *tables)
@@ -253,8 +170,8 @@ static void make_system(const zd_space_tables *tables, const parts *from)
 {
     zd_space *self = from->self;
     self->system = (zd_system){
-        .nq = from->nq, .nv = from->nv, .mh = self->mh, .mn = self->m - self->mh,
-        .provides = terms_of(tables, self),
+        .nq = from->nq, .nv = from->nv, .mh = self->uses.mh, .mn = self->uses.m - self->uses.mh,
+        .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_uses_terms(&tables->uses, &self->uses),
         .scratch = zd_frame3_size(self),
         .evaluate = zd_space_evaluate,
         .data = self,
@@ -262,11 +179,18 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .length = length_of(tables),
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
-        .structure = &self->structure,
+        .structure = &self->packed.structure,
         .quaternions = from->quaternions, .quaternion = from->quaternion,
     };
-    self->measures.count = tables->measures;
-    self->measures = zd_space_measures(self, from->measure);
+    self->measures.count = tables->uses.measures;
+    self->measures = zd_space_measures(self, from->uses.measure);
+}
+
+static void write_bodies_of(const void *gauges, int gauge, int body[2])
+{
+    const zd_space_gauge *of = gauges;
+    body[0] = of[gauge].first;
+    body[1] = of[gauge].second;
 }
 
 /* Returns -1, or a row that touches the ground alone. */
@@ -275,23 +199,21 @@ static int plan(const zd_space_tables *tables, parts *all)
     plan_bodies(tables, all);
     copy(tables, all);
     plan_rows(tables, 0, all);
-    const int mh = all->rows;
+    const int mh = all->uses.rows;
     plan_rows(tables, 1, all);
     zd_space *self = all->self;
     *self = (zd_space){
         .gravity = zd_vector3_of(tables->gravity),
-        .bodies = tables->bodies, .joints = tables->joints, .relations = tables->relations, .efforts = tables->efforts,
-        .mh = mh, .m = all->rows, .longest = longest_of(tables),
-        .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .term = all->term,
-        .coefficient = all->coefficient, .row = all->row, .period = all->period, .owner_of_row = all->owner_of_row,
-        .row_of_relation = all->row_of_relation, .effort = all->effort, .observed = all->observed,
-        .law = tables->law, .owner = tables->owner,
-        .at = all->packing.at, .near = all->packing.near, .far = all->packing.far,
-        .has_velocity_forces = forces_know_velocity(tables),
+        .bodies = tables->bodies, .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
+        .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .period = all->period,
     };
-    const int alone = zd_packing3_plan(&all->packing, self);
-    self->structure = all->packing.structure;
-    self->size_of_C = all->packing.size_of_C;
+    for (int b = 0; b < tables->bodies; b++) {
+        const int turns = all->body[b + 1].turns;
+        all->packed.coordinates[b] = turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES;
+        all->packed.velocities[b] = turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
+    }
+    const int alone = zd_packed_plan(&all->packed, &self->uses, tables->bodies, write_bodies_of, all->gauge);
+    self->packed = all->packed;
     make_system(tables, all);
     return alone;
 }
@@ -319,13 +241,13 @@ void zd_space_free(zd_space *space) { zd_release(space); }
 
 const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
 
-const zd_row_owner *zd_space_rows(const zd_space *space) { return space->owner_of_row; }
+const zd_row_owner *zd_space_rows(const zd_space *space) { return space->uses.owner_of_row; }
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 
 void zd_space_with(const zd_space *space, void *owner, void *data)
 {
     zd_space copied = *space;
-    copied.owner = owner;
+    copied.uses.owner = owner;
     memcpy(data, &copied, sizeof copied);
 }

@@ -16,7 +16,7 @@ static int write_force(const zd_space *self, const zd_frame3 *frame, double t, d
 /* Whether what is wanted depends on how bodies move. */
 static int is_moving(const zd_space *self, int want)
 {
-    return want & (ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->has_velocity_forces) || (want & ROWS && self->law);
+    return want & (ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->uses.has_velocity_forces) || (want & ROWS && self->uses.law);
 }
 
 int zd_space_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
@@ -29,9 +29,9 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     if (want & ZD_A) zd_bodies_write_A(bodies, self->body, p, out->A);
     if (want & ZD_M) zd_bodies_write_M(bodies, self->body, out->M);
     if (want & ZD_BIAS) zd_bodies_write_bias(bodies, self->body, v, out->d);
-    if (want & ZD_POTENTIAL) *out->V = zd_space_efforts_potential(self, &frame);
+    if (want & ZD_POTENTIAL) *out->V = zd_space_potential(self, &frame);
     if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((want & ZD_POWER) && zd_space_efforts_power(self, &frame, t, out->power)) return ZD_CALLBACK;
-    if (want & ZD_C) memset(out->C, 0, (size_t)self->size_of_C * sizeof *out->C);
+    if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    if (want & ZD_C) memset(out->C, 0, (size_t)self->packed.size_of_C * sizeof *out->C);
     return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

@@ -1,4 +1,5 @@
 /* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
+#include "gauge.h"
 #include "plan.h"
 
 enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double) };
@@ -15,12 +16,31 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     frame.row = scratch;
     scratch += all * ZD_BODY_VELOCITIES;
     frame.x = scratch;
-    frame.xdot = frame.x + space->longest;
-    frame.out = frame.xdot + space->longest;
+    frame.xdot = frame.x + space->uses.longest;
+    frame.out = frame.xdot + space->uses.longest;
     return frame;
 }
 
 int zd_frame3_size(const zd_space *space)
 {
-    return (space->bodies + 1) * (POSE + TWIST + WRENCH + ZD_BODY_VELOCITIES) + 3 * space->longest + 3;
+    return (space->bodies + 1) * (POSE + TWIST + WRENCH + ZD_BODY_VELOCITIES) + 3 * space->uses.longest + 3;
+}
+
+static double value_of(const void *mechanism, const void *frame, int gauge)
+{
+    const zd_space *self = mechanism;
+    const zd_frame3 *at = frame;
+    return zd_space_gauge_read(self->gauge + gauge, at->pose).value;
+}
+
+static double rate_of(const void *mechanism, const void *frame, int gauge)
+{
+    const zd_space *self = mechanism;
+    const zd_frame3 *at = frame;
+    return zd_space_gauge_rate(self->gauge + gauge, at->pose, at->twist);
+}
+
+zd_readings zd_frame3_readings(const zd_space *space, const zd_frame3 *frame)
+{
+    return (zd_readings){value_of, rate_of, space, frame, frame->x, frame->xdot, frame->out};
 }

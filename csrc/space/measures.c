@@ -1,25 +1,16 @@
 /* Measures are gauges with their rates and accelerations, and what goes through joints, springs and drives, as in the plane. */
 #include "measures.h"
 
-#include "efforts.h"
+#include "../gauges/observed.h"
 #include "gauge.h"
 #include "reactions.h"
+
+enum { OF_FORCES = 3, OF_TORQUES = 3 };      /* components */
 
 typedef struct state {
     double t;
     const double *v, *vdot, *lambda;
 } state;
-
-static int size_of(const zd_observed *measure)
-{
-    if (measure->quantity <= ZD_ACCELERATIONS) return measure->size;
-    return measure->quantity == ZD_JOINT_FORCE || measure->quantity == ZD_JOINT_TORQUE ? 3 : 1;
-}
-
-static enum zd_depends depends_on(const zd_observed *measure)
-{
-    return measure->quantity == ZD_VALUES ? ZD_OF_POSITIONS : measure->quantity == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
-}
 
 static void write_row(const zd_space *self, const zd_frame3 *frame, const zd_space_gauge *gauge, double scale, double *row)
 {
@@ -65,37 +56,37 @@ static int measure_tension(const zd_space *self, const zd_frame3 *frame, int joi
     return status;
 }
 
-static int measure_effort(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
-{
-    double rate;
-    const int status = zd_space_effort_value(self, frame, self->effort + measure->index, at->t, value, &rate);
-    if (measure->quantity == ZD_EFFORT_POWER) *value *= rate;
-    return status;
-}
-
 static void write_vector(zd_vector3 what, double *to)
 {
     to[0] = what.x, to[1] = what.y, to[2] = what.z;
 }
 
-static int measure_drive(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
+static int measure_effort_force(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
 {
-    const int status = zd_space_drive_effort(self, frame, measure->index, measure->term, at->t, at->lambda, value);
-    const zd_relation *row = self->row + self->row_of_relation[measure->index];
-    if (measure->quantity == ZD_DRIVE_POWER)
-        *value *= zd_space_gauge_rate(self->gauge + self->term[row->first].gauge, frame->pose, frame->twist);
+    const zd_readings readings = zd_frame3_readings(self, frame);
+    zd_vector3 force = {0, 0, 0};
+    double effort;
+    int status = ZD_DONE;
+    for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
+        const zd_space_gauge *gauge = self->gauge + self->uses.effort[i].gauge;
+        status = zd_effort_say(&self->uses, &readings, self->uses.effort + i, at->t, &effort, NULL);
+        force = zd_plus3(force, zd_times3(effort, zd_space_gauge_read(gauge, frame->pose).second.force));
+    }
+    write_vector(force, value);
     return status;
 }
 
 static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
 {
+    const zd_readings readings = zd_frame3_readings(self, frame);
     zd_wrench3 reaction;
     switch (measure->quantity) {
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER: return measure_effort(self, frame, measure, at, value);
+    case ZD_EFFORT_POWER: return zd_observed_effort(&self->uses, &readings, measure, at->t, value);
+    case ZD_EFFORT_FORCE: return measure_effort_force(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return measure_drive(self, frame, measure, at, value);
+    case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
     default: break;
     }
     const int status = zd_space_joint_reaction(self, frame, measure->index, at->t, at->lambda, &reaction);
@@ -103,21 +94,14 @@ static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, con
     return status;
 }
 
-static int has_what_it_needs(const zd_space *self, const zd_observed *measure, const state *at)
-{
-    const int quantity = measure->quantity, is_effort = quantity == ZD_EFFORT_VALUE || quantity == ZD_EFFORT_POWER;
-    if (quantity <= ZD_RATES || is_effort) return 1;
-    return at->vdot && (quantity == ZD_ACCELERATIONS || at->lambda || self->m == 0);
-}
-
 static int evaluate(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                     const zd_measured *out, double *scratch)
 {
     const zd_space *self = data;
-    const zd_observed *observed = self->observed + measure;
+    const zd_observed *observed = self->uses.observed + measure;
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
-    if (!has_what_it_needs(self, observed, &at)) return ZD_BAD_ARGUMENT;
+    if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
     zd_bodies_place(self->bodies, self->body, p, frame.pose);
     zd_bodies_move(self->bodies, self->body, frame.pose, v, frame.twist);
     if (observed->quantity <= ZD_ACCELERATIONS) {
@@ -126,16 +110,13 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     }
     if (!out->value) return ZD_DONE;
     const int status = measure_transmitted(self, &frame, observed, &at, out->value);
-    for (int i = 0; i < size_of(observed); i++) out->value[i] *= observed->scale;
+    for (int i = 0; i < zd_observed_size(observed, OF_FORCES, OF_TORQUES); i++) out->value[i] *= observed->scale;
     return status;
 }
 
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure)
 {
     const int count = self->measures.count;
-    for (int i = 0; i < count; i++) {
-        const zd_observed *observed = self->observed + i;
-        measure[i] = (zd_measure){observed->name, observed->unit, size_of(observed), depends_on(observed)};
-    }
+    zd_observed_list(&self->uses, count, OF_FORCES, OF_TORQUES, measure);
     return (zd_measures){count, measure, zd_frame3_size(self), evaluate};
 }

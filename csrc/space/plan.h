@@ -2,6 +2,8 @@
 #ifndef ZD_SPACE_PLAN_H
 #define ZD_SPACE_PLAN_H
 
+#include "../gauges/packed.h"
+#include "../gauges/readings.h"
 #include "bodies.h"
 #include "tables.h"
 
@@ -12,26 +14,14 @@ typedef struct zd_planned_joint3 {
 
 struct zd_space {
     zd_vector3 gravity;
-    int bodies, joints, relations, efforts, mh, m, longest;     /* `longest`: most terms of any row or effort */
+    int bodies, joints;
+    zd_planned_uses uses;
     const zd_body3 *body;           /* (bodies + 1,) the first one, of the ground, unused */
     const zd_space_joint *joint;
     const zd_planned_joint3 *planned;   /* (joints,) */
     const zd_space_gauge *gauge;    /* those given, then those of the joints' rows */
-    const zd_gauge_term *term;
-    const double *coefficient;      /* those of the terms, one after another */
-    const zd_relation *row;         /* (m,) of the joints and the relations given, holonomic ones first */
     const double *period;           /* (m,) */
-    const zd_row_owner *owner_of_row;   /* (m,) */
-    const int *row_of_relation;     /* (relations,) */
-    const zd_effort *effort;
-    const zd_observed *observed;
-    zd_law *law;
-    void *owner;
-    const int *at;                  /* (m,) where each row begins in C */
-    const int *near, *far;          /* (terms,) where in a row the entries of its first and second body begin; -1: it is the ground */
-    int size_of_C;                  /* entries that are stored */
-    int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
-    zd_structure structure;
+    zd_packed packed;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -47,5 +37,7 @@ typedef struct zd_frame3 {
 
 zd_frame3 zd_frame3_of(const zd_space *space, double *scratch);
 int zd_frame3_size(const zd_space *space);      /* doubles */
+/* The gauges of a frame that is placed, and moving where their rates are asked for. */
+zd_readings zd_frame3_readings(const zd_space *space, const zd_frame3 *frame);
 
 #endif

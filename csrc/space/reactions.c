@@ -1,9 +1,8 @@
 /* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches. */
 #include "reactions.h"
 
-#include "efforts.h"
+#include "../gauges/observed.h"
 #include "gauge.h"
-#include "rows.h"
 
 typedef struct place {
     int body;               /* the joint's second */
@@ -14,9 +13,9 @@ typedef struct place {
 static place place_of(const zd_space *self, const zd_frame3 *frame, int joint)
 {
     const zd_space_joint *of = self->joint + joint;
-    const zd_relation *row = self->row + self->planned[joint].rows[0];
+    const zd_relation *row = self->uses.row + self->planned[joint].rows[0];
     if (zd_space_joint_kind_of(of->kind)->rolls)
-        return (place){of->second, zd_space_contact(self->gauge + self->term[row->first].gauge, frame->pose)};
+        return (place){of->second, zd_space_contact(self->gauge + self->uses.term[row->first].gauge, frame->pose)};
     return (place){of->second, zd_point3_of(frame->pose + of->second, of->point2)};
 }
 
@@ -34,36 +33,27 @@ static void of_rows(const zd_space *self, const zd_frame3 *frame, int joint, pla
 {
     for (int k = 0; k < self->planned[joint].row_count; k++) {
         const int index = self->planned[joint].rows[k];
-        const zd_relation *row = self->row + index;
+        const zd_relation *row = self->uses.row + index;
         for (int i = row->first; i < row->first + row->terms; i++)
-            add_gauge(self, frame, self->term[i].gauge, at, -lambda[index] * self->coefficient[i], to);
+            add_gauge(self, frame, self->uses.term[i].gauge, at, -lambda[index] * self->uses.coefficient[i], to);
     }
-}
-
-int zd_space_drive_effort(const zd_space *self, const zd_frame3 *frame, int relation, int term, double t, const double *lambda,
-                          double *effort)
-{
-    const int row = self->row_of_relation[relation];
-    const double *factors = zd_space_row_factors(self, frame, self->row + row, t);
-    if (!factors) return ZD_CALLBACK;
-    *effort = -lambda[row] * factors[term];
-    return ZD_DONE;
 }
 
 /* Motors of the joint, by rows and by efforts, and its damping */
 static int of_drives(const zd_space *self, const zd_frame3 *frame, int joint, place at, double t, const double *lambda, zd_wrench3 *to)
 {
+    const zd_readings readings = zd_frame3_readings(self, frame);
     double value;
-    for (int i = 0; i < self->efforts; i++) {
-        if (self->effort[i].joint != joint) continue;
-        if (zd_space_effort_value(self, frame, self->effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->effort[i].gauge, at, value, to);
+    for (int i = 0; i < self->uses.efforts; i++) {
+        if (self->uses.effort[i].joint != joint) continue;
+        if (zd_effort_say(&self->uses, &readings, self->uses.effort + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->uses.effort[i].gauge, at, value, to);
     }
-    for (int i = 0; i < self->relations; i++) {
-        const zd_relation *row = self->row + self->row_of_relation[i];
+    for (int i = 0; i < self->uses.relations; i++) {
+        const zd_relation *row = self->uses.row + self->uses.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_space_drive_effort(self, frame, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->term[row->first].gauge, at, value, to);
+        if (zd_drive_effort(&self->uses, &readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->uses.term[row->first].gauge, at, value, to);
     }
     return ZD_DONE;
 }

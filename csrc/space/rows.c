@@ -1,60 +1,20 @@
 /* A row is a combination of gauges, as in the plane: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
 #include "rows.h"
 
+#include "../gauges/laws.h"
 #include "gauge.h"
-
-typedef struct combined {
-    double value;           /* g, but for the gauges' own part where the row has no law */
-    double explicit_rate;   /* of (5): dg/dt, or a_0 */
-    double second;          /* what (6) has besides the gauges' own second derivatives */
-    const double *factors;  /* dg/dx_i, or a_i: (terms,) */
-} combined;
 
 static const zd_space_gauge *gauge_of(const zd_space *self, const zd_relation *row, int i)
 {
-    return self->gauge + self->term[row->first + i].gauge;
-}
-
-/* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
-static combined combine_linearly(const zd_space *self, const zd_relation *row, double t)
-{
-    const double target = row->constant + row->slope * t, *factors = self->coefficient + row->first;
-    return row->nonholonomic ? (combined){0, -target, -row->slope, factors} : (combined){-target, -row->slope, 0, factors};
-}
-
-/* Hands a law the gauges of its row, and takes what it says. */
-static int ask_law(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, double t, combined *all)
-{
-    const int k = row->terms;
-    double *out = frame->out;
-    for (int i = 0; i < k; i++) {
-        frame->x[i] = zd_space_gauge_read(gauge_of(self, row, i), frame->pose).value;
-        frame->xdot[i] = zd_space_gauge_rate(gauge_of(self, row, i), frame->pose, frame->twist);
-    }
-    if (self->law(self->owner, row->law, t, frame->x, frame->xdot, out)) return ZD_CALLBACK;
-    *all = (combined){out[0], out[k + 1], out[k + 2], out + 1};
-    return ZD_DONE;
-}
-
-static int combine(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, double t, combined *all)
-{
-    if (row->law >= 0) return ask_law(self, frame, row, t, all);
-    *all = combine_linearly(self, row, t);
-    return ZD_DONE;
-}
-
-const double *zd_space_row_factors(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, double t)
-{
-    combined all;
-    return combine(self, frame, row, t, &all) ? NULL : all.factors;
+    return self->gauge + self->uses.term[row->first + i].gauge;
 }
 
 static void add_to_row(const zd_space *self, const zd_frame3 *frame, int term, double scale, const zd_reading3 *reading, double *to)
 {
-    const zd_space_gauge *gauge = self->gauge + self->term[term].gauge;
+    const zd_space_gauge *gauge = self->gauge + self->uses.term[term].gauge;
     const int first = gauge->first, second = gauge->second;
-    if (first) zd_body_act(self->body + first, frame->pose + first, scale, reading->first, to + self->near[term]);
-    if (second) zd_body_act(self->body + second, frame->pose + second, scale, reading->second, to + self->far[term]);
+    if (first) zd_body_act(self->body + first, frame->pose + first, scale, reading->first, to + self->packed.near[term]);
+    if (second) zd_body_act(self->body + second, frame->pose + second, scale, reading->second, to + self->packed.far[term]);
 }
 
 /* Returns the sum of factors x, and adds that of factors times the gauges' rows to `to` unless that is NULL. */
@@ -84,8 +44,8 @@ static double modulo(double value, double period) { return period > 0 ? remainde
 /* Whether rows i, i + 1 and i + 2 are x, y and z of one joint's points, and nothing else. */
 static int is_point(const zd_space *self, int i)
 {
-    const zd_row_owner *owner = self->owner_of_row + i;
-    return owner->owner == ZD_OF_JOINT && gauge_of(self, self->row + i, 0)->kind == ZD_SPACE_X;
+    const zd_row_owner *owner = self->uses.owner_of_row + i;
+    return owner->owner == ZD_OF_JOINT && gauge_of(self, self->uses.row + i, 0)->kind == ZD_SPACE_X;
 }
 
 /* sign times the rows of a body's point, (3, 6) or (3, 3) of rows `width` apart. */
@@ -108,18 +68,18 @@ static zd_vector3 bias_of_point(const zd_pose3 *pose, const zd_twist3 *twist, co
 
 static void write_point(const zd_space *self, const zd_frame3 *frame, int want, int i, const zd_terms *out)
 {
-    const zd_space_gauge *gauge = gauge_of(self, self->row + i, 0);
-    const int first = gauge->first, second = gauge->second, term = self->row[i].first;
+    const zd_space_gauge *gauge = gauge_of(self, self->uses.row + i, 0);
+    const int first = gauge->first, second = gauge->second, term = self->uses.row[i].first;
     const zd_pose3 *near = frame->pose + first, *far = frame->pose + second;
     if (want & ZD_PHI) {
         const zd_vector3 apart = zd_minus3(zd_point3_of(far, gauge->point2), zd_point3_of(near, gauge->point1));
         out->Phi[i] = apart.x, out->Phi[i + 1] = apart.y, out->Phi[i + 2] = apart.z;        /* (3) */
     }
     if (want & ZD_C) {
-        const int width = self->at[i + 1] - self->at[i];
-        double *C = out->C + self->at[i];
-        if (first) write_side(self->body + first, near, gauge->point1, -1, width, C + self->near[term]);
-        if (second) write_side(self->body + second, far, gauge->point2, 1, width, C + self->far[term]);
+        const int width = self->packed.at[i + 1] - self->packed.at[i];
+        double *C = out->C + self->packed.at[i];
+        if (first) write_side(self->body + first, near, gauge->point1, -1, width, C + self->packed.near[term]);
+        if (second) write_side(self->body + second, far, gauge->point2, 1, width, C + self->packed.far[term]);
     }
     if (want & ZD_PHI_T) out->Phi_t[i] = out->Phi_t[i + 1] = out->Phi_t[i + 2] = 0;
     if (want & ZD_XI) {
@@ -131,18 +91,19 @@ static void write_point(const zd_space *self, const zd_frame3 *frame, int want, 
 
 int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, double t, const zd_terms *out)
 {
-    for (int i = 0; i < self->m; i++) {
+    const zd_readings readings = zd_frame3_readings(self, frame);
+    for (int i = 0; i < self->uses.m; i++) {
         if (is_point(self, i)) {
             write_point(self, frame, want, i, out);
             i += 2;
             continue;
         }
-        const zd_relation *row = self->row + i;
-        combined all;
-        const int status = combine(self, frame, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->mh;
+        const zd_relation *row = self->uses.row + i;
+        zd_combined all;
+        const int status = zd_combine(&self->uses, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->uses.mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
-            const double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + self->at[i] : NULL);      /* (5) */
+            const double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + self->packed.at[i] : NULL);      /* (5) */
             if (wants_Phi) out->Phi[i] = modulo(row->law < 0 ? sum + all.value : all.value, self->period[i]);               /* (3) */
         }
         if (want & ZD_PHI_T) out->Phi_t[i] = all.explicit_rate;

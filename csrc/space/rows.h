@@ -7,7 +7,4 @@
 /* Phi, C, Phi_t and xi, as far as they are wanted, from a frame that is placed and moving; C is zero before. Returns ZD_DONE or
  * ZD_CALLBACK. */
 int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, double t, const zd_terms *out);
-/* The factors of the row's gauges at (t, frame): (terms,). NULL where a law failed. */
-const double *zd_space_row_factors(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, double t);
-
 #endif

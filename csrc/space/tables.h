@@ -4,14 +4,14 @@
  * into the drawing's; its velocities are that of its mass centre in the drawing's axes, and its angular velocity in its own. These are its
  * principal axes, so that M is constant and diagonal. A particle has a position and a velocity alone. Body 0 is the ground; bodies given
  * have the numbers from 1 on. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's axes, from its origin).
- * Relations, efforts, measures and laws are those of the plane, of gauges in space; forces and torques have three components.
+ * Relations, efforts, measures and laws are of gauges in space; forces and torques have three components.
  *
  * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
  */
 #ifndef ZD_SPACE_TABLES_H
 #define ZD_SPACE_TABLES_H
 
-#include "../mechanisms/mechanism.h"
+#include "../gauges/uses.h"
 #include "../space_joints/joint.h"
 
 typedef struct zd_space_body {
@@ -41,18 +41,12 @@ typedef struct zd_space_gauge {
 
 typedef struct zd_space_tables {
     double gravity[3];          /* m/s^2 */
-    int bodies, joints, gauges, terms, relations, efforts, measures;
+    int bodies, joints, gauges;
     const zd_space_body *body;  /* (bodies,) from number 1 on */
     const zd_space_joint *joint;
     const zd_space_gauge *gauge;
-    const zd_gauge_term *term;
-    const zd_relation *relation;
+    zd_uses uses;
     const double *period;       /* (relations,) what makes no difference to a row, as a full turn does to an angle; 0: nothing */
-    const zd_effort *effort;
-    const zd_observed *measure;
-    zd_law *law;                /* NULL: there is none */
-    void *owner;                /* what it is called with */
-    int laws_know_time;         /* whether a law depends on t but through positions and velocities */
 } zd_space_tables;
 
 typedef struct zd_space zd_space;

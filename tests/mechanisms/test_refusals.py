@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from mechanism_tables import Body, Effort, Gauge, Joint, Observed, Relation, Tabled, Tables, kind
+from mechanism_tables import Body, Effort, Gauge, Joint, Observed, Tabled, Tables, kind
 
 BODY, POINT = Body(1.0, 1.0), Body(1.0, is_particle=True)
 PIN = Joint(kind("revolute"), 0, 1)
@@ -27,15 +27,6 @@ REFUSED = [
     (Tables([POINT], [PIN._replace(point2=(1.0, 0.0))]), "joint 0: a particle has no points but its own"),
     (Tables([BODY], gauges=[TURN._replace(first=-1)]), "gauge 0: it is read off bodies -1 and 1, and the last one is 1"),
     (Tables([POINT], gauges=[Gauge("x", 1, 0, (0.0, 1.0))]), "gauge 0: a particle has no points but its own"),
-    (Tables([BODY], gauges=[TURN], relations=[Relation([1])]), "relation 0: its gauges, law or joint are not there"),
-    (Tables([BODY], gauges=[TURN], relations=[Relation([])]), "relation 0: its gauges, law or joint are not there"),
-    (Tables([BODY], gauges=[TURN], relations=[Relation([0], law=0)]), "relation 0: its gauges, law or joint are not there"),
-    (Tables([BODY], gauges=[TURN], relations=[Relation([0], joint=0)]), "relation 0: its gauges, law or joint are not there"),
-    (Tables([BODY], gauges=[TURN], efforts=[Effort("law", 0)]), "effort 0: its kind, gauges, law or joint are not there"),
-    (Tables([BODY], gauges=[TURN], efforts=[Effort("spring", 1)]), "effort 0: its kind, gauges, law or joint are not there"),
-    *((Tables([BODY], gauges=[TURN], measures=[Observed("turn", "", quantity, 3)]), "measure turn: what it is of is not there")
-      for quantity in ("values", "joint force", "effort power", "drive")),
-    (Tables([BODY], gauges=[TURN], measures=[Observed("turn", "", "values", 0, 2)]), "measure turn: what it is of is not there"),
 ]
 
 

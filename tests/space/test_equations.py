@@ -139,16 +139,7 @@ def test_particles_have_places_alone():
     ({"gauges": [Gauge("x", 0, 2)]}, "gauge 0: it is read off bodies 0 and 2, and the last one is 1"),
     ({"bodies": [Body(1.0, is_particle=True)], "gauges": [Gauge("x", 0, 1, point2=(1.0, 0, 0))]},
      "gauge 0: a particle has no points"),
-    ({"relations": [Relation([0], [1.0])]}, "relation 0: its gauges, law or joint are not there"),
-    ({"gauges": [Gauge("x", 0, 1)], "relations": [Relation([0], [1.0], joint=4)]}, "relation 0: its gauges, law or joint"),
-    ({"gauges": [Gauge("x", 0, 1)], "relations": [Relation([0], law=0)]}, "relation 0: its gauges, law or joint"),
     ({"gauges": [Gauge("x", 0, 0)], "relations": [Relation([0], [1.0])]}, "row 0: it is about the ground alone"),
-    ({"efforts": [Effort("constant", 1)]}, "effort 0: its kind, gauges, law or joint are not there"),
-    ({"measures": [Observed("wrong", "", "joint force", 0)]}, "measure wrong: what it is of is not there"),
-    ({"measures": [Observed("wrong", "", "effort force", 0)]}, "measure wrong: what it is of is not there"),
-    ({"measures": [Observed("wrong", "", "drive power", 0)]}, "measure wrong: what it is of is not there"),
-    ({"measures": [Observed("wrong", "", "effort", 0)]}, "measure wrong: what it is of is not there"),
-    ({"measures": [Observed("wrong", "", "values", 0)]}, "measure wrong: what it is of is not there"),
 ])
 def test_tables_that_contradict_themselves(change, message):
     with pytest.raises(ValueError, match=message):

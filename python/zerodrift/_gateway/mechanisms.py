@@ -14,6 +14,7 @@ from .base import MESSAGE_SIZE, TERMS, Card, card_of, doubles, text
 from .law_owner import Law, LawOwner
 from .measures import given
 from .systems import CoreSystem
+from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
 
 GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
           "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE,
@@ -21,12 +22,6 @@ GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE,
 CARRIERS = {lib.ZD_CARRIES_NOTHING: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
 ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
          lib.ZD_ZERO_LENGTH: "length"}
-EFFORTS = {"spring": lib.ZD_EFFORT_SPRING, "constant": lib.ZD_EFFORT_CONSTANT, "law": lib.ZD_EFFORT_LAW}
-QUANTITIES = {
-    "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
-    "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "effort": lib.ZD_EFFORT_VALUE,
-    "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
-    "effort force": lib.ZD_EFFORT_FORCE}
 COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDINATE_ANGLE: "angle",
                lib.ZD_COORDINATE_DISPLACEMENT: "displacement"}
 
@@ -103,43 +98,6 @@ class Gauge(NamedTuple):
     zero: float = 0.0           # taken from the reading
 
 
-class Relation(NamedTuple):
-    """A row of `zd_relation`: sum of coefficients times gauges - constant - slope t = 0, or by a law."""
-
-    gauges: Sequence[int]
-    coefficients: Sequence[float] = ()      # without a law
-    constant: float = 0.0
-    slope: float = 0.0
-    nonholonomic: bool = False
-    law: int = -1
-    joint: int = -1             # to whose force and torque it contributes as its drive
-
-
-class Effort(NamedTuple):
-    """A row of `zd_effort`; `kind` is a key of EFFORTS."""
-
-    kind: str
-    gauge: int
-    stiffness: float = 0.0
-    damping: float = 0.0
-    value: float = 0.0
-    law: int = -1
-    inputs: Sequence[int] = ()  # gauges that the law depends on
-    joint: int = -1             # to whose force and torque it contributes
-
-
-class Observed(NamedTuple):
-    """A row of `zd_observed`: a measure by its name; `quantity` is a key of QUANTITIES."""
-
-    name: str
-    unit: str
-    quantity: str
-    index: int                  # of the first gauge, the joint, effort or relation
-    size: int = 1               # of values, rates, accelerations; of an effort force, of how many efforts
-    scale: float = 1.0
-    term: int = 0               # of drives: along which of the relation's gauges
-
-
 class Tables(NamedTuple):
     """All that the core is told of a mechanism."""
 
@@ -150,14 +108,6 @@ class Tables(NamedTuple):
     efforts: Sequence[Effort] = ()
     measures: Sequence[Observed] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
-
-
-class Row(NamedTuple):
-    """What a row of C is: of a joint (component: which row of its kind), or of a relation."""
-
-    owner: str                  # "joint" or "relation"
-    index: int
-    component: int
 
 
 class Coordinate(NamedTuple):
@@ -195,12 +145,6 @@ def element_kinds() -> dict[str, ElementKind]:
     return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_element_kinds()))}
 
 
-def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
-    """What each row of C is, of a `zd_row_owner *`."""
-    return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
-                 for i in range(m))
-
-
 class MechanismCore(CoreSystem):
     """The core's system of a mechanism.
 
@@ -227,8 +171,7 @@ class MechanismCore(CoreSystem):
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
         self._numbers = ffi.NULL
-        self._written = _write(tables)
-        self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
+        self._mechanism, self._words = _create(tables, law is not None, laws_know_time)
         super().__init__(lib.zd_mechanism_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
 
@@ -316,50 +259,16 @@ class MechanismCore(CoreSystem):
         return p, v
 
 
-def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
-    """How many gauges each law is handed, and how many numbers it gives."""
-    sizes = {effort.law: (len(effort.inputs), 1) for effort in tables.efforts if effort.law >= 0}
-    return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
-
-
-def _write(tables: Tables) -> dict[str, Any]:
-    """All tables but that of the bodies as arrays of C, by their names in `zd_tables`."""
-    return {
-        **written_rows(tables), "joint": ffi.new("zd_joint[]", list(tables.joints)),
-        "gauge": ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])}
-
-
-def written_rows(tables: Any) -> dict[str, Any]:
-    """Relations, efforts and measures as arrays of C, and the words of these."""
-    terms: list[tuple[int, float]] = []
-    relations, efforts = [], []
-    for row in tables.relations:
-        relations.append((len(terms), len(row.gauges), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
-        terms += zip(row.gauges, row.coefficients or [1.0] * len(row.gauges), strict=True)
-    for effort in tables.efforts:
-        efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law,
-                        len(terms), len(effort.inputs), effort.joint))
-        terms += ((gauge, 1.0) for gauge in effort.inputs)
-    units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
-    names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
-    measures = [(name, units[row.unit], QUANTITIES[row.quantity], *row[3:])
-                for name, row in zip(names, tables.measures, strict=True)]
-    return {
-        "words": (names, units), "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
-        "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_observed[]", measures)}
-
-
-def _create(tables: Tables, written: dict[str, Any], has_laws: bool, laws_know_time: bool) -> Any:
-    """The core's mechanism. The words of `written` have to live as long."""
-    bodies = ffi.new("zd_body[]", list(tables.bodies))
-    arrays = {"body": bodies, **{name: array for name, array in written.items() if name != "words"}}
+def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
+    """The core's mechanism, and words that have to live as long."""
+    bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
+    gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    uses, words = written_uses(tables, has_laws, laws_know_time)
     c = ffi.new("zd_tables *", {
-        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(written["joint"]), "gauges": len(written["gauge"]),
-        "terms": len(written["term"]), "relations": len(written["relation"]), "efforts": len(written["effort"]),
-        "measures": len(written["measure"]), **arrays,
-        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time})
+        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
+        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = lib.zd_mechanism_create(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
-    return ffi.gc(mechanism, lib.zd_mechanism_free)
+    return ffi.gc(mechanism, lib.zd_mechanism_free), words

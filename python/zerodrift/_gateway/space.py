@@ -13,8 +13,9 @@ from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
 from .base import MESSAGE_SIZE, Card, card_of, text
 from .law_owner import Law, LawOwner
-from .mechanisms import Coordinate, Effort, Observed, Relation, Row, law_sizes, rows_of, written_rows
+from .mechanisms import Coordinate
 from .systems import CoreSystem
+from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
 
 GAUGES = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
           "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
@@ -138,8 +139,7 @@ class SpaceCore(CoreSystem):
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
-        self._written = _write(tables)
-        self._mechanism = _create(tables, self._written, law is not None, laws_know_time)
+        self._mechanism, self._words = _create(tables, law is not None, laws_know_time)
         super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
         sizes = np.array([PARTICLE if body.is_particle else BODY for body in tables.bodies])
@@ -216,25 +216,17 @@ class SpaceCore(CoreSystem):
         return p, np.concatenate([rate if turns else rate[:3] for rate, turns in zip(rates, self._turning, strict=True)])
 
 
-def _write(tables: Tables) -> dict[str, Any]:
-    """All tables but that of the bodies as arrays of C, by their names in `zd_space_tables`."""
-    return {
-        **written_rows(tables), "joint": ffi.new("zd_space_joint[]", list(tables.joints)),
-        "gauge": ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges]),
-        "period": ffi.new("double[]", list(tables.periods) or [0.0] * len(tables.relations))}
-
-
-def _create(tables: Tables, written: dict[str, Any], has_laws: bool, laws_know_time: bool) -> Any:
-    """The core's mechanism. The words of `written` have to live as long."""
-    bodies = ffi.new("zd_space_body[]", list(tables.bodies))
-    arrays = {"body": bodies, **{name: array for name, array in written.items() if name != "words"}}
-    counts = {f"{name}s" if name != "body" else "bodies": len(arrays[name])
-              for name in ("body", "joint", "gauge", "term", "relation", "effort", "measure")}
+def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
+    """The core's mechanism, and words that have to live as long."""
+    bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
+    gauges = ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    period = ffi.new("double[]", list(tables.periods) or [0.0] * len(tables.relations))
+    uses, words = written_uses(tables, has_laws, laws_know_time)
     c = ffi.new("zd_space_tables *", {
-        "gravity": tables.gravity, **counts, **arrays,
-        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time})
+        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
+        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses, "period": period})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = lib.zd_space_create(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
-    return ffi.gc(mechanism, lib.zd_space_free)
+    return ffi.gc(mechanism, lib.zd_space_free), words

@@ -9,7 +9,8 @@ from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from typing import NamedTuple
 
-from .._gateway.mechanisms import Gauge, MechanismCore, Observed
+from .._gateway.mechanisms import Gauge, MechanismCore
+from .._gateway.uses import Observed
 from . import transmission
 from .bodies import Body, Link, Point
 from .forces import Actuator, Spring

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from .._gateway import mechanisms as rows
-from .._gateway.mechanisms import Gauge, MechanismCore, Observed
+from .._gateway.mechanisms import Gauge, MechanismCore
+from .._gateway.uses import Observed
 from . import law_rows, transmission
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias

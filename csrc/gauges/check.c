@@ -1,0 +1,88 @@
+/* The front builds the tables, and names bodies and joints to its user; here it is only made sure that nothing is looked up that is not there. */
+#include "check.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+
+int zd_complain(zd_complaint to, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(to.message, (size_t)to.size, format, list);
+    va_end(list);
+    return 0;
+}
+
+/* What uses refer to. */
+typedef struct tables {
+    const zd_uses *uses;
+    int joints, gauges;
+} tables;
+
+static int terms_are_right(const tables *of, int first, int terms, int law, int joint)
+{
+    const zd_uses *uses = of->uses;
+    if (first < 0 || terms < 0 || first + terms > uses->terms || law < -1 || (law >= 0 && !uses->law)) return 0;
+    for (int i = first; i < first + terms; i++)
+        if (!zd_is_in(uses->term[i].gauge, of->gauges)) return 0;
+    return joint == -1 || zd_is_in(joint, of->joints);
+}
+
+static int relation_is_right(const tables *of, int i, zd_complaint to)
+{
+    const zd_relation *row = of->uses->relation + i;
+    return (row->terms > 0 && terms_are_right(of, row->first, row->terms, row->law, row->joint)) ||
+           zd_complain(to, "relation %d: its gauges, law or joint are not there", i);
+}
+
+static int effort_is_right(const tables *of, int i, zd_complaint to)
+{
+    const zd_effort *effort = of->uses->effort + i;
+    const int needs_law = effort->kind == ZD_EFFORT_LAW;
+    return (zd_is_in(effort->kind, ZD_EFFORT_LAW + 1) && zd_is_in(effort->gauge, of->gauges) && needs_law == (effort->law >= 0) &&
+            terms_are_right(of, effort->first, effort->terms, effort->law, effort->joint)) ||
+           zd_complain(to, "effort %d: its kind, gauges, law or joint are not there", i);
+}
+
+/* How many there are of what a measure's index counts. */
+static int count_of(const tables *of, int quantity)
+{
+    switch (quantity) {
+    case ZD_VALUES:
+    case ZD_RATES:
+    case ZD_ACCELERATIONS: return of->gauges;
+    case ZD_JOINT_FORCE:
+    case ZD_JOINT_TORQUE:
+    case ZD_JOINT_TENSION: return of->joints;
+    case ZD_EFFORT_VALUE:
+    case ZD_EFFORT_POWER:
+    case ZD_EFFORT_FORCE: return of->uses->efforts;
+    case ZD_DRIVE_VALUE:
+    case ZD_DRIVE_POWER: return of->uses->relations;
+    default: return 0;
+    }
+}
+
+static int measure_is_right(const tables *of, int i, zd_complaint to)
+{
+    const zd_observed *measure = of->uses->measure + i;
+    const int quantity = measure->quantity, count = count_of(of, quantity), index = measure->index;
+    const int size = quantity <= ZD_ACCELERATIONS || quantity == ZD_EFFORT_FORCE ? measure->size : 1;
+    const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->uses->relation[index].terms : 1;
+    return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
+           zd_complain(to, "measure %s: what it is of is not there", measure->name);
+}
+
+int zd_uses_are_right(const zd_uses *uses, int joints, int gauges, zd_complaint to)
+{
+    const tables of = {uses, joints, gauges};
+    const struct {
+        int count;
+        int (*is_right)(const tables *, int, zd_complaint);
+    } all[] = {{uses->relations, relation_is_right}, {uses->efforts, effort_is_right}, {uses->measures, measure_is_right}};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+        for (int i = 0; i < all[k].count; i++)
+            if (!all[k].is_right(&of, i, to)) return 0;
+    return 1;
+}

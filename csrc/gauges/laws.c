@@ -1,0 +1,72 @@
+/* A law is handed the gauges of its row or effort, and takes what it says. */
+#include "laws.h"
+
+static int ask(const zd_planned_uses *uses, const zd_readings *at, int law, int first, int terms, double t)
+{
+    for (int i = 0; i < terms; i++) {
+        const int gauge = uses->term[first + i].gauge;
+        at->x[i] = zd_value_of(at, gauge);
+        at->xdot[i] = zd_rate_of(at, gauge);
+    }
+    return uses->law(uses->owner, law, t, at->x, at->xdot, at->out) ? ZD_CALLBACK : ZD_DONE;
+}
+
+/* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
+static zd_combined combine_linearly(const zd_planned_uses *uses, const zd_relation *row, double t)
+{
+    const double target = row->constant + row->slope * t, *factors = uses->coefficient + row->first;
+    return row->nonholonomic ? (zd_combined){0, -target, -row->slope, factors} : (zd_combined){-target, -row->slope, 0, factors};
+}
+
+int zd_combine(const zd_planned_uses *uses, const zd_readings *at, const zd_relation *row, double t, zd_combined *all)
+{
+    if (row->law < 0) {
+        *all = combine_linearly(uses, row, t);
+        return ZD_DONE;
+    }
+    const int k = row->terms, status = ask(uses, at, row->law, row->first, k, t);
+    *all = (zd_combined){at->out[0], at->out[k + 1], at->out[k + 2], at->out + 1};
+    return status;
+}
+
+int zd_effort_say(const zd_planned_uses *uses, const zd_readings *at, const zd_effort *effort, double t, double *value, double *rate)
+{
+    const double speed = rate || effort->damping != 0 ? zd_rate_of(at, effort->gauge) : 0;
+    int status = ZD_DONE;
+    if (rate) *rate = speed;
+    *value = effort->value;
+    if (effort->kind == ZD_EFFORT_LAW) {
+        status = ask(uses, at, effort->law, effort->first, effort->terms, t);
+        *value = at->out[0];
+    } else if (effort->kind == ZD_EFFORT_SPRING) {
+        *value = -effort->stiffness * zd_value_of(at, effort->gauge) - effort->damping * speed;
+    }
+    return status;
+}
+
+int zd_efforts_power(const zd_planned_uses *uses, const zd_readings *at, double t, double *power)
+{
+    *power = 0;
+    for (const zd_effort *effort = uses->effort; effort < uses->effort + uses->efforts; effort++) {
+        double value, rate;
+        if (effort->kind == ZD_EFFORT_SPRING) {
+            if (effort->damping == 0) continue;
+            rate = zd_rate_of(at, effort->gauge);
+            value = -effort->damping * rate;
+        } else if (zd_effort_say(uses, at, effort, t, &value, &rate)) {
+            return ZD_CALLBACK;
+        }
+        *power += value * rate;
+    }
+    return ZD_DONE;
+}
+
+double zd_springs_potential(const zd_planned_uses *uses, const zd_readings *at, double V)
+{
+    for (const zd_effort *effort = uses->effort; effort < uses->effort + uses->efforts; effort++) {
+        if (effort->kind != ZD_EFFORT_SPRING || effort->stiffness == 0) continue;
+        const double x = zd_value_of(at, effort->gauge);
+        V += 0.5 * effort->stiffness * x * x;
+    }
+    return V;
+}

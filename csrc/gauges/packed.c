@@ -1,0 +1,105 @@
+/* Groups follow each other as rows do, and each one's bodies are in order. */
+#include "packed.h"
+
+void zd_packed_take(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
+{
+#define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+    TAKE(at, rows);
+    TAKE(near, terms);
+    TAKE(far, terms);
+    TAKE(coordinates, bodies);
+    TAKE(velocities, bodies);
+    TAKE(mass, bodies);
+    TAKE(rows, rows);
+    TAKE(first, rows + 1);
+    TAKE(block, 2 * terms);
+#undef TAKE
+}
+
+/* Adds a body to those that a group touches, which stay in order. */
+static void touch(const zd_packed *self, int first, int *end, int body)
+{
+    const int block = body - 1;
+    int i = first;
+    while (i < *end && self->block[i] < block) i++;
+    if (!body || (i < *end && self->block[i] == block)) return;
+    for (int k = (*end)++; k > i; k--) self->block[k] = self->block[k - 1];
+    self->block[i] = block;
+}
+
+/* Where a body's entries begin in a row of the group whose blocks begin at `first`. */
+static int offset_of(const zd_packed *self, int first, int body)
+{
+    int offset = 0;
+    for (int i = first; body && self->block[i] != body - 1; i++) offset += self->velocities[self->block[i]];
+    return body ? offset : -1;
+}
+
+static int is_in_group(const zd_planned_uses *uses, int before, int row)
+{
+    const zd_row_owner *a = uses->owner_of_row + before, *b = uses->owner_of_row + row;
+    return a->owner == b->owner && a->index == b->index && (before < uses->mh) == (row < uses->mh);
+}
+
+/* How many rows the group from `row` on has. */
+static int rows_of_group(const zd_planned_uses *uses, int row)
+{
+    int count = 1;
+    while (row + count < uses->m && is_in_group(uses, row, row + count)) count++;
+    return count;
+}
+
+typedef struct ends {
+    zd_bodies_of *of;
+    const void *gauges;
+} ends;
+
+/* The blocks of the group of rows from `row` on. */
+static void touch_all(zd_packed *self, const zd_planned_uses *uses, ends bodies, int row, int count, int *end)
+{
+    const int first = *end;
+    for (const zd_relation *one = uses->row + row; one < uses->row + row + count; one++)
+        for (int i = one->first; i < one->first + one->terms; i++) {
+            int body[2];
+            bodies.of(bodies.gauges, uses->term[i].gauge, body);
+            touch(self, first, end, body[0]);
+            touch(self, first, end, body[1]);
+        }
+}
+
+static void place_rows(zd_packed *self, const zd_planned_uses *uses, ends bodies, int row, int count, int first, int end)
+{
+    int width = 0;
+    for (int i = first; i < end; i++) width += self->velocities[self->block[i]];
+    for (int k = row; k < row + count; k++) {
+        const zd_relation *one = uses->row + k;
+        for (int i = one->first; i < one->first + one->terms; i++) {
+            int body[2];
+            bodies.of(bodies.gauges, uses->term[i].gauge, body);
+            self->near[i] = offset_of(self, first, body[0]);
+            self->far[i] = offset_of(self, first, body[1]);
+        }
+        self->at[k] = self->size_of_C;
+        self->size_of_C += width;
+    }
+}
+
+int zd_packed_plan(zd_packed *self, const zd_planned_uses *uses, int bodies, zd_bodies_of *bodies_of, const void *gauges)
+{
+    const ends those = {bodies_of, gauges};
+    for (int b = 0; b < bodies; b++) self->mass[b] = ZD_CONSTANT | ZD_DIAGONAL;
+    self->first[0] = self->size_of_C = 0;
+    self->structure = (zd_structure){
+        .blocks = bodies, .coordinates = self->coordinates, .velocities = self->velocities, .mass = self->mass,
+        .rows = self->rows, .first = self->first, .block = self->block};
+    for (int row = 0, count; row < uses->m; row += count) {
+        const int group = self->structure.groups++, first = self->first[group];
+        int end = first;
+        count = self->rows[group] = rows_of_group(uses, row);
+        touch_all(self, uses, those, row, count, &end);
+        if (end == first) return row;
+        place_rows(self, uses, those, row, count, first, end);
+        self->first[group + 1] = end;
+    }
+    return -1;
+}

@@ -1,0 +1,51 @@
+/* Uses of gauges as the core keeps them: rows of joints and relations in the order of C, efforts and measures. */
+#ifndef ZD_PLANNED_USES_H
+#define ZD_PLANNED_USES_H
+
+#include "../include/zerodrift/system.h"
+#include "../workspace.h"
+#include "uses.h"
+
+typedef struct zd_planned_uses {
+    int relations, efforts, mh, m, longest;     /* `longest`: most terms of any row or effort */
+    const zd_gauge_term *term;
+    const double *coefficient;      /* those of the terms, one after another */
+    const zd_relation *row;         /* (m,) of the joints and the relations given, holonomic ones first */
+    const zd_row_owner *owner_of_row;   /* (m,) */
+    const int *row_of_relation;     /* (relations,) */
+    const zd_effort *effort;
+    const zd_observed *observed;
+    zd_law *law;
+    void *owner;
+    int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
+} zd_planned_uses;
+
+/* What is filled in while rows are planned, and constant afterwards. */
+typedef struct zd_use_parts {
+    zd_gauge_term *term;
+    double *coefficient;
+    zd_relation *row;
+    zd_row_owner *owner_of_row;
+    int *row_of_relation;
+    zd_effort *effort;
+    zd_observed *observed;
+    zd_measure *measure;
+    int terms, rows;                /* so many are there by now */
+} zd_use_parts;
+
+/* Memory for those given, and for so many terms and rows of joints more. */
+void zd_uses_take(zd_use_parts *to, zd_arena *arena, const zd_uses *uses, size_t terms, size_t rows);
+/* Copies terms, efforts and measures; rows are added one by one. */
+void zd_uses_copy(const zd_uses *uses, zd_use_parts *to);
+void zd_uses_add_term(zd_use_parts *to, int gauge, double coefficient);
+void zd_uses_add_row(zd_use_parts *to, zd_relation row, zd_row_owner owner);
+/* The row of a joint whose terms are those from `first` on. */
+void zd_uses_add_joint_row(zd_use_parts *to, int first, int nonholonomic, int joint, int component);
+/* Those of the relations, if they are nonholonomic or not. */
+void zd_uses_add_relations(const zd_uses *uses, int nonholonomic, zd_use_parts *to);
+/* Once all rows are there, of which the first `mh` are holonomic. */
+zd_planned_uses zd_uses_plan(const zd_uses *uses, const zd_use_parts *from, int mh);
+/* Which terms of (2), (3), (5) and (6) rows and efforts provide. */
+int zd_uses_terms(const zd_uses *uses, const zd_planned_uses *planned);
+
+#endif
