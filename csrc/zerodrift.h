@@ -69,12 +69,33 @@ const zd_kind *zd_kind_of(int row);
 
 /* ---- events: instants at which a function of the motion passes through zero ---- */
 
+/* A number of the motion, or one that stays. */
+enum zd_source { ZD_READS_TIME, ZD_READS_P, ZD_READS_V, ZD_READS_MEASURE, ZD_READS_NUMBER };
+
+typedef struct zd_argument {
+    enum zd_source what;
+    int index;              /* of p, of v, or of a measure, which has to be one of positions or velocities */
+    int component;          /* of the measure */
+    double number;          /* one that stays */
+} zd_argument;
+
+/* A function of the motion that the core evaluates itself. */
+typedef struct zd_event {
+    int readings;           /* what it is a function of; 0: the core does not know, and has to ask */
+    const zd_argument *reading;  /* (readings,) */
+    double (*function)(const double *x);    /* of all of them; NULL: the first */
+    double value;           /* which it reaches */
+} zd_event;
+
 typedef struct zd_events {
     int count;
     const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
     const int *terminal;    /* (count,) the run ends with so many of this event; 0: with none */
+    const zd_event *known;  /* (count,) NULL: all have to be asked for */
+    const zd_system *of;    /* whose measures they read; NULL: those of the system that is run */
     void *data;
-    /* The value of an event. Returns 0, or ZD_CALLBACK; the same goes for `found`, which is told where an event happened. */
+    /* The value of an event that has to be asked for. Returns 0, or ZD_CALLBACK; the same goes for `found`, which is told where an event
+     * happened. */
     int (*evaluate)(void *data, int event, double t, const double *p, const double *v, double *value);
     int (*found)(void *data, int event, double t, const double *p, const double *v);
 } zd_events;

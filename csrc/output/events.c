@@ -23,6 +23,7 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     return (zd_watch){
         .events = events,
         .output = output,
+        .reader = zd_reader_take(arena, events, &motion->system),
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
         .bracket = zd_take(arena, count * sizeof(zd_bracket)),
@@ -38,8 +39,11 @@ static int evaluate(zd_watch *self, int event, double *value)
 {
     const zd_events *events = self->events;
     const zd_stepper *stepper = self->output->stepper;
-    int status = events->evaluate(events->data, event, stepper->t, stepper->motion->point->p, stepper->motion->point->v, value);
-    self->failed = status != ZD_DONE;
+    const zd_motion *motion = stepper->motion;
+    const double *p = motion->point->p, *v = motion->point->v;
+    int status = zd_is_known(events, event) ? zd_read_event(&self->reader, motion->system.data, event, stepper->t, p, v, value)
+                                            : events->evaluate(events->data, event, stepper->t, p, v, value);
+    if (status) self->failed = event + 1;
     return status;
 }
 

@@ -4,16 +4,18 @@
 
 #include "../linalg/bracket.h"
 #include "between.h"
+#include "reading.h"
 
 typedef struct zd_watch {   /* where there are events, (events,) each */
     const zd_events *events;    /* NULL: there are none */
     zd_output *output;
+    zd_reader reader;       /* of those that the core knows */
     double *before, *now;   /* their values at the ends of the step */
     zd_bracket *bracket;    /* when they happen in it; at infinity where they do not */
     zd_place end;           /* of the step, corrected */
     zd_place early, late, mixed;    /* the states at both sides of an event, and between them */
     int *found;             /* how often they have */
-    int failed;             /* whether it was an event that could not be evaluated */
+    int failed;             /* which could not be evaluated, counted from 1 */
     int ended;              /* which ended the run, counted from 1 */
 } zd_watch;
 

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../output/reading.h"
 #include "../point/quaternions.h"
 #include "../registry.h"
 #include "interface.h"
@@ -90,7 +91,7 @@ static int check_given(const zd_system *system, const zd_settings *settings, cha
     return status;
 }
 
-static const char *wrong_events(const zd_events *events)
+static const char *wrong_events(const zd_system *system, const zd_events *events)
 {
     if (!events) return NULL;
     const rule rules[] = {
@@ -98,7 +99,8 @@ static const char *wrong_events(const zd_events *events)
         {!events->evaluate || !events->found, "events have a function that evaluates them and one that is told of them"},
         {events->count > 0 && (!events->direction || !events->terminal), "each event has a direction, and whether it is terminal"},
     };
-    return FIRST_BROKEN(rules);
+    const char *wrong = FIRST_BROKEN(rules);
+    return wrong ? wrong : zd_wrong_readings(events, system);
 }
 
 static const char *wrong_outputs(const zd_system *system, const zd_outputs *outputs)
@@ -164,7 +166,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
                  "follows the bodies", formulation->card.name, ZD_MOST_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
-    return status ? status : refuse(wrong_events(settings->events), message, size);
+    return status ? status : refuse(wrong_events(system, settings->events), message, size);
 }
 
 int zd_check_quaternions(const zd_system *system, const double *p, int any_length, char *message, int size)

@@ -148,10 +148,17 @@ static void describe_correction(const zd_run *run, const char *rows, char *to, s
     add_cause(run, 1, "", to, size);
 }
 
+static void describe_event(const zd_watch *watch, char *to, size_t size)
+{
+    const int event = watch->failed - 1;
+    if (zd_is_known(watch->events, event)) snprintf(to, size, "event %d has no finite value", event);
+    else snprintf(to, size, "the evaluation of an event failed");
+}
+
 static void describe(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_point *point = run->motion.point;
-    const char *failure = run->watch.failed ? "the evaluation of an event failed" : run->motion.system.failure;
+    const char *failure = run->motion.system.failure;
     char rows[192] = "";
     const int are_fewer = point->rank->selection && point->rows < zd_constraints(point->system);
     if (are_fewer || point->rank->left_out) zd_rank_name_rows(point, rows, sizeof rows);
@@ -171,7 +178,10 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
                  point->system->quaternions ? ", or the step turns a body by more than 120 degrees" : "");
         add_cause(run, 1, "; try a smaller step", to, size);
         break;
-    case ZD_CALLBACK: snprintf(to, size, "%s", failure ? failure : zd_sentence(status)); break;
+    case ZD_CALLBACK:
+        if (run->watch.failed) describe_event(&run->watch, to, size);
+        else snprintf(to, size, "%s", failure ? failure : zd_sentence(status));
+        break;
     case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "%s", zd_sentence(status)); break;

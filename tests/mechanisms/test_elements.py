@@ -317,7 +317,7 @@ def test_a_terminal_event_ends_the_run_and_a_direction_counts():
     (zd.Event("link.position"), "events must be a scalar measure of positions or velocities, and 'link.position' is none"),
     (zd.Event("pin.force.x"), "events must be a scalar measure of positions or velocities, and 'pin.force.x' is none"),
     (zd.Event("rod.angle"), "events must be one of "),
-    (zd.Event(3), "events must be a measure, the name of one, or a callable, not 3"),
+    (zd.Event(3), "events must be a measure, the name of one, an expression or a callable, not 3"),
     (zd.Event(lambda x: x), "events asks for 'x'; there is t, p, v, low"), (3, "events must be a callable event")])
 def test_events_that_there_are_not(event, error):
     with pytest.raises((TypeError, ValueError), match=error):

@@ -31,6 +31,7 @@ from .base import (
     required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
+from .known_events import KnownEvent
 from .measures import Outputs
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbed import perturbed
@@ -56,7 +57,7 @@ from .systems import CoreSystem, Kind, kinds
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
     "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function",
-    "InLibrary", "Kind", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run",
+    "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run",
     "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps",
     "default", "direct_unit", "doubles", "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data",
     "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings", "step", "takes_direct",

@@ -10,6 +10,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths, set_quaternions
+from .known_events import known_table
 from .packing import Packing, declare
 from .systems import CoreSystem
 
@@ -82,19 +83,32 @@ def zd_refuse_in_python(owner, term, t):
 class Watcher:
     """Calls the events of one run for the core, and keeps the states at which they were found.
 
-    An event is a row with `value(t, p, v)`, `direction` and `terminal`, as the core's `zd_events` has them.
+    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them, and either `known`, which the core
+    evaluates itself, or `value(t, p, v)`. Measures are those of the system `of`, which has the equations of `core`.
     """
 
-    def __init__(self, core: CoreSystem, events: Sequence[Any]) -> None:
-        self.events, self.error = events, None
+    def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None) -> None:
+        self.events, self._error = events, None
+        is_measured = any(event.known and event.known.is_measured for event in events)
+        self._of = of.for_run() if is_measured and of is not core else None
         self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
         self._shapes = (core.nq,), (core.nv,)
         self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),
-                      ffi.new("int[]", [event.terminal for event in events]))
-        data, direction, terminal = self._kept
+                      ffi.new("int[]", [event.terminal for event in events]), known_table([event.known for event in events]))
+        data, direction, terminal, (known, _) = self._kept
         self.c = ffi.new("zd_events *", {
-            "count": len(events), "direction": direction, "terminal": terminal, "data": data,
+            "count": len(events), "direction": direction, "terminal": terminal, "data": data, "known": known,
+            "of": self._of.c if self._of else ffi.NULL,
             "evaluate": lib.zd_event_in_python, "found": lib.zd_found_in_python})
+
+    @property
+    def error(self) -> BaseException | None:
+        """What an event raised, or a measure that is not of the system which is run."""
+        return self._error or (self._of.error if self._of else None)
+
+    @error.setter
+    def error(self, error: BaseException) -> None:
+        self._error = error
 
     def value(self, event: int, t: float, p: Any, v: Any) -> float:
         """The value of an event."""

@@ -213,7 +213,7 @@ def simulate(
         recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
     path = None if save_to is None else _file_of_rows().checked(save_to)
-    watcher = _gateway.Watcher(core, watched) if watched is not None else None
+    watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
     if told := system._what_it_costs(plan.steps):
         warnings.warn(told, CostWarning, stacklevel=2)
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway import Variable
+from .._gateway import Variable, known_events
+from .._gateway.known_events import Reading
 from .shapes import Shape
 from .structure import Structure, of_core
 from .tables import NumberTables
-from .watching import Watching
+from .watching import Place, Watching
 
 
 class Terms:
@@ -259,20 +260,31 @@ class BaseSystem:
         """A measure at every row of a solution; None where nothing is measured by that name."""
         return self._watching.values(getattr(name, "name", name), solution)
 
-    def _reader(self, name: str, what: str) -> Callable[[float, np.ndarray, np.ndarray], float]:
-        """A function of (t, p, v) that reads a scalar measure of positions or velocities, or a coordinate or a velocity."""
+    def _reading(self, name: str, what: str) -> Reading:
+        """Where the core finds a scalar measure of positions or velocities, or a coordinate or a velocity."""
         place, core = self._watching.find(name), self._measuring
         if place is not None:
             is_scalar = place.component is not None or core.measure_size(place.number) == 1
             if not is_scalar or core.measure_depends(place.number) == "accelerations":
                 raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
-            return lambda t, p, v: float(self._watching.at(place, t, p, v))
+            return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
-            column = coordinates.index(name)
-            return lambda t, p, v: float(p[column])
-        column = velocities.index(_check.choice(what, name, [*coordinates, *velocities]))
-        return lambda t, p, v: float(v[column])
+            return Reading(known_events.COORDINATE, coordinates.index(name))
+        return Reading(known_events.VELOCITY, velocities.index(_check.choice(what, name, [*coordinates, *velocities])))
+
+    def _read(self, reading: Reading, t: float, p: np.ndarray, v: np.ndarray) -> float:
+        """What is found there."""
+        match reading.what:
+            case known_events.TIME:
+                return t
+            case known_events.COORDINATE:
+                return float(p[reading.index])
+            case known_events.VELOCITY:
+                return float(v[reading.index])
+            case known_events.NUMBER:
+                return reading.number
+        return float(self._watching.at(Place(reading.index, reading.component), t, p, v))
 
     def _advice(self, error: Exception) -> str | None:
         """What a system knows of an error at the start that the core has told in its own words; None: nothing."""

@@ -1,0 +1,81 @@
+#include "reading.h"
+
+#include <math.h>
+
+static int largest_size(const zd_measures *measures)
+{
+    int largest = 0;
+    for (int i = 0; measures && i < measures->count; i++)
+        if (measures->measure[i].size > largest) largest = measures->measure[i].size;
+    return largest;
+}
+
+zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run)
+{
+    if (!events || !events->known) return (zd_reader){.events = events};
+    const zd_system *of = events->of ? events->of : run;
+    int most = 0;
+    for (int i = 0; i < events->count; i++)
+        if (events->known[i].readings > most) most = events->known[i].readings;
+    return (zd_reader){
+        .events = events,
+        .of = of,
+        .x = zd_take_doubles(arena, (size_t)most),
+        .measured = zd_take_doubles(arena, (size_t)largest_size(of->measures)),
+        .scratch = zd_take_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
+    };
+}
+
+static int is_within(int index, int count)
+{
+    return index >= 0 && index < count;
+}
+
+static int can_be_read(const zd_argument *reading, const zd_system *run, const zd_measures *measures)
+{
+    switch (reading->what) {
+    case ZD_READS_P: return is_within(reading->index, run->nq);
+    case ZD_READS_V: return is_within(reading->index, run->nv);
+    case ZD_READS_MEASURE:
+        return measures && is_within(reading->index, measures->count)
+               && is_within(reading->component, measures->measure[reading->index].size)
+               && measures->measure[reading->index].depends != ZD_OF_ACCELERATIONS;
+    case ZD_READS_TIME:
+    case ZD_READS_NUMBER: break;
+    }
+    return 1;
+}
+
+const char *zd_wrong_readings(const zd_events *events, const zd_system *run)
+{
+    const zd_measures *measures = (events->of ? events->of : run)->measures;
+    for (int i = 0; events->known && i < events->count; i++)
+        for (int k = 0; k < events->known[i].readings; k++)
+            if (!can_be_read(&events->known[i].reading[k], run, measures)) return "an event reads what the system does not have";
+    return NULL;
+}
+
+static int read(const zd_reader *self, const void *data, const zd_argument *reading, double t, const double *p, const double *v, double *x)
+{
+    switch (reading->what) {
+    case ZD_READS_TIME: *x = t; break;
+    case ZD_READS_P: *x = p[reading->index]; break;
+    case ZD_READS_V: *x = v[reading->index]; break;
+    case ZD_READS_NUMBER: *x = reading->number; break;
+    case ZD_READS_MEASURE: {
+        const zd_measured out = {.value = self->measured};
+        if (self->of->measures->evaluate(data, reading->index, t, p, v, NULL, NULL, &out, self->scratch)) return ZD_CALLBACK;
+        *x = self->measured[reading->component];
+    }
+    }
+    return ZD_DONE;
+}
+
+int zd_read_event(const zd_reader *self, const void *data, int event, double t, const double *p, const double *v, double *value)
+{
+    const zd_event *known = self->events->known + event;
+    for (int k = 0; k < known->readings; k++)
+        if (read(self, self->events->of ? self->of->data : data, known->reading + k, t, p, v, self->x + k)) return ZD_CALLBACK;
+    *value = (known->function ? known->function(self->x) : self->x[0]) - known->value;
+    return isfinite(*value) ? ZD_DONE : ZD_CALLBACK;
+}

@@ -1,0 +1,44 @@
+"""Events that the core evaluates itself: numbers of the motion, or compiled functions of these, that reach a value."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from .._core import ffi, lib
+
+TIME, COORDINATE, VELOCITY = lib.ZD_READS_TIME, lib.ZD_READS_P, lib.ZD_READS_V
+MEASURE, NUMBER = lib.ZD_READS_MEASURE, lib.ZD_READS_NUMBER
+
+
+class Reading(NamedTuple):
+    """A number of the motion, or one that stays."""
+
+    what: int                   # one of the above
+    index: int = 0              # of p, of v, or of a measure
+    component: int = 0          # of the measure
+    number: float = 0.0         # a NUMBER's
+
+
+class KnownEvent(NamedTuple):
+    """What the core needs to evaluate an event."""
+
+    readings: tuple[Reading, ...]
+    value: float                        # which it reaches
+    function: tuple[int, Any] | None = None     # the address of a function of the readings, and its library; None: the first
+    parameters: frozenset[str] = frozenset()    # of the system, whose values are among the readings
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether a measure is read."""
+        return any(reading.what == MEASURE for reading in self.readings)
+
+
+def known_table(events: Sequence[KnownEvent | None]) -> tuple[Any, Any]:
+    """The core's array of them, where what it has to ask for is None; and what has to be kept with it."""
+    kept = [None if event is None else ffi.new("zd_argument[]", [tuple(each) for each in event.readings]) for event in events]
+    rows = [{} if event is None else {
+        "readings": len(event.readings), "reading": readings, "value": event.value,
+        "function": ffi.cast("double(*)(const double *)", event.function[0]) if event.function else ffi.NULL}
+        for event, readings in zip(events, kept, strict=True)]
+    return ffi.new("zd_event[]", rows), (kept, events)

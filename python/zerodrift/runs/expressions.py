@@ -1,0 +1,73 @@
+"""SymPy expressions of the motion: what they are functions of, and the functions that they are compiled to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _gateway
+from .._gateway.known_events import NUMBER, TIME, VELOCITY, Reading
+from ..systems.base import BaseSystem, core_of
+
+
+class Read(NamedTuple):
+    """An expression of numbers of the motion."""
+
+    expression: Any             # in symbols of its own
+    atoms: list[Any]            # these symbols
+    readings: list[Reading]     # what each stands for
+    parameters: frozenset[str]  # of the system, whose values are among them
+
+
+def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Read:
+    """What an expression is a function of, by their names: t, coordinates, velocities, measures, parameters, what `of` binds."""
+    import sympy  # slow to import
+
+    found: dict[Any, Reading] = {}
+    parameters = set()
+    for each in sorted(_atoms(sympy.sympify(given)), key=str):
+        name = str(each.func) if each.is_Function else str(each)
+        if each.is_Derivative:
+            found[each] = _rate(what, each, system)
+        elif name == "t":
+            found[each] = Reading(TIME)
+        elif name in of:
+            found[each] = system._reading(getattr(of[name], "name", of[name]), f"of[{name!r}] of {what}")
+        elif name in system.parameters and np.ndim(system.parameters[name]) == 0:
+            found[each] = Reading(NUMBER, number=float(system.parameters[name]))
+            parameters.add(name)
+        else:
+            found[each] = system._reading(name, what)
+    atoms = [sympy.Symbol(f"x{i}", real=True) for i in range(len(found))]
+    expression = sympy.sympify(given).xreplace(dict(zip(found, atoms, strict=True)))
+    return Read(expression, atoms, list(found.values()), frozenset(parameters))
+
+
+def _atoms(expression: Any) -> set[Any]:
+    """Symbols, functions of time and their derivatives, each as the largest that it is part of."""
+    from sympy.core.function import AppliedUndef, Derivative
+
+    if isinstance(expression, AppliedUndef | Derivative) or expression.is_Symbol:
+        return {expression}
+    return set().union(*map(_atoms, expression.args))
+
+
+def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
+    """The velocity that is the derivative of a coordinate."""
+    coordinates = [variable.name for variable in system.coordinates]
+    name = str(getattr(derivative.expr, "func", derivative.expr))
+    has_rates = core_of(system).provides & _gateway.TERMS["A"].bit
+    if has_rates or derivative.derivative_count != 1 or name not in coordinates:
+        raise ValueError(f"{what} has {derivative}, which is no velocity of {system.name}: those are "
+                         f"{', '.join(variable.name for variable in system.velocities)}")
+    return Reading(VELOCITY, coordinates.index(name))
+
+
+def in_python(of: Read, system: BaseSystem) -> Callable[[float, np.ndarray, np.ndarray], float]:
+    """The same where there is no compiler: a function of (t, p, v)."""
+    import sympy
+
+    function = sympy.lambdify(of.atoms, of.expression, "math")
+    return lambda t, p, v: float(function(*(system._read(each, t, p, v) for each in of.readings)))
