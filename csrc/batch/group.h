@@ -28,9 +28,10 @@ typedef struct zd_lane_group {
     zd_terms terms;         /* of the system, for C alone */
 } zd_lane_group;
 
-/* lanes.c: lays out the lanes of a run. Called twice: the first time only counts the memory. */
+/* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice: the first time only counts the memory. */
 void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
-                   int64_t doubles);
+                   const zd_pins_plan *pins, int64_t doubles);
+const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit);
 /* The functions for the unit, and those of the system that go with them; NULL: there are none. */
 const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_direct **direct);
 /* Everything of a lane, from another one or from the run, which stands at its start. */

@@ -3,6 +3,7 @@
 #define ZD_LANE_NUMBERS_H
 
 #include "../integrators/runge_kutta.h"
+#include "lane_pins.h"
 
 enum { ZD_MOST_LANES = 8, ZD_MOST_STAGES = 16 };
 
@@ -22,7 +23,8 @@ typedef struct zd_method {
 
 /* What is the same for all lanes, */
 typedef struct zd_lanes {
-    const zd_direct *direct;
+    const zd_direct *direct;    /* NULL where there are pins instead */
+    zd_lane_pins *pins;     /* NULL where there are direct functions */
     zd_method method;
     int lanes, nq, nv, m, mh, size;     /* size: of the state, p, v and what comes in of energy, if that is asked for */
     int has_A, has_input, max_iterations, corrects;

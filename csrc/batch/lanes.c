@@ -35,6 +35,11 @@ int zd_lanes_of_unit(enum zd_unit unit)
     return all[unit]->lanes;
 }
 
+const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit)
+{
+    return all[unit];
+}
+
 const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_direct **direct)
 {
     const zd_lane_functions *functions = all[unit];
@@ -70,7 +75,7 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
     self->inverse_unit = take(self, arena, nv);
     self->allowed = take(self, arena, self->mh);
     self->inverse_size = take(self, arena, self->mh);
-    self->scale = take(self, arena, (int64_t)self->direct->orders * nv);
+    self->scale = take(self, arena, self->direct ? (int64_t)self->direct->orders * nv : 0);
 }
 
 static void take_workspace(zd_lanes *self, zd_arena *arena)
@@ -94,7 +99,7 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
 }
 
 void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
-                   int64_t doubles)
+                   const zd_pins_plan *pins, int64_t doubles)
 {
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
@@ -114,10 +119,13 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
     take_states(self, arena, doubles);
     take_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
+    self->pins = pins ? zd_lane_pins_take(arena, pins, self->lanes) : NULL;
 }
 
 void zd_lanes_copy(zd_lanes *self, int from, int to)
 {
+    if (self->pins) self->pins->is_turned = 0;
+    if (self->pins) self->pins->refines[to] = self->pins->refines[from];
     for (int64_t i = 0; i < self->count; i++) self->first[i * self->lanes + to] = self->first[i * self->lanes + from];
 }
 
@@ -139,19 +147,26 @@ static void load_state(zd_lanes *self, int lane, const zd_run *run)
     if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0);
     load(self, lane, self->has_A ? self->nq : 0, road->pdot, self->pdot);
     load(self, lane, self->nv, point->vdot, self->vdot);
-    load(self, lane, self->nv, road->pivots, self->pivots);
     for (int64_t i = 0; i < self->size; i++) zd_lane_set(self, self->y0, i, lane, zd_lane_number(self, self->y, i, lane));
-    self->order[lane] = (double)(road->order - road->direct->order);
-    self->power[lane] = road->power;
+    self->order[lane] = self->power[lane] = 0;
     self->speed[lane] = speed;
 }
 
-/* What stays as it is from the start on: sizes of the rows of C, by which Phi and pivots are measured. */
-static void load_units(zd_lanes *self, int lane, zd_run *run)
+/* What is known of the direct functions at the start. */
+static void load_road(zd_lanes *self, int lane, zd_run *run)
+{
+    const zd_road *road = &run->motion.road;
+    zd_direct_measure(&run->motion);
+    load(self, lane, (int64_t)self->direct->orders * self->nv, road->scale, self->scale);
+    load(self, lane, self->nv, road->pivots, self->pivots);
+    self->order[lane] = (double)(road->order - road->direct->order);
+    self->power[lane] = road->power;
+}
+
+/* What stays as it is from the start on: sizes of the rows of C, by which Phi is measured. */
+static void load_units(zd_lanes *self, int lane, const zd_run *run)
 {
     const zd_point *point = run->motion.point;
-    zd_direct_measure(&run->motion);
-    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.road.scale, self->scale);
     load(self, lane, self->nq, point->inverse_unit_p, self->inverse_unit_p);
     load(self, lane, self->nv, point->inverse_unit, self->inverse_unit);
     load(self, lane, self->mh, point->inverse_size, self->inverse_size);
@@ -166,6 +181,9 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     load(self, lane, doubles, data, self->data);
     load_state(self, lane, run);
     load_units(self, lane, run);
+    if (self->direct) load_road(self, lane, run);
+    if (self->pins) self->pins->is_turned = 0;
+    if (self->pins) self->pins->refines[lane] = zd_pins_are_unequal(self->pins->of, data);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->course.control.h;

@@ -46,6 +46,8 @@ ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, con
     }
 }
 
+#include "lanes_pins.h"
+
 /* ---- direct functions ---- */
 
 /* Where the functions of the lanes' orders write. */
@@ -79,6 +81,10 @@ ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
 
 ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const double *p, const double *v, const ZD_NAMED(rates) *to)
 {
+    if (self->pins) {
+        ZD_NAMED(accelerate_pins)(self, p, v, to->vdot, to->lambda);
+        return;
+    }
     const int common = ZD_NAMED(common_order)(self), nq = self->nq, nv = self->nv, m = self->m;
     if (common >= 0) {
         ZD_NAMED(call)(self, self->direct->order + common, t, p, v, to);
@@ -100,9 +106,13 @@ ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const
     }
 }
 
-/* Phi, dp and dv at (t, p, v), where the order is what it was where the step began. */
+/* Phi, dp and dv at (t, p, v), where the order is what it was where the step began; of pins it is Phi alone. */
 ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const double *p, const double *v)
 {
+    if (self->pins) {
+        ZD_NAMED(close_pins)(self, p);
+        return;
+    }
     const int common = ZD_NAMED(common_order)(self);
     const zd_elimination *order = self->direct->order;
     if (common >= 0) {

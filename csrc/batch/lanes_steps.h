@@ -31,8 +31,10 @@ ZD_KERNEL zd_condition ZD_NAMED(land)(zd_lanes *self, const double *t, double *y
         open &= ~failed;
         if (!ZD_ANY(open)) break;
         count += AS_NUMBER(open);
+        if (self->pins) ZD_NAMED(correct_pins)(self, y);
         for (int i = 0; i < self->nq; i++) REAL(y)[i] = ZD_WHERE(open, REAL(y)[i] - REAL(self->dp)[i], REAL(y)[i]);
     }
+    if (self->pins) ZD_NAMED(slow_pins)(self, y, v);
     for (int i = 0; i < self->nv; i++) REAL(v)[i] -= REAL(self->dv)[i];
     *REAL(self->iterations) += count;
     *REAL(self->most_iterations) = LARGER(count, *REAL(self->most_iterations));
@@ -99,6 +101,7 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
 {
     zd_condition sound = ZD_SPLAT(0.0) != 0.0;
     *continues = sound;
+    if (self->pins) return *continues = ~HOLDS(self->pins->is_lost);
     for (int i = 0; i < self->direct->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
@@ -126,19 +129,29 @@ ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real move
     *REAL(self->streak) = ZD_WHERE(square * square * changed > self->limit * moved, streak, ZD_SPLAT(0.0));
 }
 
+/* Whether no coordinate has moved so far that rows may have turned in the step: all of many together move far in any. */
+ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
+{
+    zd_condition is_short = ZD_SPLAT(0.0) == 0.0;
+    for (int i = 0; i < self->nq; i++)
+        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= LONG;
+    return is_short;
+}
+
 /* Whether the step to y1 is believed; else the run has to be made by itself. */
 ZD_KERNEL zd_condition ZD_NAMED(is_believed)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
 {
     enum { STREAK = 3 };
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
     *speed = path.speed;
-    zd_condition believed = ZD_NAMED(pivots_are_sound)(self, continues) & (path.moved <= 1.0);
+    const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= 1.0;
+    zd_condition believed = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
     if (self->mh && self->corrects) {
         const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, ZD_SPLAT(self->nearby));
         zd_condition near = path.detour <= bound;
         if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
         believed &= near;
-        *REAL(self->is_long) = AS_NUMBER(path.moved > LONG * LONG);
+        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > LONG * LONG);
     }
     if (self->is_fixed) {
         ZD_NAMED(watch_stability)(self, h, path.moved);

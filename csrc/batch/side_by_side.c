@@ -8,16 +8,24 @@
 
 /* ---- whether lanes serve ---- */
 
+/* Whether the runs are those of bodies joined by so many pins that nothing dense is made of them, and nobody looks for bifurcations. */
+static int are_of_pins(const zd_batch *batch)
+{
+    const zd_formulation *formulation = zd_formulation_of(batch->settings->formulation);
+    return batch->system->pinned && !batch->data && zd_takes_many_rows(formulation, batch->system);
+}
+
 int zd_lanes_serve(const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
-    if (!batch->lanes || !batch->doubles || system->structure || system->quaternions || settings->events || settings->outputs
-        || settings->given_jacobian || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
+    if (!batch->lanes || system->quaternions || settings->events || settings->outputs || settings->given_jacobian
+        || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;
-    return zd_lane_functions_of(system, settings->vector, &direct) != NULL;
+    if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
+    return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &direct) != NULL;
 }
 
 /* What is corrected after a step has to be the projection in the mass metric, of positions and of velocities, or nothing. */
@@ -25,7 +33,7 @@ static int run_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
     const zd_hold *hold = &motion->hold;
-    if (!motion->road.direct || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
+    if (!(motion->road.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
     return motion->corrections == 1 && hold->positions && hold->velocities && hold->every == 1 && hold->in_mass_metric;
@@ -33,21 +41,22 @@ static int run_serves(const zd_run *run)
 
 /* ---- memory ---- */
 
-static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single *own, zd_run *run)
+/* `pins` NULL: there are direct functions. */
+static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single *own, zd_run *run, const zd_pins_plan *pins)
 {
     const zd_system *system = batch->system;
-    const size_t rows = (size_t)(zd_constraints(system) * system->nv);
+    const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* of pins, C is looked at nowhere */
     const zd_direct *direct = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
-        .functions = zd_lane_functions_of(system, batch->settings->vector, &direct),
+        .functions = pins ? zd_lane_functions_for(batch->settings->vector) : zd_lane_functions_of(system, batch->settings->vector, &direct),
         .start = zd_take(arena, zd_run_start_memory(run)),
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .C = zd_take_doubles(arena, rows),
         .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch)},
     };
-    zd_lanes_take(&group.lanes, arena, run, group.functions, direct, batch->doubles);
+    zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++) group.run_of[lane] = (zd_lane_run){.number = -1, .C = zd_take_doubles(arena, rows)};
     return group;
 }
@@ -73,7 +82,8 @@ static void begin(zd_lane_group *self, int lane)
 {
     const int64_t number = self->next - 1;
     const zd_system system = zd_single_system(self->batch, number);
-    zd_lanes_load(&self->lanes, lane, self->run, system.data, self->batch->doubles);
+    const int64_t numbers = self->lanes.pins ? zd_lane_pins_numbers(system.pinned) : self->batch->doubles;
+    zd_lanes_load(&self->lanes, lane, self->run, self->lanes.pins ? system.pinned->numbers : system.data, numbers);
     self->run_of[lane].number = number;
     self->run_of[lane].rows = self->run_of[lane].next = 0;
     self->active++;
@@ -104,7 +114,7 @@ static void end(zd_lane_group *self, int lane)
     self->batch->rows[number] = self->run_of[lane].rows;
     self->batch->status[number] = ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
-        .steps = steps, .direct_steps = steps, .rejected = (int64_t)lanes->rejected[lane],
+        .steps = steps, .direct_steps = lanes->direct ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
         .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? steps : 0,
         .rank = lanes->m,
     };
@@ -178,22 +188,33 @@ static zd_run *create_first(const zd_batch *batch, const zd_single *own, int64_t
     return NULL;
 }
 
+static int run_in_lanes(const zd_batch *batch, const zd_single *own, zd_run *run, int64_t first, const zd_pins_plan *pins)
+{
+    zd_arena arena = {NULL, 0};
+    lay_out(&arena, batch, own, run, pins);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) return ZD_NO_MEMORY;
+    zd_lane_group group = lay_out(&arena, batch, own, run, pins);
+    group.next = first;
+    run_all(&group);
+    zd_release(arena.base);
+    return ZD_DONE;
+}
+
 int zd_run_side_by_side(const zd_batch *batch, const zd_single *own)
 {
     int64_t first;
     zd_run *run = create_first(batch, own, &first);
     if (!run) return ZD_DONE;
-    const int serves = run_serves(run);
-    zd_arena arena = {NULL, 0};
-    if (serves) lay_out(&arena, batch, own, run);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
-    if (arena.base && serves) {
-        zd_lane_group group = lay_out(&arena, batch, own, run);
-        group.next = first;
-        run_all(&group);
-    }
-    for (int64_t i = first; i < batch->runs && arena.base && !serves && !zd_batch_is_stopped(batch); i++) zd_single_run(batch, own, i);
+    zd_pins_plan plan, *pins = are_of_pins(batch) ? &plan : NULL;
+    int status = ZD_DONE;
+    if (!run_serves(run))
+        for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run(batch, own, i);
+    else if (!pins) status = run_in_lanes(batch, own, run, first, NULL);
+    else if (zd_pins_plan_find(pins, batch->system->pinned)) {
+        status = run_in_lanes(batch, own, run, first, pins);
+        zd_pins_plan_free(pins);
+    } else status = ZD_NO_MEMORY;
     zd_run_free(run);
-    zd_release(arena.base);
-    return arena.base ? ZD_DONE : ZD_NO_MEMORY;
+    return status;
 }

@@ -240,6 +240,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .measures = &self->measures,
         .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->pins.are_all ? &zd_mechanism_products : NULL,
+        .pinned = self->packing && self->packing->pinned.pins ? &self->packing->pinned : NULL,
     };
     self->measures = zd_mechanism_measures(self, from->uses.measure);
 }

@@ -1,6 +1,8 @@
 /* How bodies that are free are stored, and which of their rows are pins. */
 #include "structure.h"
 
+#include <string.h>
+
 void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
 {
     zd_packed_take(&self->packed, arena, bodies, rows, terms);
@@ -10,6 +12,10 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     TAKE(pins.end_at, bodies + 2);
     TAKE(pins.end, rows);
     TAKE(is_of_pin, rows);
+    TAKE(at, bodies + 1);
+    TAKE(pin_first, rows / 2);
+    TAKE(pin_second, rows / 2);
+    TAKE(numbers, 2 * bodies + 3 * rows + 2);
 #undef TAKE
 }
 
@@ -46,6 +52,38 @@ static void plan_weight(zd_packing *self, const zd_mechanism *mechanism)
     }
 }
 
+static int has_mass(const zd_mechanism *mechanism, int body)
+{
+    const zd_link *link = mechanism->tree.link + body;
+    return link->mass > 0 && (link->hang != ZD_HANGS_FREE || link->inertia > 0);
+}
+
+/* What there is to know where pins and weight are all. */
+static void plan_pinned(zd_packing *self, const zd_mechanism *mechanism)
+{
+    const zd_pins *pins = &self->pins;
+    const int bodies = mechanism->tree.bodies;
+    int is_all = pins->are_all && pins->count && !mechanism->uses.efforts;
+    for (int b = 1; b <= bodies; b++) is_all &= has_mass(mechanism, b);
+    if (!is_all) return;
+    double *numbers = self->numbers;
+    for (int b = 1; b <= bodies; b++) {
+        const zd_link *link = mechanism->tree.link + b;
+        self->at[b] = self->at[b - 1] + self->packed.coordinates[b - 1];
+        *numbers++ = 1 / link->mass;
+        *numbers++ = link->hang == ZD_HANGS_FREE ? 1 / link->inertia : 0;
+    }
+    for (const zd_pin *pin = pins->pin; pin < pins->pin + pins->count; pin++, numbers += 6) {
+        self->pin_first[pin - pins->pin] = pin->first - 1;
+        self->pin_second[pin - pins->pin] = pin->second - 1;
+        const double of_pin[] = {pin->point1.x, pin->point1.y, pin->point2.x, pin->point2.y, pin->zero.x, pin->zero.y};
+        memcpy(numbers, of_pin, sizeof of_pin);
+    }
+    numbers[0] = mechanism->gravity.x;
+    numbers[1] = mechanism->gravity.y;
+    self->pinned = (zd_pinned){bodies, pins->count, self->at, self->pin_first, self->pin_second, self->numbers};
+}
+
 static void write_bodies_of(const void *gauges, int gauge, int body[2])
 {
     const zd_gauge *of = gauges;
@@ -61,5 +99,6 @@ int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
     if (zd_packed_plan(&self->packed, &mechanism->uses, bodies, write_bodies_of, mechanism->gauge) >= 0) return 0;
     plan_pins(self, mechanism);
     plan_weight(self, mechanism);
+    plan_pinned(self, mechanism);
     return 1;
 }

@@ -9,6 +9,9 @@ typedef struct zd_packing {
     zd_packed packed;
     double *weight;         /* (nv,) f of (2), where nothing else acts */
     zd_pins pins;
+    zd_pinned pinned;       /* the same for lanes; without pins where there is something else, or something without mass */
+    int *at, *pin_first, *pin_second;   /* its arrays */
+    double *numbers;
     int *is_of_pin;         /* (m,) whether a row is of one of these */
 } zd_packing;
 

@@ -246,6 +246,13 @@ static int start(zd_run *run, int status, const workspace *work, const double *p
     return status;
 }
 
+/* Whether so many rows count for certain, without being looked at, as those of the run do that it was created for. */
+static int are_independent(const zd_motion *motion)
+{
+    const double LEAST = 0x1p-26;       /* of smaller pivots a run tells; those of rows that follow from others are much smaller */
+    return motion->point->rank->is_large && motion->statistics.smallest_pivot > LEAST;
+}
+
 /* What else is checked of a start follows from its pivots being large. */
 static int check_elsewhere(zd_run *run, const workspace *work, const double *p0, const double *v0)
 {
@@ -255,8 +262,13 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (status) return status;
-    zd_direct_choose(motion);
-    if (!zd_is_direct(motion)) return ZD_SINGULAR;
+    if (motion->road.direct) {
+        zd_direct_choose(motion);
+        if (!zd_is_direct(motion)) return ZD_SINGULAR;
+    } else {
+        status = zd_motion_accelerate(motion);
+        if (status || !are_independent(motion)) return ZD_SINGULAR;
+    }
     status = choose_step(run, work->states, p0, v0);
     return status ? status : zd_motion_accelerate(motion);
 }
@@ -268,9 +280,9 @@ static void forget(zd_run *run, const void *data)
     zd_direct_leave(motion);
     motion->system.data = data;
     motion->point->known = motion->point->measured = motion->in_run = 0;
-    motion->balance.initial = 0;
+    motion->balance.initial = motion->statistics.smallest_pivot = 0;
     for (int i = motion->formulation_size; i < motion->rate.size; i++) run->stepper.y[i] = 0;
-    for (int i = 0; i < road->direct->orders * motion->system.nv; i++) road->scale[i] = 0;
+    for (int i = 0; road->direct && i < road->direct->orders * motion->system.nv; i++) road->scale[i] = 0;
 }
 
 size_t zd_run_start_memory(const zd_run *run)

@@ -4,16 +4,10 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from lanes import LANES, UNITS, made, plan_of, rows_of
 from zerodrift import _gateway
-from zerodrift.ensembles.batch import batch_of
 from zerodrift.ensembles.part import ROADS
-from zerodrift.ensembles.plan import checked
-from zerodrift.ensembles.run_range import run_range
-from zerodrift.ensembles.runs import Runs
-from zerodrift.runs.settings import VECTOR_UNITS
 
-UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
-LANES = ROADS.index("vector lanes")
 KINDS = ["four_bar", "slider_crank", "pendulum", "driven_four_bar", "knife_edge", "chaplygin_sleigh", "vertical_disc",
          "oscillator"]
 TIMES = np.linspace(0.013, 0.4, 6)
@@ -22,22 +16,6 @@ COURSES = {"rk4": {"step": 0.01}, "heun": {"step": 0.01, "integrator": "heun", "
            "dormand_prince": {"integrator": "dormand_prince", "t_eval": TIMES},
            "uncorrected": {"step": 0.01, "stabilization": None}}
 pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
-
-
-def plan_of(system, span, parameters=None, p0=None, v0=None, names=None, **options):
-    runs = Runs(system, parameters, p0, v0, None, (), assembles=True)
-    plan = checked(runs, span, options, names, None, keeps=False)
-    assert batch_of(plan) is not None
-    return plan
-
-
-def made(plan, first=0, last=None):
-    return run_range(plan, first, plan.runs.count if last is None else last)
-
-
-def rows_of(part, name):
-    """Run by run."""
-    return np.split(part.arrays[name], np.cumsum(part.rows)[:-1])
 
 
 def names_of(system):

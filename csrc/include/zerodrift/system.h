@@ -154,6 +154,18 @@ typedef struct zd_operations {
     void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 
+/* Bodies in the plane that are joined by pins alone, and of which nothing but their weight asks anything: all that there is to know of them, so that
+ * the core can make several trajectories at once by itself. It says the same as the structure, in which each body is a block of two coordinates,
+ * or of three with its angle, and each pin a group of two rows, in the same order. */
+typedef struct zd_pinned {
+    int bodies, pins;
+    const int *at;              /* (bodies + 1,) where the coordinates of each begin: x and y of its mass centre, and its angle */
+    const int *first, *second;  /* (pins,) bodies; -1: the ground */
+    /* 2 and 6 for each body and pin: 1 / mass, 1 / inertia, 0 without an angle; from mass centre to pin in the axes of the first body and of the
+     * second, on the ground from its origin; and what Phi = x2 + w - x1 - u is where the pin is closed. Behind all of them the two of gravity. */
+    const double *numbers;
+} zd_pinned;
+
 /* The equations with their constraints eliminated in closed form: accelerations and corrections without a leading matrix.
  *
  * An order of elimination solves the rows of C, one or a few at a time, for as many velocities: C x = rhs is x = x0 + D a with a of the
@@ -273,6 +285,7 @@ typedef struct zd_system {
     const void *names;
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
+    const zd_pinned *pinned;
     const zd_direct *direct;        /* (directs,) at most one for each unit and number of lanes; those for one lane serve single runs */
     int directs;
     const zd_series *series;

@@ -39,10 +39,11 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     Runs go side by side in threads, or wherever an executor makes them, each with the bits that it has by itself. A run that
     fails is data: its rows end, `failed` says so, and `messages` why.
 
-    Where direct functions serve a built-in system, and outputs are coordinates, velocities and multipliers at times that are
-    known before, several runs are made at once in the lanes of the processor's vector unit: those of `simulate` but for
-    rounding. What a lane cannot make, energy corrections, events, and a run whose elimination is not sound somewhere, is made by
-    `simulate`'s own steps; `repr` says how many runs took which road.
+    Where direct functions serve a built-in system, or bodies in absolute coordinates are joined by pins alone and these have more
+    than 40 rows, and outputs are coordinates, velocities and multipliers at times that are known before, several runs are made
+    at once in the lanes of the processor's vector unit: those of `simulate` but for rounding. What a lane cannot make, energy
+    corrections, events, and a run whose elimination is not sound somewhere, is made by `simulate`'s own steps; `repr` says how
+    many runs took which road.
 
     Parameters
     ----------

@@ -1,0 +1,360 @@
+/* (13) and (27) of bodies joined by pins, in lanes: what coupling.c and products.c do for one trajectory.
+ *
+ *     Phi = x2 + w - x1 - u - zero,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u         (3), (5), (6)
+ *     S = C M^-1 C^T = L D L^T,     S lambda = C g - xi,     vdot = g - M^-1 C^T lambda                         (13)
+ *
+ * with u and w the arms of a pin and g of gravity, in blocks of two rows. */
+
+static const double GOOD = 0x1p-10;         /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double TOLD = 0x1p-26;         /* of it: of smaller ones somebody is to be told, see SMALLEST_PIVOT in solution.py */
+static const double OF_ROUNDING = 8 * 0x1p-52;      /* of the terms of C x: nothing to be corrected */
+
+typedef struct ZD_NAMED(plane) {
+    zd_real x, y;
+} ZD_NAMED(plane);
+
+ZD_KERNEL ZD_NAMED(plane) ZD_NAMED(arm_of)(const zd_lane_pins *pins, int end)
+{
+    const zd_stored *arm = REAL(pins->arm) + 2 * end;
+    return (ZD_NAMED(plane)){arm[0], arm[1]};
+}
+
+/* ---- where the pins are ---- */
+
+ZD_KERNEL void ZD_NAMED(turn_body)(const zd_lanes *self, int body, const double *p)
+{
+    const zd_lane_pins *pins = self->pins;
+    const int at = pins->of->at[body], turns = pins->of->at[body + 1] - at == 3;
+    zd_real angle = turns ? (zd_real)REAL(p)[at + 2] : ZD_SPLAT(0.0), sine, cosine;
+    ZD_SINES(1, &angle, &sine, &cosine);
+    for (int i = pins->end_at[body]; i < pins->end_at[body + 1]; i++) {
+        const int end = pins->of_body[i];
+        const zd_stored *point = REAL(self->data) + pins->end[end].point;
+        REAL(pins->arm)[2 * end] = ZD_FNMA(sine, point[1], cosine * point[0]);
+        REAL(pins->arm)[2 * end + 1] = ZD_FMA(sine, point[0], cosine * point[1]);
+    }
+}
+
+/* The arms at p, if they are not those there yet. */
+ZD_KERNEL void ZD_NAMED(turn)(const zd_lanes *self, const double *p)
+{
+    zd_lane_pins *pins = self->pins;
+    zd_condition differs = ZD_SPLAT(0.0) != 0.0;
+    for (int i = 0; i < self->nq; i++) differs |= ~(REAL(p)[i] == REAL(pins->p)[i]);
+    if (pins->is_turned && !ZD_ANY(differs)) return;
+    for (int i = 0; i < self->nq; i++) REAL(pins->p)[i] = REAL(p)[i];
+    for (int body = 0; body < pins->of->bodies; body++) ZD_NAMED(turn_body)(self, body, p);
+    for (int end = 0; end < 2 * pins->count; end++) {
+        if (pins->end[end].body >= 0) continue;
+        const zd_stored *point = REAL(self->data) + pins->end[end].point;
+        REAL(pins->arm)[2 * end] = point[0];
+        REAL(pins->arm)[2 * end + 1] = point[1];
+    }
+    pins->is_turned = 1;
+    pins->is_factored = 0;
+}
+
+/* ---- S and its factors ---- */
+
+/* What a body contributes to the blocks of its pins. */
+ZD_KERNEL void ZD_NAMED(add_body)(const zd_lanes *self, int body)
+{
+    const zd_lane_pins *pins = self->pins;
+    const zd_real w = REAL(self->data)[2 * body], turned = REAL(self->data)[2 * body + 1];
+    for (const zd_pin_pair *pair = pins->pair + pins->pair_at[body]; pair < pins->pair + pins->pair_at[body + 1]; pair++) {
+        const ZD_NAMED(plane) a = ZD_NAMED(arm_of)(pins, pair->later), b = ZD_NAMED(arm_of)(pins, pair->earlier);
+        const zd_real x = pair->sign * turned * a.x, y = pair->sign * turned * a.y, along = pair->sign * w;
+        zd_stored *to = REAL(pins->S) + pair->at;
+        const zd_real xx = ZD_FMA(y, b.y, along), xy = -y * b.x, yx = -x * b.y, yy = ZD_FMA(x, b.x, along);
+        if (pair->is_first) {
+            to[0] = xx, to[1] = xy, to[2] = yx, to[3] = yy;
+            continue;
+        }
+        to[0] += xx, to[1] += xy, to[2] += yx, to[3] += yy;
+    }
+}
+
+/* The diagonal block of a pin, and how large its diagonal is before others are eliminated. */
+ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
+{
+    const zd_lane_pins *pins = self->pins;
+    zd_real xx = ZD_SPLAT(0.0), yx = xx, yy = xx;
+    for (int end = 2 * place; end < 2 * place + 2; end++) {
+        const int body = pins->end[end].body;
+        if (body < 0) continue;
+        const ZD_NAMED(plane) a = ZD_NAMED(arm_of)(pins, end);
+        const zd_real w = REAL(self->data)[2 * body], x = REAL(self->data)[2 * body + 1] * a.x, y = REAL(self->data)[2 * body + 1] * a.y;
+        xx += ZD_FMA(y, a.y, w);
+        yx = ZD_FNMA(x, a.y, yx);
+        yy += ZD_FMA(x, a.x, w);
+    }
+    zd_stored *to = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
+    to[0] = diagonal[0] = xx;
+    to[2] = yx;
+    to[3] = diagonal[1] = yy;
+}
+
+/* Which lanes have a pivot that is small, and one of which nothing is known */
+typedef struct ZD_NAMED(judged) {
+    zd_condition small, lost;
+} ZD_NAMED(judged);
+
+/* D_k^-1 in place of the block of this place: as zd_invert_two() has it. */
+ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(judged) *judged)
+{
+    zd_stored *P = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
+    const zd_real a = P[0], b = P[2], c = P[3], determinant = ZD_FNMA(b, b, a * c), other = a * diagonal[1];
+    judged->small |= ~(a >= GOOD * diagonal[0]) | ~(determinant >= GOOD * other);
+    judged->lost |= ~(a >= TOLD * diagonal[0]) | ~(determinant >= TOLD * other) | ~(determinant < INFINITY);
+    const zd_real scale = ZD_SPLAT(1.0) / determinant;
+    P[0] = c * scale;
+    P[1] = P[2] = -b * scale;
+    P[3] = a * scale;
+}
+
+/* Takes what is of this place out of the blocks of later ones. */
+ZD_KERNEL void ZD_NAMED(eliminate)(const zd_lane_pins *pins, int place)
+{
+    const zd_blocks *blocks = pins->blocks;
+    const int first = blocks->begin[place], *target = blocks->target + blocks->target_begin[place];
+    zd_stored *S = REAL(pins->S), *P = S + 4 * place;
+    const zd_real aa = P[0], ab = P[1], bb = P[3];
+    for (int e = first; e < blocks->begin[place + 1]; e++) {
+        zd_stored *B = S + 4 * (blocks->count + e), *D = S + 4 * blocks->row[e];
+        const zd_real b0 = B[0], b1 = B[1], b2 = B[2], b3 = B[3];
+        const zd_real l0 = ZD_FMA(b0, aa, b1 * ab), l1 = ZD_FMA(b0, ab, b1 * bb), l2 = ZD_FMA(b2, aa, b3 * ab), l3 = ZD_FMA(b2, ab, b3 * bb);
+        for (int f = first; f < e; f++) {
+            const zd_stored *L = S + 4 * (blocks->count + f);
+            zd_stored *to = S + *target++;
+            to[0] = ZD_FNMA(b1, L[1], ZD_FNMA(b0, L[0], to[0]));
+            to[1] = ZD_FNMA(b1, L[3], ZD_FNMA(b0, L[2], to[1]));
+            to[2] = ZD_FNMA(b3, L[1], ZD_FNMA(b2, L[0], to[2]));
+            to[3] = ZD_FNMA(b3, L[3], ZD_FNMA(b2, L[2], to[3]));
+        }
+        D[0] = ZD_FNMA(l1, b1, ZD_FNMA(l0, b0, D[0]));
+        D[2] = ZD_FNMA(l3, b1, ZD_FNMA(l2, b0, D[2]));
+        D[3] = ZD_FNMA(l3, b3, ZD_FNMA(l2, b2, D[3]));
+        B[0] = l0, B[1] = l1, B[2] = l2, B[3] = l3;
+    }
+}
+
+/* S at p and its factors, if they are not those there yet. */
+ZD_KERNEL void ZD_NAMED(factorize)(const zd_lanes *self, const double *p)
+{
+    zd_lane_pins *pins = self->pins;
+    ZD_NAMED(turn)(self, p);
+    if (pins->is_factored) return;
+    for (int i = 0; i < pins->fills; i++)
+        for (int j = 0; j < 4; j++) REAL(pins->S)[pins->fill[i] + j] = ZD_SPLAT(0.0);
+    for (int body = 0; body < pins->of->bodies; body++) ZD_NAMED(add_body)(self, body);
+    for (int place = 0; place < pins->count; place++) ZD_NAMED(add_pin)(self, place);
+    ZD_NAMED(judged) judged = {ZD_SPLAT(0.0) != 0.0, ZD_SPLAT(0.0) != 0.0};
+    for (int place = 0; place < pins->count; place++) {
+        ZD_NAMED(invert)(pins, place, &judged);
+        ZD_NAMED(eliminate)(pins, place);
+    }
+    *REAL(pins->is_small) = AS_NUMBER(judged.small | HOLDS(pins->refines));
+    *REAL(pins->is_lost) = AS_NUMBER(judged.lost);
+    pins->is_factored = 1;
+}
+
+/* ---- solution ---- */
+
+/* y <- S^-1 y */
+ZD_KERNEL void ZD_NAMED(solve)(const zd_lane_pins *pins)
+{
+    const zd_blocks *blocks = pins->blocks;
+    const zd_stored *S = REAL(pins->S);
+    zd_stored *y = REAL(pins->y);
+    for (int k = 0; k < blocks->count; k++) {
+        const zd_stored *P = S + 4 * k;
+        const zd_real y0 = y[2 * k], y1 = y[2 * k + 1];
+        for (int e = blocks->begin[k]; e < blocks->begin[k + 1]; e++) {
+            const zd_stored *L = S + 4 * (blocks->count + e);
+            zd_stored *z = y + 2 * blocks->row[e];
+            z[0] = ZD_FNMA(L[1], y1, ZD_FNMA(L[0], y0, z[0]));
+            z[1] = ZD_FNMA(L[3], y1, ZD_FNMA(L[2], y0, z[1]));
+        }
+        y[2 * k] = ZD_FMA(P[0], y0, P[2] * y1);
+        y[2 * k + 1] = ZD_FMA(P[2], y0, P[3] * y1);
+    }
+    for (int k = blocks->count - 1; k >= 0; k--) {
+        zd_real y0 = y[2 * k], y1 = y[2 * k + 1];
+        for (int e = blocks->begin[k]; e < blocks->begin[k + 1]; e++) {
+            const zd_stored *L = S + 4 * (blocks->count + e), *z = y + 2 * blocks->row[e];
+            y0 = ZD_FNMA(L[2], z[1], ZD_FNMA(L[0], z[0], y0));
+            y1 = ZD_FNMA(L[3], z[1], ZD_FNMA(L[1], z[0], y1));
+        }
+        y[2 * k] = y0;
+        y[2 * k + 1] = y1;
+    }
+}
+
+/* x <- g - M^-1 C^T y, without g where `falls` is 0 */
+ZD_KERNEL void ZD_NAMED(spread_forces)(const zd_lanes *self, double falls, double *x)
+{
+    const zd_lane_pins *pins = self->pins;
+    const zd_stored *g = REAL(self->data) + pins->gravity, *y = REAL(pins->y);
+    const zd_real gx = falls * g[0], gy = falls * g[1];
+    for (int body = 0; body < pins->of->bodies; body++) {
+        const int at = pins->of->at[body];
+        zd_real forward = ZD_SPLAT(0.0), upward = forward, torque = forward;
+        for (int i = pins->end_at[body]; i < pins->end_at[body + 1]; i++) {
+            const int end = pins->of_body[i];
+            const double sign = end & 1 ? 1 : -1;
+            const ZD_NAMED(plane) arm = ZD_NAMED(arm_of)(pins, end);
+            const zd_real fx = sign * y[end & ~1], fy = sign * y[end | 1];
+            forward += fx;
+            upward += fy;
+            torque += ZD_FNMA(arm.y, fx, arm.x * fy);
+        }
+        REAL(x)[at] = ZD_FNMA(REAL(self->data)[2 * body], forward, gx);
+        REAL(x)[at + 1] = ZD_FNMA(REAL(self->data)[2 * body], upward, gy);
+        if (pins->of->at[body + 1] - at == 3) REAL(x)[at + 2] = -REAL(self->data)[2 * body + 1] * torque;
+    }
+}
+
+/* What the velocities of the body of an end do to both rows of its pin, and the sizes of the terms */
+typedef struct ZD_NAMED(moved) {
+    ZD_NAMED(plane) by, size;
+} ZD_NAMED(moved);
+
+ZD_KERNEL ZD_NAMED(moved) ZD_NAMED(move_end)(const zd_lane_pins *pins, int end, const double *v)
+{
+    const int body = pins->end[end].body;
+    if (body < 0) return (ZD_NAMED(moved)){{ZD_SPLAT(0.0), ZD_SPLAT(0.0)}, {ZD_SPLAT(0.0), ZD_SPLAT(0.0)}};
+    const int at = pins->of->at[body], turns = pins->of->at[body + 1] - at == 3;
+    const zd_real x = REAL(v)[at], y = REAL(v)[at + 1], turned = turns ? (zd_real)REAL(v)[at + 2] : ZD_SPLAT(0.0);
+    const ZD_NAMED(plane) arm = ZD_NAMED(arm_of)(pins, end);
+    const zd_real across = turned * arm.y, along = turned * arm.x;
+    return (ZD_NAMED(moved)){{x - across, y + along}, {ZD_NAMED(size_of)(x) + ZD_NAMED(size_of)(across),
+                                                      ZD_NAMED(size_of)(y) + ZD_NAMED(size_of)(along)}};
+}
+
+/* rest <- rhs - C x, and y <- its opposite where that is more than the rounding of x makes it, else 0. Returns how much it is of its terms. */
+ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
+{
+    zd_real left = ZD_SPLAT(0.0);
+    for (int place = 0; place < pins->count; place++) {
+        const ZD_NAMED(moved) first = ZD_NAMED(move_end)(pins, 2 * place, x), second = ZD_NAMED(move_end)(pins, 2 * place + 1, x);
+        const zd_stored *rhs = REAL(pins->rest) + 2 * place;
+        const zd_real rest[] = {rhs[0] - (second.by.x - first.by.x), rhs[1] - (second.by.y - first.by.y)};
+        const zd_real size[] = {ZD_NAMED(size_of)(rhs[0]) + first.size.x + second.size.x, ZD_NAMED(size_of)(rhs[1]) + first.size.y + second.size.y};
+        for (int i = 0; i < 2; i++) {
+            const zd_real off = ZD_NAMED(size_of)(rest[i]);
+            const zd_condition counts = (off > OF_ROUNDING * size[i]) & (off > left * size[i]);
+            left = ZD_WHERE(counts, off / ZD_WHERE(counts, size[i], ZD_SPLAT(1.0)), left);
+            REAL(pins->y)[2 * place + i] = -rest[i];
+        }
+    }
+    return left;
+}
+
+/* Takes what is left of C x = rhs out of x, in those lanes where pivots or masses say that something may be: as in coupling.c. */
+ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
+{
+    enum { MAX_REFINEMENTS = 40 };
+    zd_lane_pins *pins = self->pins;
+    zd_condition open = HOLDS(pins->is_small);
+    zd_real before = ZD_SPLAT(INFINITY), left;
+    if (!ZD_ANY(open)) return;
+    for (int i = 0; i < 2 * pins->count; i++) REAL(pins->lambda)[i] = REAL(pins->y)[i];
+    for (int i = 0; i < MAX_REFINEMENTS; i++) {
+        left = ZD_NAMED(find_rest)(pins, x);
+        open &= (left > 0.0) & (left < 0.5 * before);
+        if (!ZD_ANY(open)) break;
+        ZD_NAMED(solve)(pins);
+        ZD_NAMED(spread_forces)(self, 0, pins->step);
+        for (int j = 0; j < self->nv; j++) REAL(x)[j] += ZD_WHERE(open, REAL(pins->step)[j], ZD_SPLAT(0.0));
+        for (int j = 0; j < 2 * pins->count; j++) REAL(pins->lambda)[j] += ZD_WHERE(open, REAL(pins->y)[j], ZD_SPLAT(0.0));
+        before = left;
+    }
+    for (int i = 0; i < 2 * pins->count; i++) REAL(pins->y)[i] = REAL(pins->lambda)[i];
+}
+
+/* x with C x = rhs, which stands in `rest` and its opposite, with C g where x falls, in y */
+ZD_KERNEL void ZD_NAMED(exchange)(const zd_lanes *self, double falls, double *x)
+{
+    ZD_NAMED(solve)(self->pins);
+    ZD_NAMED(spread_forces)(self, falls, x);
+    ZD_NAMED(refine)(self, x);
+}
+
+/* ---- what lanes ask for ---- */
+
+ZD_KERNEL zd_real ZD_NAMED(spin_squared)(const zd_lane_pins *pins, int end, const double *v)
+{
+    const int body = pins->end[end].body;
+    if (body < 0 || pins->of->at[body + 1] - pins->of->at[body] < 3) return ZD_SPLAT(0.0);
+    const zd_real spin = REAL(v)[pins->of->at[body] + 2];
+    return spin * spin;
+}
+
+/* vdot and, where it is wanted, lambda; what is not known is no number. */
+ZD_KERNEL void ZD_NAMED(accelerate_pins)(const zd_lanes *self, const double *p, const double *v, double *vdot, double *lambda)
+{
+    const zd_lane_pins *pins = self->pins;
+    const zd_stored *g = REAL(self->data) + pins->gravity;
+    ZD_NAMED(factorize)(self, p);
+    for (int place = 0; place < pins->count; place++) {
+        const int first = 2 * place, second = first + 1;
+        const double falls = (pins->end[second].body >= 0) - (pins->end[first].body >= 0);
+        const zd_real turn1 = ZD_NAMED(spin_squared)(pins, first, v), turn2 = ZD_NAMED(spin_squared)(pins, second, v);
+        const ZD_NAMED(plane) u = ZD_NAMED(arm_of)(pins, first), w = ZD_NAMED(arm_of)(pins, second);
+        const zd_real x = ZD_FNMA(turn1, u.x, turn2 * w.x), y = ZD_FNMA(turn1, u.y, turn2 * w.y);      /* xi of (6) */
+        REAL(pins->rest)[first] = x, REAL(pins->rest)[second] = y;
+        REAL(pins->y)[first] = falls * g[0] - x, REAL(pins->y)[second] = falls * g[1] - y;
+    }
+    ZD_NAMED(exchange)(self, 1, vdot);                                                                 /* (13) */
+    *REAL(vdot) = ZD_WHERE(HOLDS(pins->is_lost), ZD_SPLAT(NAN), *REAL(vdot));
+    for (int place = 0; lambda && place < pins->count; place++)
+        for (int i = 0; i < 2; i++) REAL(lambda)[pins->row[place] + i] = REAL(pins->y)[2 * place + i];
+}
+
+/* Phi at p */
+ZD_KERNEL void ZD_NAMED(close_pins)(const zd_lanes *self, const double *p)
+{
+    const zd_lane_pins *pins = self->pins;
+    ZD_NAMED(turn)(self, p);
+    for (int place = 0; place < pins->count; place++) {
+        const zd_pin_end *first = pins->end + 2 * place, *second = first + 1;
+        const ZD_NAMED(plane) u = ZD_NAMED(arm_of)(pins, 2 * place), w = ZD_NAMED(arm_of)(pins, 2 * place + 1);
+        const zd_stored *zero = REAL(self->data) + second->point + 2;
+        zd_real from[] = {u.x, u.y}, to[] = {w.x, w.y};
+        for (int i = 0; i < 2; i++) {
+            if (first->body >= 0) from[i] += REAL(p)[pins->of->at[first->body] + i];
+            if (second->body >= 0) to[i] += REAL(p)[pins->of->at[second->body] + i];
+            REAL(self->Phi)[pins->row[place] + i] = to[i] - from[i] - zero[i];
+        }
+    }
+}
+
+/* dp (27a) at p, where Phi is known */
+ZD_KERNEL void ZD_NAMED(correct_pins)(const zd_lanes *self, const double *p)
+{
+    const zd_lane_pins *pins = self->pins;
+    ZD_NAMED(factorize)(self, p);
+    for (int place = 0; place < pins->count; place++)
+        for (int i = 0; i < 2; i++) {
+            const zd_real Phi = REAL(self->Phi)[pins->row[place] + i];
+            REAL(pins->rest)[2 * place + i] = Phi;
+            REAL(pins->y)[2 * place + i] = -Phi;
+        }
+    ZD_NAMED(exchange)(self, 0, self->dp);
+}
+
+/* dv (27b) at (p, v) */
+ZD_KERNEL void ZD_NAMED(slow_pins)(const zd_lanes *self, const double *p, const double *v)
+{
+    const zd_lane_pins *pins = self->pins;
+    ZD_NAMED(factorize)(self, p);
+    for (int place = 0; place < pins->count; place++) {
+        const ZD_NAMED(moved) first = ZD_NAMED(move_end)(pins, 2 * place, v), second = ZD_NAMED(move_end)(pins, 2 * place + 1, v);
+        const zd_real Psi[] = {second.by.x - first.by.x, second.by.y - first.by.y};
+        for (int i = 0; i < 2; i++) {
+            REAL(pins->rest)[2 * place + i] = Psi[i];
+            REAL(pins->y)[2 * place + i] = -Psi[i];
+        }
+    }
+    ZD_NAMED(exchange)(self, 0, self->dv);
+}

@@ -1,0 +1,30 @@
+"""Runs of an ensemble as the core makes them: in one call, from tables."""
+
+import numpy as np
+
+from zerodrift import _gateway
+from zerodrift.ensembles.batch import batch_of
+from zerodrift.ensembles.part import ROADS
+from zerodrift.ensembles.plan import checked
+from zerodrift.ensembles.run_range import run_range
+from zerodrift.ensembles.runs import Runs
+from zerodrift.runs.settings import VECTOR_UNITS
+
+UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
+LANES = ROADS.index("vector lanes")
+
+
+def plan_of(system, span, parameters=None, p0=None, v0=None, names=None, **options):
+    runs = Runs(system, parameters, p0, v0, None, (), assembles=True)
+    plan = checked(runs, span, options, names, None, keeps=False)
+    assert batch_of(plan) is not None
+    return plan
+
+
+def made(plan, first=0, last=None):
+    return run_range(plan, first, plan.runs.count if last is None else last)
+
+
+def rows_of(part, name):
+    """Run by run."""
+    return np.split(part.arrays[name], np.cumsum(part.rows)[:-1])
