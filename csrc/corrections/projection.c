@@ -45,8 +45,8 @@ typedef struct projection {
     given_projection given;
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
     double *landed;     /* (nq,): p before its correction */
-    double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far */
     double *rhs, *x;    /* (m,), (nv,) */
+    double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far; NULL until steps are shortened */
     double *identity;   /* M of that metric, stored as the system's is */
     void *plain;        /* (13) with it */
 } projection;
@@ -81,8 +81,6 @@ static void *take(zd_arena *arena, const zd_system *system, const void *memory)
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .landed = zd_take_doubles(arena, nq),
-        .from = zd_take_doubles(arena, nq),
-        .change = zd_take_doubles(arena, nq),
         .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
         .x = zd_take_doubles(arena, nv),
         .identity = identity ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
@@ -173,6 +171,24 @@ static int retreat(void *context)
     return ZD_DONE;
 }
 
+static void *take_change(zd_arena *arena, const void *of)
+{
+    const zd_system *system = of;
+    return zd_take_doubles(arena, 2 * (size_t)system->nq);
+}
+
+/* Again from the start, with iterations that are shortened. */
+static int begin_again(position_problem *problem)
+{
+    projection *self = problem->self;
+    zd_motion *motion = problem->motion;
+    if (!self->from) self->from = zd_store_take(&motion->store, take_change, &motion->system);
+    if (!self->from) return ZD_NO_MEMORY;
+    self->change = self->from + motion->system.nq;
+    zd_point_move(motion->point, motion->point->t, self->landed, motion->point->v);
+    return ZD_DONE;
+}
+
 static int iterate(const zd_newton *newton, position_problem *problem)
 {
     zd_motion *motion = problem->motion;
@@ -196,8 +212,8 @@ static int correct_positions(projection *self, zd_motion *motion)
     newton.improve = improve_and_remember;
     newton.contraction = 0;
     newton.retreat = retreat;
-    zd_point_move(motion->point, motion->point->t, self->landed, motion->point->v);
-    status = iterate(&newton, &problem);
+    status = begin_again(&problem);
+    if (!status) status = iterate(&newton, &problem);
     if (!status) motion->statistics.damped++;
     return status;
 }
@@ -226,7 +242,7 @@ static int direct_residual(void *context, double *size)
     zd_point *point = problem->motion->point;
     const zd_elimination *order = problem->motion->road.order;
     problem->motion->statistics.evaluations++;
-    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, self->change, self->x);
+    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, problem->motion->road.dp, self->x);
     if (status) return ZD_CALLBACK;
     *size = zd_point_violation(point);
     return ZD_DONE;
@@ -237,7 +253,7 @@ static int improve_directly(void *context)
     position_problem *problem = context;
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
-    ZD_SIZED(zd_subtract, point->system->nq, point->p, self->change, self->p);      /* (25a), (26a), (27a) */
+    ZD_SIZED(zd_subtract, point->system->nq, point->p, problem->motion->road.dp, self->p);      /* (25a), (26a), (27a) */
     zd_quaternions_normalise(point->system, self->p);
     zd_point_move(point, point->t, self->p, point->v);
     return ZD_DONE;

@@ -69,7 +69,6 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
         .end = settings->t1,
-        .undivided = zd_place_take(arena, motion),
     };
     if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
     run->recorder = zd_recorder_take(arena, settings, motion);

@@ -22,7 +22,7 @@ typedef struct zd_course {
     double end;             /* s: t1 of the settings, or where an event has ended the run */
     int64_t step;              /* the number of the step being made, from 1 */
     int64_t steps;             /* how many there will be, where they are of fixed size */
-    zd_place undivided;     /* where the step began that is made in parts */
+    zd_place *undivided;    /* where the step began that is made in parts; NULL until there is one */
     int parts;              /* how many the step is made in; 0: it is undivided */
     zd_control control;
 } zd_course;

@@ -31,8 +31,8 @@ static int make_step(zd_course *course, double h, double t1)
 /* From where the step began to t1, in equal parts. */
 static int take_parts(zd_course *course, double t1)
 {
-    const double t0 = course->undivided.t;
-    int status = zd_stepper_return_to(course->stepper, &course->undivided);
+    const double t0 = course->undivided->t;
+    int status = zd_stepper_return_to(course->stepper, course->undivided);
     if (!status) status = zd_safeguards_begin(course->safeguards, course->step + 1);
     for (int part = 1; !status && part <= course->parts; part++) {
         double t = part == course->parts ? t1 : t0 + (t1 - t0) * part / course->parts;
@@ -41,15 +41,25 @@ static int take_parts(zd_course *course, double t1)
     return status;
 }
 
-static void remember_undivided(zd_course *course)
+static void *take_place(zd_arena *arena, const void *of)
 {
-    const zd_motion *motion = course->motion;
+    const zd_place place = zd_place_take(arena, of);
+    return zd_take_filled(arena, &place, sizeof place);
+}
+
+static int remember_undivided(zd_course *course)
+{
+    zd_motion *motion = course->motion;
     const zd_last *last = &course->stepper->last;
     const int own = motion->formulation_size;
-    course->undivided.t = last->t;
-    zd_copy(motion->system.nq, last->p, course->undivided.p);
-    zd_copy(motion->system.nv, last->v, course->undivided.v);
-    zd_copy(motion->rate.size - own, last->y + own, course->undivided.extra);
+    if (!course->undivided) course->undivided = zd_store_take(&motion->store, take_place, motion);
+    zd_place *undivided = course->undivided;
+    if (!undivided) return ZD_NO_MEMORY;
+    undivided->t = last->t;
+    zd_copy(motion->system.nq, last->p, undivided->p);
+    zd_copy(motion->system.nv, last->v, undivided->v);
+    zd_copy(motion->rate.size - own, last->y + own, undivided->extra);
+    return ZD_DONE;
 }
 
 static int is_too_far(int status)
@@ -59,7 +69,7 @@ static int is_too_far(int status)
 
 static int divide_step(zd_course *course, int status, double t1)
 {
-    remember_undivided(course);
+    if (remember_undivided(course)) return ZD_NO_MEMORY;
     for (course->parts = 2; is_too_far(status) && course->parts <= MOST_PARTS; course->parts *= 2) {
         int again = take_parts(course, t1);
         if (!again) {

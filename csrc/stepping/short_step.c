@@ -16,8 +16,6 @@ ZD_INLINE void remember(const int n, zd_stepper *stepper)
 {
     zd_copy(n, stepper->y, stepper->last.y);
     zd_copy(n, stepper->y + n, stepper->last.y + n);
-    zd_copy(n, stepper->y, stepper->last.p);
-    zd_copy(n, stepper->y + n, stepper->last.v);
 }
 
 ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)

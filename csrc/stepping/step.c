@@ -15,6 +15,8 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
     const zd_system *system = &motion->system;
     int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
     size_t size = (size_t)(motion->rate.size + more);
+    double *y = zd_take_doubles(arena, size), *last = zd_take_doubles(arena, size);
+    const int is_whole = !motion->formulation->settle;     /* then the state begins with p and v */
     *self = (zd_stepper){
         .motion = motion,
         .chosen = {motion->formulation, motion->solver, own},
@@ -23,11 +25,11 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .capacity = (int)size,
         .integrator = integrator,
         .memory = integrator->take(arena, integrator->table, system, (int)size, given),
-        .y = zd_take_doubles(arena, size),
+        .y = y,
         .last = {
-            .y = zd_take_doubles(arena, size),
-            .p = zd_take_doubles(arena, (size_t)system->nq),
-            .v = zd_take_doubles(arena, (size_t)system->nv),
+            .y = last,
+            .p = is_whole ? last : zd_take_doubles(arena, (size_t)system->nq),
+            .v = !is_whole ? zd_take_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
         },
     };
     zd_motion_attach(motion, self->y);
@@ -42,6 +44,7 @@ static void remember(zd_stepper *self, double h)
     self->last.h = h;
     point->rank->was_ill_conditioned = 0;
     zd_copy(self->motion->rate.size, self->y, self->last.y);
+    if (self->last.p == self->last.y) return;
     ZD_SIZED(zd_copy, point->system->nq, point->p, self->last.p);
     ZD_SIZED(zd_copy, point->system->nv, point->v, self->last.v);
 }
