@@ -118,6 +118,7 @@ static const zd_range NOWHERE = {UINT64_MAX, 0};    /* but at a number that is n
 /* Of another order: a glance says nothing of them until they have been compared. */
 static void forget_pivots(zd_motion *motion)
 {
+    motion->road.ranges = count_pivots(motion);
     for (int k = 0; k < motion->system.nv; k++) {
         motion->road.pivots[k] = 0;
         motion->road.range[k] = NOWHERE;
@@ -131,7 +132,6 @@ static void remember_pivots(zd_motion *motion)
     zd_road *road = &motion->road;
     const double *scale = scale_of(motion, road->order), factor = 1 / sqrt(SHRUNK);
     if (road->order != road->first) return;
-    for (int k = 0; k < motion->system.nv; k++) road->range[k] = (zd_range){0, 0};
     for (int k = 0; k < count_pivots(motion); k++) {
         const double x = road->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
         const uint64_t from = bits_of(copysign(least, x)), to = bits_of(copysign(most, x));

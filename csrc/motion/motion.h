@@ -75,6 +75,7 @@ typedef struct zd_road {
     int continues;          /* whether a glance at the end of a step has found that the next may be made likewise */
     double *scale;          /* (orders, nv): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
     zd_range *range;        /* (nv,): pivots within are large, of the same sign, and within a factor of four of what they were */
+    int ranges;             /* how many of these: pivots of the order, at least one */
     double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
     double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began. Those that no order has are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */
@@ -177,8 +178,12 @@ static inline int zd_direct_continues(zd_motion *motion)
 {
     int continues = motion->road.continues && (motion->point->known & ZD_ACCELERATED);
     motion->road.continues = 0;
-    if (continues && motion->corrections > 1) zd_direct_remember_energy(motion);
-    return continues;
+    if (!continues) return 0;
+    double *pivots = motion->road.pivots;       /* copies would wait for them */
+    motion->road.pivots = motion->road.before;
+    motion->road.before = pivots;
+    if (motion->corrections > 1) zd_direct_remember_energy(motion);
+    return 1;
 }
 
 static inline int zd_is_embedded(const zd_motion *motion) { return motion->road.order && motion->road.embeds; }

@@ -6,15 +6,14 @@
 
 #include "motion.h"
 
-/* Then the next step may begin with the same order, the first, and where it begins is kept. Where there are fewer pivots than n, the others are
- * zero. Compared are their bits, which lie as the sizes do: what computes is busy with the step that follows. */
-ZD_INLINE int zd_pivots_stay(const int n, zd_road *road)
+/* Then the next step may begin with the same order, the first. Compared are their bits, which lie as the sizes do: what computes is busy with the
+ * step that follows. */
+ZD_INLINE int zd_pivots_stay(zd_road *road)
 {
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < road->ranges; k++) {
         uint64_t bits;
         memcpy(&bits, road->pivots + k, sizeof bits);
         if (bits - road->range[k].least > road->range[k].width) return 0;
-        memcpy(road->before + k, &bits, sizeof bits);
     }
     road->was_taken = road->continues = 1;
     return 1;
