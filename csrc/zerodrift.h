@@ -236,7 +236,7 @@ enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES };     /* how a run was ma
  * not wanted. */
 typedef struct zd_batch {
     const zd_system *system;        /* whose functions do not need Python */
-    const zd_settings *settings;    /* without events */
+    const zd_settings *settings;    /* whose events are all known: nobody is asked for them, nor told of them */
     int64_t runs;
     const double *data;             /* (runs, doubles): in the place of the system's; NULL: that is the same for all */
     int64_t doubles;                /* that this is; 0: it consists of others, and is the same for all */
@@ -250,6 +250,9 @@ typedef struct zd_batch {
     double *input;                  /* (runs, capacity) J */
     int *iterations;                /* (runs, capacity) */
     double *outputs;                /* (runs, capacity, components of all outputs) */
+    int64_t events_capacity;        /* of each event of a run: so many that there is room for */
+    int64_t *found;                 /* (runs, events) how often each has happened, also where there was no room for it; NULL: no events */
+    double *t_events, *p_events, *v_events; /* (runs, events, events_capacity), (.., nq), (.., nv): where the first of them did */
     int64_t *rows;                  /* (runs,) that were saved */
     int *status;                    /* (runs,) ZD_PAUSED where it was stopped */
     int *way;                       /* (runs,) of zd_way; one that could not be created is not begun */

@@ -8,13 +8,14 @@
 static const double LARGEST_ENERGY_ERROR = 0.005;   /* of the kinetic energy */
 static const double ROUNDING = 1e-10;               /* of all the energy there is */
 
-static void gather(const zd_lanes *lanes, int lane, const double *y, double *p, double *v)
+void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 {
-    for (int i = 0; i < lanes->nq; i++) p[i] = zd_lane_number(lanes, y, i, lane);
-    for (int i = 0; i < lanes->nv; i++) v[i] = zd_lane_number(lanes, y, lanes->nq + i, lane);
+    const zd_lanes *lanes = &self->lanes;
+    for (int i = 0; i < lanes->nq; i++) self->p[i] = zd_lane_number(lanes, y, i, lane);
+    for (int i = 0; i < lanes->nv; i++) self->v[i] = zd_lane_number(lanes, y, lanes->nq + i, lane);
 }
 
-static const void *data_of(const zd_lane_group *self, int lane)
+const void *zd_lane_group_data(const zd_lane_group *self, int lane)
 {
     return zd_single_system(self->batch, self->run_of[lane].number).data;
 }
@@ -24,9 +25,9 @@ static int evaluate_rows(zd_lane_group *self, int lane, double t, const double *
 {
     const zd_lanes *lanes = &self->lanes;
     const zd_system *system = &self->run->motion.system;
-    gather(lanes, lane, y, self->p, self->v);
+    zd_lane_group_gather(self, lane, y);
     self->terms.C = C;
-    if (system->evaluate(data_of(self, lane), ZD_C | ZD_MOVED, t, self->p, self->v, &self->terms)) return 0;
+    if (system->evaluate(zd_lane_group_data(self, lane), ZD_C | ZD_MOVED, t, self->p, self->v, &self->terms)) return 0;
     for (int k = 0; k < lanes->mh; k++)
         for (int i = 0; i < lanes->nv; i++) C[k * lanes->nv + i] /= zd_lane_number(lanes, lanes->inverse_unit, i, lane);
     return 1;
@@ -63,7 +64,8 @@ void zd_lane_group_note_start(zd_lane_group *self, int lane)
 {
     zd_motion *motion = &self->run->motion;
     zd_lane_run *run = &self->run_of[lane];
-    run->number_of_C = -1;
+    run->number_of_C = run->search.number_of_now = run->search.number_of_happening = -1;
+    run->search.ended = run->search.is_at_end = run->is_complete = 0;
     run->kinetic = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
     run->energy = motion->balance.initial;
 }
@@ -75,8 +77,8 @@ int zd_lane_group_keeps_energy(zd_lane_group *self, int lane)
     zd_motion *motion = &self->run->motion;
     double violation, kinetic;
     if (!zd_has_energy(&motion->system)) return 1;
-    gather(lanes, lane, lanes->y, self->p, self->v);
-    motion->system.data = data_of(self, lane);
+    zd_lane_group_gather(self, lane, lanes->y);
+    motion->system.data = zd_lane_group_data(self, lane);
     motion->point->known = 0;
     zd_point_move(motion->point, lanes->t[lane], self->p, self->v);
     motion->balance.initial = run->energy;

@@ -2,17 +2,36 @@
 #ifndef ZD_BATCH_GROUP_H
 #define ZD_BATCH_GROUP_H
 
+#include "../linalg/bracket.h"
+#include "../output/reading.h"
 #include "../run/run.h"
 #include "lane_numbers.h"
 #include "single.h"
+
+/* What is looked for in the step that a lane has just made: where events happen, by steps to times within it. */
+typedef struct zd_lane_search {
+    enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
+    int event;              /* which it is at */
+    double *before, *now;   /* (events,): their values at the ends of the step */
+    double number_of_now;   /* the step whose end that is; -1: none */
+    double number_of_happening;     /* the last step in which anything has happened; -1: none */
+    zd_bracket *bracket;    /* (events,): when they happen; at infinity where they do not */
+    double *early;          /* (size,): the state before the event, */
+    double *mixed;          /* (size,): and where it happens */
+    int ended;              /* which ends the run, counted from 1, */
+    double end;             /* and when */
+    int is_at_end;          /* whether the lane has got there, and its rows before that are saved */
+} zd_lane_search;
 
 typedef struct zd_lane_run {    /* in a lane */
     int64_t number;         /* of the batch; -1: none */
     int64_t rows;           /* saved so far */
     int64_t next;           /* of t_eval */
+    int is_complete;        /* whether the row is saved at which an event has ended it */
     double kinetic, energy; /* J: at its start; the energy without what has come in since */
     double *C;              /* (m, nv): in natural units, at the end of the step */
     double number_of_C;     /* the step at whose end C was evaluated; -1: not yet */
+    zd_lane_search search;  /* where there are events */
 } zd_lane_run;
 
 typedef struct zd_lane_group {
@@ -26,6 +45,7 @@ typedef struct zd_lane_group {
     int64_t next, active;   /* the run that begins next; how many are in lanes */
     double *p, *v, *C;      /* (nq,), (nv,), (m, nv): of one lane */
     zd_terms terms;         /* of the system, for C alone */
+    zd_reader reader;       /* of events */
 } zd_lane_group;
 
 /* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice: the first time only counts the memory. */
@@ -48,6 +68,16 @@ int zd_lane_group_is_turned(zd_lane_group *self, int lane);
 /* Whether the run in the lane, which has ended, keeps its energy as well as runs do that nobody is warned of. */
 int zd_lane_group_keeps_energy(zd_lane_group *self, int lane);
 void zd_lane_group_note_start(zd_lane_group *self, int lane);
+
+/* lane_events.c: where events happen in the steps just made */
+zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);
+void zd_lane_group_locate(zd_lane_group *self);
+/* Takes the lane to the event that ends its run. */
+void zd_lane_group_go_to_end(zd_lane_group *self, int lane);
+
+/* The state y of a lane, as systems take it */
+void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y);
+const void *zd_lane_group_data(const zd_lane_group *self, int lane);
 
 static inline double zd_lane_number(const zd_lanes *self, const double *numbers, int64_t i, int lane)
 {

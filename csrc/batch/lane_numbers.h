@@ -21,6 +21,12 @@ typedef struct zd_method {
     zd_weights more[ZD_MOST_STAGES], d[ZD_COEFFICIENTS];    /* for values between */
 } zd_method;
 
+/* A number of y that is an event where it reaches a level. */
+typedef struct zd_watched {
+    int entry, direction;
+    double level;
+} zd_watched;
+
 /* What is the same for all lanes, */
 typedef struct zd_lanes {
     const zd_direct *direct;    /* NULL where there are pins instead */
@@ -32,6 +38,9 @@ typedef struct zd_lanes {
     double t0, end, step, steps;        /* steps: how many, where they are of fixed size */
     double rtol, atol, longest, tiny, most_steps, save_every;
     double astray, nearby, limit;       /* as the guard has them */
+    enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* for events: of numbers of y alone, or else every step */
+    int events;
+    const zd_watched *watched;          /* (events,) where it watches numbers */
     /* and of each: so many numbers, each for all lanes beside each other. A condition is 1 where it holds, else 0. */
     double *first;          /* of all of them */
     int64_t count;          /* how many there are in all */
@@ -55,6 +64,7 @@ typedef struct zd_lanes {
     double *most_iterations;                /* of a step, since somebody has set it to 0 */
     double *leaves;         /* whether the run has to be made by itself */
     double *is_long;        /* whether the last step was so long that rows of C may have turned in it */
+    double *has_event;      /* whether an event may have happened in the last step, which was accepted */
     double *t_row, *is_wanted;      /* a time within the last step, and whether it is to be looked at */
     double *y_row, *lambda_row;     /* (size,), (m,): what is found there */
     /* of the step being made */
@@ -77,6 +87,8 @@ typedef struct zd_lane_functions {
     void (*advance)(zd_lanes *self);
     /* y_row at t_row, where it is wanted; its multipliers, too, where `multipliers`. */
     void (*move_between)(zd_lanes *self, int multipliers);
+    /* The same by a shorter step of the method whatever polynomial it has, as events are looked for. */
+    void (*substep)(zd_lanes *self, int multipliers);
 } zd_lane_functions;
 
 extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* without functions where the compiler cannot */

@@ -1,6 +1,7 @@
 /* The lanes of a batch: their memory, and what goes into it where a run begins. */
 #include <math.h>
 
+#include "../output/reading.h"
 #include "group.h"
 
 static zd_weights without_zeros(int count, const double *weight)
@@ -63,7 +64,7 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **ones[] = {&self->is_active, &self->t, &self->number, &self->h, &self->after_rejection, &self->next_t, &self->next_number,
                        &self->t_before, &self->power, &self->order, &self->speed, &self->streak, &self->iterations, &self->rejected,
-                       &self->most_iterations, &self->leaves, &self->is_long, &self->t_row, &self->is_wanted};
+                       &self->most_iterations, &self->leaves, &self->is_long, &self->has_event, &self->t_row, &self->is_wanted};
     self->data = take(self, arena, doubles);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
     self->y = take(self, arena, size);
@@ -98,6 +99,28 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
     self->polynomial = take(self, arena, T->more ? (int64_t)ZD_COEFFICIENTS * size : 0);
 }
 
+/* The number of y that an event is, if it is one: its place; else -1. */
+static int entry_of(const zd_lanes *self, const zd_events *events, int event)
+{
+    if (!zd_is_known(events, event) || events->known[event].function) return -1;
+    const zd_argument *reads = events->known[event].reading;
+    return reads->what == ZD_READS_P ? reads->index : reads->what == ZD_READS_V ? self->nq + reads->index : -1;
+}
+
+static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events)
+{
+    if (!events) return;
+    zd_watched *watched = zd_take(arena, (size_t)events->count * sizeof *watched);
+    self->watched = watched;
+    self->events = events->count;
+    self->watches = ZD_WATCHES_NUMBERS;
+    for (int i = 0; i < events->count; i++) {
+        const int entry = entry_of(self, events, i);
+        if (entry < 0) self->watches = ZD_WATCHES_STEPS;
+        else if (watched) watched[i] = (zd_watched){entry, events->direction[i], events->known[i].value};
+    }
+}
+
 void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
                    const zd_pins_plan *pins, int64_t doubles)
 {
@@ -120,6 +143,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
     take_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
     self->pins = pins ? zd_lane_pins_take(arena, pins, self->lanes) : NULL;
+    take_events(self, arena, settings->events);
 }
 
 void zd_lanes_copy(zd_lanes *self, int from, int to)
@@ -176,7 +200,7 @@ static void load_units(zd_lanes *self, int lane, const zd_run *run)
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)
 {
     double *const zeros[] = {self->number, self->after_rejection, self->streak, self->iterations, self->rejected, self->most_iterations,
-                             self->leaves, self->is_long, self->is_wanted, self->next_number};
+                             self->leaves, self->is_long, self->has_event, self->is_wanted, self->next_number};
     for (size_t i = 0; i < sizeof zeros / sizeof zeros[0]; i++) zeros[i][lane] = 0;
     load(self, lane, doubles, data, self->data);
     load_state(self, lane, run);

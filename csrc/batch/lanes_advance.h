@@ -72,6 +72,20 @@ ZD_KERNEL zd_condition ZD_NAMED(control)(zd_lanes *self, zd_real h, zd_real norm
     return accepted;
 }
 
+/* Whether events may have happened in a step just made. */
+ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
+{
+    zd_condition any = ZD_SPLAT(0.0) != 0.0;
+    if (self->watches == ZD_WATCHES_STEPS) return ~any;
+    for (int i = 0; i < self->events; i++) {
+        const zd_watched *event = self->watched + i;
+        const zd_real before = REAL(self->y0)[event->entry] - event->level, now = REAL(self->y)[event->entry] - event->level;
+        if (event->direction >= 0) any |= (before < 0.0) & (now >= 0.0);
+        if (event->direction <= 0) any |= (before > 0.0) & (now <= 0.0);
+    }
+    return any;
+}
+
 /* A step in each lane; those that are done with are the ones somebody has to look at. */
 ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
 {
@@ -99,7 +113,10 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
     if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->most_steps));
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
     const zd_condition is_due = (*REAL(self->t) >= *REAL(self->next_t)) | (*REAL(self->number) >= *REAL(self->next_number));
-    return failed | (accepted & (is_due | HOLDS(self->is_long)));
+    if (!self->watches) return failed | (accepted & (is_due | HOLDS(self->is_long)));
+    const zd_condition happens = accepted & ZD_NAMED(has_events)(self);
+    *REAL(self->has_event) = AS_NUMBER(happens);
+    return failed | happens | (accepted & (is_due | HOLDS(self->is_long)));
 }
 
 ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
@@ -148,25 +165,50 @@ ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
     }
 }
 
-/* By the polynomial where the method has one and steps are chosen, else by a shorter step. Orders of elimination may be others by now than
- * where the step began, and are sound at its end. */
-ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
+/* A time within the step of the lanes in which one is wanted that is not its end, */
+typedef struct ZD_NAMED(between) {
+    zd_condition inside;
+    zd_real h, part;        /* the step, and what of it has passed; 0 in other lanes */
+} ZD_NAMED(between);
+
+ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 {
-    const zd_condition wanted = HOLDS(self->is_wanted), inside = wanted & (*REAL(self->t_row) != *REAL(self->t));
-    const zd_real h = ZD_WHERE(inside, *REAL(self->t) - *REAL(self->t_before), ZD_SPLAT(0.0));
-    const zd_real part = ZD_WHERE(inside, *REAL(self->t_row) - *REAL(self->t_before), ZD_SPLAT(0.0));
+    const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_row = *REAL(self->t_row);
+    const zd_condition inside = HOLDS(self->is_wanted) & (t_row != t);
     const int is_spread = !self->is_fixed && self->method.tableau->more;
-    zd_stored t_row = ZD_WHERE(inside, *REAL(self->t_row), *REAL(self->t));
-    if (is_spread && !self->has_polynomial) ZD_NAMED(spread)(self, *REAL(self->t) - *REAL(self->t_before));
+    if (is_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t - before);
     self->has_polynomial = is_spread;
-    if (is_spread) ZD_NAMED(evaluate)(self, ZD_WHERE(inside, part / ZD_WHERE(inside, h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
-    else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), part, self->y_row);
+    return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_row - before, ZD_SPLAT(0.0))};
+}
+
+/* and what is in y_row put onto the constraints there, with its multipliers where they are wanted. */
+ZD_KERNEL void ZD_NAMED(land_between)(zd_lanes *self, zd_condition inside, const double *t_row, int multipliers)
+{
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
-    if (self->m && self->corrects) failed = ZD_NAMED(land)(self, (const double *)&t_row, self->y_row, inside) & inside;
+    if (self->m && self->corrects) failed = ZD_NAMED(land)(self, t_row, self->y_row, inside) & inside;
     ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_row);
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
     if (!multipliers) return;
     const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, self->lambda_row, NULL, NULL};
-    ZD_NAMED(accelerate)(self, (const double *)&t_row, self->y_row, self->y_row + self->nq * ZD_LANES, &to);
+    ZD_NAMED(accelerate)(self, t_row, self->y_row, self->y_row + self->nq * ZD_LANES, &to);
 }
 
+/* By the polynomial where the method has one and steps are chosen, else by a shorter step. Orders of elimination may be others by now than
+ * where the step began, and are sound at its end. */
+ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
+{
+    const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
+    const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
+    if (self->has_polynomial) ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
+    else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
+    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
+}
+
+/* The polynomial, which rows may ask for yet, is made of the stages that this takes for itself. */
+ZD_KERNEL void ZD_NAMED(substep)(zd_lanes *self, int multipliers)
+{
+    const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
+    const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
+    ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
+    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
+}

@@ -43,12 +43,25 @@ void zd_lane_group_set_next(zd_lane_group *self, int lane)
     lanes->next_number[lane] = by_time ? INFINITY : every * (floor(lanes->number[lane] / every) + 1);
 }
 
+/* The same of a run that an event has ended within the step: times before that, and then that itself, to which the lane is taken. */
+static int is_due_before_end(zd_lane_group *self, int lane, double *when)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_run *run = &self->run_of[lane];
+    *when = self->batch->settings->t_eval ? next_time(self, run) : INFINITY;
+    if (*when < run->search.end && !run->search.is_at_end) return 1;
+    if (!run->search.is_at_end) zd_lane_group_go_to_end(self, lane);
+    *when = lanes->t[lane];
+    return !run->is_complete;
+}
+
 /* Whether a row of the lane's run is due by the end of the last step, and when. Without t_eval it is that of every so many steps. */
-static int is_due(const zd_lane_group *self, int lane, double *when)
+static int is_due(zd_lane_group *self, int lane, double *when)
 {
     const zd_lanes *lanes = &self->lanes;
     const zd_lane_run *run = &self->run_of[lane];
     if (run->number < 0 || lanes->leaves[lane] != 0) return 0;
+    if (run->search.ended) return is_due_before_end(self, lane, when);
     if (self->batch->settings->t_eval) {
         *when = next_time(self, run);
         return *when <= lanes->t[lane];
@@ -57,15 +70,22 @@ static int is_due(const zd_lane_group *self, int lane, double *when)
     return run->next == 0 && (lanes->number[lane] >= lanes->next_number[lane] || lanes->t[lane] == lanes->end);
 }
 
-/* Marks the lanes that have a row due; whether any has, and whether one of those lies within the step. */
-static int mark(zd_lane_group *self, int *is_within)
+/* Steps in which events were looked for are made again in parts, as any run does it that has made such parts already. */
+static int is_in_parts(const zd_lane_group *self, int lane)
+{
+    return self->lanes.watches && self->run_of[lane].search.number_of_happening == self->lanes.number[lane];
+}
+
+/* Marks the lanes that have a row due, of those whose step is made in parts or of the others; whether any has, and whether one of those lies
+ * within the step. */
+static int mark(zd_lane_group *self, int in_parts, int *is_within)
 {
     zd_lanes *lanes = &self->lanes;
     int any = 0;
     *is_within = 0;
     for (int lane = 0; lane < lanes->lanes; lane++) {
         double when = lanes->t[lane];
-        const int due = is_due(self, lane, &when);
+        const int due = is_in_parts(self, lane) == in_parts && is_due(self, lane, &when);
         lanes->is_wanted[lane] = due;
         lanes->t_row[lane] = due ? when : lanes->t[lane];
         any |= due;
@@ -81,18 +101,27 @@ static void save_marked(zd_lane_group *self)
         if (lanes->is_wanted[lane] == 0 || lanes->leaves[lane] != 0) continue;
         save_row(self, lane);
         self->run_of[lane].next++;
+        self->run_of[lane].is_complete |= self->run_of[lane].search.is_at_end;
+    }
+}
+
+static void save_of(zd_lane_group *self, int in_parts)
+{
+    zd_lanes *lanes = &self->lanes;
+    const int multipliers = self->batch->multipliers != NULL;
+    int is_within;
+    while (mark(self, in_parts, &is_within)) {
+        if ((is_within || multipliers) && in_parts) self->functions->substep(lanes, multipliers);
+        else if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
+        else memcpy(lanes->y_row, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
+        save_marked(self);
     }
 }
 
 void zd_lane_group_save(zd_lane_group *self)
 {
-    zd_lanes *lanes = &self->lanes;
-    const int multipliers = self->batch->multipliers != NULL, by_time = self->batch->settings->t_eval != NULL;
-    int is_within;
-    while (mark(self, &is_within)) {
-        if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
-        else memcpy(lanes->y_row, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
-        save_marked(self);
-    }
-    for (int lane = 0; lane < lanes->lanes && !by_time; lane++) self->run_of[lane].next = 0;
+    const int by_time = self->batch->settings->t_eval != NULL;
+    save_of(self, 0);
+    if (self->lanes.watches) save_of(self, 1);
+    for (int lane = 0; lane < self->lanes.lanes && !by_time; lane++) self->run_of[lane].next = 0;
 }

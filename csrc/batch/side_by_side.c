@@ -3,7 +3,9 @@
 
 #include "../registry.h"
 #include "../run/create.h"
+#include "../run/explain.h"
 #include "../run/start.h"
+#include "found.h"
 #include "group.h"
 
 /* ---- whether lanes serve ---- */
@@ -15,12 +17,19 @@ static int are_of_pins(const zd_batch *batch)
     return batch->system->pinned && !batch->data && zd_takes_many_rows(formulation, batch->system);
 }
 
+static int are_known(const zd_events *events)
+{
+    for (int i = 0; events && i < events->count; i++)
+        if (!zd_is_known(events, i)) return 0;
+    return 1;
+}
+
 int zd_lanes_serve(const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
-    if (!batch->lanes || system->quaternions || settings->events || settings->outputs || settings->given_jacobian
+    if (!batch->lanes || system->quaternions || settings->outputs || !are_known(settings->events) || settings->given_jacobian
         || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;
@@ -57,7 +66,13 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
         .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch)},
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
-    for (int lane = 0; lane < ZD_MOST_LANES; lane++) group.run_of[lane] = (zd_lane_run){.number = -1, .C = zd_take_doubles(arena, rows)};
+    group.reader = zd_reader_take(arena, batch->settings->events, system);
+    for (int lane = 0; lane < ZD_MOST_LANES; lane++)
+        group.run_of[lane] = (zd_lane_run){
+            .number = -1,
+            .C = zd_take_doubles(arena, rows),
+            .search = zd_lane_search_take(arena, &group.lanes),
+        };
     return group;
 }
 
@@ -86,6 +101,7 @@ static void begin(zd_lane_group *self, int lane)
     zd_lanes_load(&self->lanes, lane, self->run, self->lanes.pins ? system.pinned->numbers : system.data, numbers);
     self->run_of[lane].number = number;
     self->run_of[lane].rows = self->run_of[lane].next = 0;
+    zd_found_forget(self->batch, number);
     self->active++;
     zd_lane_group_note_start(self, lane);
 }
@@ -103,7 +119,20 @@ static void fill(zd_lane_group *self, int lane)
     for (int i = 0; i < lanes->lanes; i++)
         if (self->run_of[i].number >= 0) other = i;
     zd_lanes_copy(lanes, other, lane);
-    lanes->is_active[lane] = lanes->leaves[lane] = lanes->is_long[lane] = 0;
+    lanes->is_active[lane] = lanes->leaves[lane] = lanes->is_long[lane] = lanes->has_event[lane] = 0;
+}
+
+/* As any run says that an event has ended it. */
+static int say_event(const zd_lane_group *self, int lane)
+{
+    const zd_batch *batch = self->batch;
+    const zd_lanes *lanes = &self->lanes;
+    const zd_lane_run *run = &self->run_of[lane];
+    char *message = zd_message_of(batch, run->number);
+    const size_t size = (size_t)batch->message_size, said = zd_say_where(message, size, lanes->t[lane], (int64_t)lanes->number[lane],
+                                                                         self->run->course.steps);
+    zd_say_event(message + said, size - said, run->search.ended - 1);
+    return ZD_EVENT;
 }
 
 static void end(zd_lane_group *self, int lane)
@@ -112,7 +141,7 @@ static void end(zd_lane_group *self, int lane)
     const int64_t number = self->run_of[lane].number, steps = (int64_t)lanes->number[lane];
     self->batch->way[number] = ZD_IN_LANES;
     self->batch->rows[number] = self->run_of[lane].rows;
-    self->batch->status[number] = ZD_DONE;
+    self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
         .steps = steps, .direct_steps = lanes->direct ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
         .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? steps : 0,
@@ -131,7 +160,7 @@ static int is_over(zd_lane_group *self, int lane)
         zd_single_run(self->batch, self->own, run->number);
         return 1;
     }
-    const int is_complete = settings->t_eval && run->next == settings->t_evals;
+    const int is_complete = run->is_complete || (settings->t_eval && !settings->events && run->next == settings->t_evals);
     if (!is_complete && lanes->t[lane] != lanes->end) return 0;
     if (zd_lane_group_keeps_energy(self, lane)) end(self, lane);
     else zd_single_run(self->batch, self->own, run->number);
@@ -161,6 +190,7 @@ static void look(zd_lane_group *self)
         if (zd_lane_group_is_turned(self, lane)) lanes->leaves[lane] = 1;
         lanes->is_long[lane] = 0;
     }
+    if (lanes->watches) zd_lane_group_locate(self);
     do zd_lane_group_save(self);
     while (replace(self));
 }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "found.h"
+
 static const double SLICE = 0.02;       /* s: so soon is seen that nobody waits any more */
 
 static int count_constraints(const zd_system *system) { return system->mh + system->mn; }
@@ -103,13 +105,29 @@ zd_system zd_single_system(const zd_batch *batch, int64_t number)
     return system;
 }
 
+/* Events are written down for this run. */
+static zd_settings settings_of(const zd_batch *batch, zd_found *found, zd_events *events)
+{
+    zd_settings settings = *batch->settings;
+    if (!settings.events) return settings;
+    *events = *settings.events;
+    events->found = zd_found_note;
+    events->data = found;
+    settings.events = events;
+    return settings;
+}
+
 void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number)
 {
     const zd_system system = zd_single_system(batch, number);
     zd_record record = record_of(batch, own, number);
+    zd_found found = {batch, number};
+    zd_events events;
+    const zd_settings settings = settings_of(batch, &found, &events);
+    zd_found_forget(batch, number);
     batch->status[number] = zd_single_start(batch, &system, own, number);
     if (batch->status[number]) return;
-    zd_run *run = zd_run_create(&system, batch->settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
+    zd_run *run = zd_run_create(&system, &settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
                                 batch->message_size);
     if (run) advance(batch, run, &record, number);
     zd_run_free(run);

@@ -148,6 +148,19 @@ static void describe_correction(const zd_run *run, const char *rows, char *to, s
     add_cause(run, 1, "", to, size);
 }
 
+size_t zd_say_where(char *to, size_t size, double t, int64_t step, int64_t steps)
+{
+    char of_steps[32] = "";
+    if (steps) snprintf(of_steps, sizeof of_steps, " of %" PRId64, steps);
+    const int said = snprintf(to, size, "at t = %.9g (step %" PRId64 "%s): ", t, step, of_steps);
+    return (size_t)said < size ? (size_t)said : size - 1;
+}
+
+void zd_say_event(char *to, size_t size, int event)
+{
+    snprintf(to, size, "ended by event %d", event);
+}
+
 static void describe_event(const zd_watch *watch, char *to, size_t size)
 {
     const int event = watch->failed - 1;
@@ -182,7 +195,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         if (run->watch.failed) describe_event(&run->watch, to, size);
         else snprintf(to, size, "%s", failure ? failure : zd_sentence(status));
         break;
-    case ZD_EVENT: snprintf(to, size, "ended by event %d", run->watch.ended - 1); break;
+    case ZD_EVENT: zd_say_event(to, size, run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "%s", zd_sentence(status)); break;
     }
@@ -220,9 +233,8 @@ int zd_explain(zd_run *run, int status)
     double t;
     status = cause_of(run, status, &t);
     describe(run, status, what, sizeof what);
-    char of_steps[32] = "";
-    if (run->course.steps) snprintf(of_steps, sizeof of_steps, " of %" PRId64, run->course.steps);
-    snprintf(run->outcome.message, sizeof run->outcome.message, "at t = %.9g (step %" PRId64 "%s): %s", t, run->course.step, of_steps, what);
+    const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->course.step, run->course.steps);
+    snprintf(run->outcome.message + said, sizeof run->outcome.message - said, "%s", what);
     if (run->course.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
         strcat(run->outcome.message, ", also when it is made in parts");
     return status;

@@ -8,6 +8,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import ERRORS, MESSAGE_SIZE, doubles, text
+from .callbacks import Watcher
 from .runs import NAMES_AND_KINDS
 from .systems import CoreSystem, Kind
 
@@ -36,6 +37,20 @@ class Assembly(NamedTuple):
     hold_v: list[int]
 
 
+class Happened(NamedTuple):
+    """Where the events of k runs have happened: the first of each, as many as there was room for."""
+
+    count: np.ndarray       # (k, events): how often each has
+    t: np.ndarray           # (k, events, room)
+    p: np.ndarray | None    # (k, events, room, nq); None: not wanted
+    v: np.ndarray | None    # (k, events, room, nv)
+
+    def of(self, run: int) -> tuple[tuple[np.ndarray, ...], ...]:
+        """Those of one run: for each event t (n,); and likewise p (n, nq) and v (n, nv), where they were wanted."""
+        return tuple(tuple(np.array(where[run, event, :count]) for event, count in enumerate(self.count[run].tolist()))
+                     for where in (self.t, self.p, self.v) if where is not None)
+
+
 class BatchResults(NamedTuple):
     """What came of k runs."""
 
@@ -46,6 +61,7 @@ class BatchResults(NamedTuple):
     statistics: np.ndarray              # (k,): as the core counts
     kinetic: np.ndarray                 # (k,): the largest energy seen, J
     energy_error: np.ndarray            # (k,): the largest |Psi_E| of the saved rows, J
+    events: Happened | None             # where events were looked for
     messages: list[str]                 # (k,): of those that did not reach their end
 
 
@@ -57,8 +73,10 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
 
 def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray, v0: np.ndarray, capacity: int,
               wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
-              lanes: bool = True) -> BatchResults:
+              lanes: bool = True, events: Watcher | None = None, room: int = 0) -> BatchResults:
     """Runs of systems that have their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
+
+    Events have to be ones that the core knows; there is room for so many of each, of their states, too, where "p" is wanted.
 
     Where data is None, that of the core serves all; it consists of `size` doubles, or of something else where that is 0.
     The interpreter is free for other threads meanwhile. The system must not be written in Python.
@@ -69,12 +87,18 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
     messages = np.zeros((k, MESSAGE_SIZE), np.int8)
     options.given_jacobian = core.given_jacobian
+    happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
+    options.events = events.c if events is not None else ffi.NULL
     members: dict[str, Any] = {
         "system": core.c, "settings": options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
         "doubles": size, "lanes": lanes,
         "p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv), "message": ffi.from_buffer("char[]", messages),
         **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
         **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
+    if happened is not None:
+        members |= {"events_capacity": room, "found": ffi.from_buffer("int64_t[]", happened.count),
+                    **{f"{name}_events": ffi.from_buffer("double[]", array) for name in ("t", "p", "v")
+                       if (array := getattr(happened, name)) is not None}}
     if data is not None:
         members |= {"data": doubles(data, data.size)}
     if assembly is not None:
@@ -85,8 +109,14 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
         raise MemoryError(f"there is no memory for the {capacity} rows of a run")
     said = zip(messages, of_runs["status"].tolist(), strict=True)
-    return BatchResults(columns, **of_runs, messages=[each.tobytes().partition(b"\0")[0].decode() if status else ""
-                                                        for each, status in said])
+    said_of_runs = [each.tobytes().partition(b"\0")[0].decode() if status else "" for each, status in said]
+    return BatchResults(columns, **of_runs, events=happened, messages=said_of_runs)
+
+
+def _room_for(events: Watcher, core: CoreSystem, k: int, room: int, *, with_states: bool) -> Happened:
+    count = len(events.events)
+    p, v = (np.zeros((k, count, room, size)) if with_states else None for size in (core.nq, core.nv))
+    return Happened(np.zeros((k, count), np.int64), np.zeros((k, count, room)), p, v)
 
 
 def error_name(status: int) -> str:

@@ -249,6 +249,11 @@ class Run:
         return self._core.error or (self._watcher and self._watcher.error) or (self._outputs and self._outputs.error)
 
     @property
+    def has_raised(self) -> bool:
+        """Whether it is Python that stopped it."""
+        return self._raised is not None
+
+    @property
     def notes(self) -> Sequence[str]:
         """Where in the system it was raised."""
         return getattr(self._core.error, "__notes__", ())

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..runs import diagnosis, settings
+from ..runs import events as events_of
 from ..runs.operations import assembly
 from ..runs.simulate import solution_of_rows
 from ..runs.solution import Solution
@@ -17,6 +18,7 @@ from ..systems.tables import NumberTables
 from .part import ROADS, Part, nothing
 from .plan import OPTIONS, Plan
 
+FEW_EVENTS = 16             # of each, in a run: so much room there is for them at first
 MOST_NUMBERS = 2**21        # of what one call keeps, so that memory does not grow with the range
 
 
@@ -30,12 +32,14 @@ class Batch(NamedTuple):
     direct: tuple[str, bool] | None         # the vector unit of direct functions, and whether they embed; None: none are taken
     assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
     chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
+    events: _gateway.Watcher | None         # which the core knows
 
     @property
     def runs_at_once(self) -> int:
         """In one call."""
         groups = {group for group, _ in self.columns.values()}
-        return max(1, MOST_NUMBERS // (self.rows * (1 + len(groups) * max(self.system.nq, self.system.nv, self.system.m))))
+        of_rows = self.rows * (1 + len(groups) * max(self.system.nq, self.system.nv, self.system.m))
+        return max(1, MOST_NUMBERS // (of_rows + FEW_EVENTS * (len(self.events.events) if self.events else 0)))
 
 
 def batch_of(plan: Plan) -> Batch | None:
@@ -47,7 +51,10 @@ def batch_of(plan: Plan) -> Batch | None:
 
 def _batch(plan: Plan) -> Batch | None:
     runs, system, options = plan.runs, plan.runs.made, OPTIONS | plan.options
-    if plan.reduce is not None or plan.keeps or options.pop("events") is not None or not isinstance(system, BaseSystem):
+    if plan.reduce is not None or plan.keeps or not isinstance(system, BaseSystem):
+        return None
+    watched = events_of.events(options.pop("events"), system)
+    if watched is not None and not _are_known(watched, system, set(runs.parameters)):
         return None
     columns = _columns(system, plan.names)
     if columns is None or not plan.is_tabular:
@@ -59,7 +66,15 @@ def _batch(plan: Plan) -> Batch | None:
     direct = (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None
     system._number_tables(runs.parameters_from(0, 1), 1, direct)    # what has to be compiled is compiled here, once
     return Batch(system, found.options, found.rows, columns, direct,
-                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen)
+                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
+                 None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)))
+
+
+def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
+    """Whether the core evaluates all events without Python, and they are the same for all runs."""
+    has_measures = system._watching.core is core_of(system)
+    return all(event.known is not None and (has_measures or not event.known.is_measured) and not event.known.parameters & varied
+               for event in watched)
 
 
 def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str, int]] | None:
@@ -87,9 +102,14 @@ def _make(plan: Plan, batch: Batch, first: int, last: int, wanted: tuple[str, ..
           stop: _gateway.Stop | None = None) -> tuple[_gateway.BatchResults, NumberTables]:
     tables = batch.system._number_tables(plan.runs.parameters_from(first, last), last - first, batch.direct)
     p0, v0 = plan.runs.starts(tables, first, last)
-    made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
-                              tuple(dict.fromkeys(wanted)), batch.assembly, stop)
-    return made, tables
+    room = plan.remembered.setdefault("events", FEW_EVENTS)
+    while True:
+        made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
+                                  tuple(dict.fromkeys(wanted)), batch.assembly, stop, events=batch.events, room=room)
+        most = 0 if made.events is None else int(made.events.count.max(initial=0))
+        if most <= room:
+            return made, tables
+        room = plan.remembered["events"] = most     # once more, with room for all
 
 
 STATES = ("t", "p", "v", "input", "multipliers", "iterations")
@@ -118,7 +138,8 @@ def _solution_in_lanes(plan: Plan, run: int) -> Solution | None:
     rows["multipliers"][:], rows["iterations"][:] = states["multipliers"], states["iterations"]
     results = again.results()._replace(statistics=_gateway.Statistics(*made.statistics[0].tolist()),
                                        largest_kinetic=float(made.kinetic[0]))
-    return solution_of_rows(system, span, batch.chosen, record, results, time.perf_counter() - begin)
+    return solution_of_rows(system, span, batch.chosen, record, results, time.perf_counter() - begin, int(made.status[0]),
+                            made.messages[0] or "done", None if made.events is None else made.events.of(0))
 
 
 def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
@@ -127,14 +148,18 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
     rows, t = made.rows[:count], made.columns["t"][:count]
     if plan.t_eval is not None:     # a run that ends between two of these has its end besides
         rows = np.minimum(rows, len(plan.t_eval))
+        is_other = (rows > 0) & (t[np.arange(count), rows - 1] != plan.t_eval[rows - 1])
+        rows = rows - is_other
     kept = np.arange(batch.rows) < rows[:, None]
     longest = t[np.argmax(rows), :rows.max(initial=0)]
     is_shared = (np.where(kept[:, :len(longest)], t[:, :len(longest)], longest) == longest).all()
     none = [None] * count
+    t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
+    ended = np.isin(made.status[:count], (_gateway.DONE, _gateway.EVENT))
     roads = np.where(made.way[:count] == _gateway.IN_LANES, ROADS.index("vector lanes"), ROADS.index("the ordinary road"))
     return Part(rows, longest.copy() if is_shared else t[kept],
                 {name: made.columns[group][:count, :, column][kept] for name, (group, column) in batch.columns.items()},
-                made.status[:count] != _gateway.DONE, messages[:count], roads.astype(np.uint8), doubtful, none, none, none)
+                ~ended, messages[:count], roads.astype(np.uint8), doubtful, none, t_events, none)
 
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:

@@ -317,10 +317,12 @@ def _solution(system, span, chosen, run, record, results, watcher, outcome, reco
 
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
-                     results: _gateway.Results, seconds: float) -> Solution:
-    """That of a run which was not driven here, and has reached its end."""
+                     results: _gateway.Results, seconds: float, status: int, message: str,
+                     events: tuple[tuple[np.ndarray, ...], ...] | None) -> Solution:
+    """That of a run which was not driven here, and has reached its end; t, p and v of its events."""
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
-                            status=_gateway.DONE, success=True, message="done", settings=chosen, system=system, t_span=span)
+                            status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
+                            **({} if events is None else dict(zip(EVENTS, events, strict=True))))
 
 
 def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
@@ -357,7 +359,7 @@ def _message(run: _gateway.Run, outcome: _Outcome) -> str:
             return f"stopped by {_shown(outcome.error)}"
         case _gateway.INTERRUPTED:
             return "interrupted from the keyboard"
-        case _gateway.CALLBACK:
+        case _gateway.CALLBACK if run.has_raised:
             return "; ".join([f"{run.message}: {_shown(run.error(outcome.status))}", *run.notes])
         case _:
             return run.message

@@ -1,0 +1,229 @@
+/* Events in lanes, as output/events.c finds them: a change of sign is narrowed down to the rounding of t by shorter steps, and the states on
+ * both sides are mixed until the function of the mixture is zero. Each lane looks for its own, one after the other; the steps that this takes are
+ * made in all lanes at once.
+ */
+#include <math.h>
+
+#include "found.h"
+#include "group.h"
+
+static const double RESOLUTION = 4 * 0x1p-52;   /* as events.c has it */
+
+zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
+{
+    if (!lanes->watches) return (zd_lane_search){.ended = 0};
+    const size_t events = (size_t)lanes->events, size = (size_t)lanes->size;
+    return (zd_lane_search){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .bracket = zd_take(arena, events * sizeof(zd_bracket)),
+        .early = zd_take_doubles(arena, size),
+        .mixed = zd_take_doubles(arena, size),
+    };
+}
+
+/* ---- values ---- */
+
+/* Of an event at the gathered state. Where it has none, the run is made by itself, which says so. */
+static double evaluate(zd_lane_group *self, int lane, int event, double t)
+{
+    double value = 0;
+    if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, self->p, self->v, &value)) self->lanes.leaves[lane] = 1;
+    return value;
+}
+
+static void evaluate_all(zd_lane_group *self, int lane, double t, const double *y, double *values)
+{
+    zd_lane_group_gather(self, lane, y);
+    for (int i = 0; i < self->lanes.events; i++) values[i] = evaluate(self, lane, i, t);
+}
+
+static int happens(const zd_lane_group *self, const zd_lane_search *search, int event)
+{
+    const double before = search->before[event], now = search->now[event];
+    const int direction = self->batch->settings->events->direction[event];
+    return (before < 0 && now >= 0 && direction >= 0) || (before > 0 && now <= 0 && direction <= 0);
+}
+
+/* ---- from one event of a lane to the next ---- */
+
+static double resolution_of(const zd_lanes *lanes, int lane)
+{
+    return RESOLUTION * fmax(fabs(lanes->t_before[lane]), fabs(lanes->t[lane]));
+}
+
+static int is_wide(const zd_lanes *lanes, int lane, const zd_bracket *bracket)
+{
+    return bracket->b - bracket->a > resolution_of(lanes, lane);
+}
+
+/* Whether the event happens before the run ends, and is not the one that ends it, which comes last. */
+static int is_reported(const zd_lane_search *search, int event)
+{
+    const double b = search->bracket[event].b;
+    return event != search->ended - 1 && b < INFINITY && b <= search->end;
+}
+
+/* Of those located, the next after this one that is gone to; the one that ends the run last; -1: there are no more. */
+static int next_reported(const zd_lane_group *self, const zd_lane_search *search, int event)
+{
+    const int last = search->ended - 1;
+    if (event == last && last >= 0 && search->stage == ZD_GOES_BEHIND) return -1;
+    for (int i = search->stage == ZD_LOCATES ? 0 : event + 1; i < self->lanes.events; i++)
+        if (is_reported(search, i)) return i;
+    return last;
+}
+
+static void go_to_next(zd_lane_group *self, zd_lane_search *search)
+{
+    search->event = next_reported(self, search, search->event);
+    search->stage = search->event < 0 ? ZD_FOUND_ALL : ZD_GOES_BEFORE;
+}
+
+/* The event is located: whether the run ends there depends on how often it has happened. */
+static void note_end(zd_lane_group *self, int lane)
+{
+    const zd_lane_run *run = &self->run_of[lane];
+    zd_lane_search *search = &self->run_of[lane].search;
+    const double b = search->bracket[search->event].b;
+    const int64_t number = *zd_found_count(self->batch, run->number, search->event) + 1;
+    if (b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
+    search->end = b;
+    search->ended = search->event + 1;
+}
+
+/* On from this event to the first that has to be narrowed down; where there is none, to the places themselves. */
+static void locate_from(zd_lane_group *self, int lane, int event)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_search *search = &self->run_of[lane].search;
+    for (search->event = event; search->event < lanes->events; search->event++) {
+        const int i = search->event;
+        if (!happens(self, search, i)) continue;
+        search->number_of_happening = lanes->number[lane];
+        search->bracket[i] = zd_bracket_of(lanes->t_before[lane], lanes->t[lane], search->before[i], search->now[i], resolution_of(lanes, lane));
+        if (is_wide(lanes, lane, &search->bracket[i])) return;
+        note_end(self, lane);
+    }
+    go_to_next(self, search);
+}
+
+/* ---- the places themselves ---- */
+
+static void mix(const zd_lane_group *self, int lane, double share, double *mixed)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const double *early = self->run_of[lane].search.early;
+    for (int i = 0; i < lanes->size; i++) {
+        const double late = zd_lane_number(lanes, lanes->y_row, i, lane);
+        mixed[i] = share == 1 ? late : early[i] + share * (late - early[i]);
+    }
+    for (int i = 0; i < lanes->nq; i++) self->p[i] = mixed[i];
+    for (int i = 0; i < lanes->nv; i++) self->v[i] = mixed[lanes->nq + i];
+}
+
+/* The states at both sides are known: the late one is in y_row. */
+static void settle(zd_lane_group *self, int lane)
+{
+    zd_lane_run *run = &self->run_of[lane];
+    const zd_bracket *located = &run->search.bracket[run->search.event];
+    zd_bracket it = zd_bracket_of(0, 1, located->ga, located->gb, RESOLUTION);
+    while (it.gb != 0 && it.b - it.a > RESOLUTION) {
+        const double share = zd_bracket_choose(&it);
+        mix(self, lane, share, run->search.mixed);
+        zd_bracket_narrow(&it, share, evaluate(self, lane, run->search.event, located->b));
+    }
+    mix(self, lane, it.b, run->search.mixed);
+    zd_found found = {self->batch, run->number};
+    zd_found_note(&found, run->search.event, located->b, self->p, self->v);
+}
+
+void zd_lane_group_go_to_end(zd_lane_group *self, int lane)
+{
+    zd_lanes *lanes = &self->lanes;
+    zd_lane_search *search = &self->run_of[lane].search;
+    for (int i = 0; i < lanes->size; i++) zd_lane_set(lanes, lanes->y, i, lane, search->mixed[i]);
+    lanes->t[lane] = search->end;
+    search->is_at_end = 1;
+}
+
+/* ---- all lanes ---- */
+
+/* The step that a lane has just made: whether anything has happened in it. */
+static void begin(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_search *search = &self->run_of[lane].search;
+    double *now = search->before;
+    search->before = search->now;
+    search->now = now;
+    if (search->number_of_now != lanes->number[lane] - 1) evaluate_all(self, lane, lanes->t_before[lane], lanes->y0, search->before);
+    evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
+    search->number_of_now = lanes->number[lane];
+    for (int i = 0; i < lanes->events; i++) search->bracket[i].b = INFINITY;
+    search->stage = ZD_LOCATES;
+    search->end = INFINITY;
+    if (!self->lanes.leaves[lane]) locate_from(self, lane, 0);
+}
+
+static double time_to_look_at(const zd_lane_search *search)
+{
+    const zd_bracket *bracket = &search->bracket[search->event];
+    return search->stage == ZD_LOCATES ? zd_bracket_choose(bracket) : search->stage == ZD_GOES_BEFORE ? bracket->a : bracket->b;
+}
+
+/* What a lane makes of the state at the time it has asked for. */
+static void go_on(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_search *search = &self->run_of[lane].search;
+    zd_bracket *bracket = &search->bracket[search->event];
+    switch (search->stage) {
+    case ZD_LOCATES:
+        zd_lane_group_gather(self, lane, lanes->y_row);
+        zd_bracket_narrow(bracket, lanes->t_row[lane], evaluate(self, lane, search->event, lanes->t_row[lane]));
+        if (is_wide(lanes, lane, bracket)) return;
+        note_end(self, lane);
+        locate_from(self, lane, search->event + 1);
+        return;
+    case ZD_GOES_BEFORE:
+        for (int i = 0; i < lanes->size; i++) search->early[i] = zd_lane_number(lanes, lanes->y_row, i, lane);
+        search->stage = ZD_GOES_BEHIND;
+        return;
+    case ZD_GOES_BEHIND:
+        settle(self, lane);
+        go_to_next(self, search);
+        return;
+    case ZD_FOUND_ALL: return;
+    }
+}
+
+/* Whether a lane still looks for something; then it says when it wants to know. */
+static int ask(zd_lane_group *self, int lane)
+{
+    zd_lanes *lanes = &self->lanes;
+    const zd_lane_run *run = &self->run_of[lane];
+    const int asks = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
+    lanes->is_wanted[lane] = asks;
+    lanes->t_row[lane] = asks ? time_to_look_at(&run->search) : lanes->t[lane];
+    return asks;
+}
+
+void zd_lane_group_locate(zd_lane_group *self)
+{
+    zd_lanes *lanes = &self->lanes;
+    for (int lane = 0; lane < lanes->lanes; lane++) {
+        const int has = self->run_of[lane].number >= 0 && lanes->has_event[lane] != 0 && lanes->leaves[lane] == 0;
+        self->run_of[lane].search.stage = ZD_FOUND_ALL;
+        lanes->has_event[lane] = 0;
+        if (has) begin(self, lane);
+    }
+    for (;;) {
+        int any = 0;
+        for (int lane = 0; lane < lanes->lanes; lane++) any |= ask(self, lane);
+        if (!any) return;
+        self->functions->substep(lanes, 0);
+        for (int lane = 0; lane < lanes->lanes; lane++)
+            if (lanes->is_wanted[lane] != 0 && lanes->leaves[lane] == 0) go_on(self, lane);
+    }
+}
