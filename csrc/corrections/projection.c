@@ -132,7 +132,7 @@ static int improve_position(void *context)
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
     const zd_system *system = point->system;
-    int status = zd_point_need(point, ZD_PHI | ZD_A);
+    int status = zd_point_need_times_A(point, ZD_PHI);
     if (status) return status;
     if (!problem->has_moved) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
     problem->has_moved = 1;

@@ -27,7 +27,7 @@ int zd_dependent_leave(void *self, zd_point *point, double *y)
 int zd_dependent_rate(void *self, zd_point *point, double *ydot)
 {
     (void)self;
-    int status = zd_point_need(point, ZD_A);
+    int status = zd_point_need_times_A(point, 0);
     if (status) return status;
     zd_point_rate(point, point->v, ydot);                               /* (1) */
     ZD_SIZED(zd_copy, point->system->nv, point->vdot, ydot + point->system->nq);

@@ -35,8 +35,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .drifts_from = formulation->drifts_from,
         .corrects = ZD_PHI | ZD_C,
         .matrices = matrices,
-        /* A is for the rates of p, which always go with it: so it comes in the same evaluation. */
-        .acceleration_needs = ZD_A | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
+        /* A is for the rates of p, which always go with it: so it comes in the same evaluation, unless the system multiplies by it. */
+        .acceleration_needs = (zd_brings_times_A(system) ? 0 : ZD_A) | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = formulation->take(arena, independent, given),
     };

@@ -95,10 +95,21 @@ void zd_point_velocity_violation(const zd_point *point, double *Psi)
     for (int k = 0; Phi_t && k < m; k++) Psi[k] += Phi_t[k];
 }
 
+int zd_point_need_times_A(zd_point *point, int want)
+{
+    if (!zd_brings_times_A(point->system)) return zd_point_need(point, want | ZD_A);
+    const int status = zd_point_need(point, want);
+    return status || point->known & ZD_MOVED ? status : zd_point_need_missing(point, 0);
+}
+
 void zd_point_rate(const zd_point *point, const double *v, double *pdot)
 {
     const zd_layout *layout = point->layout;
     const double *A = point->terms.A;
+    if (zd_brings_times_A(point->system)) {
+        point->system->operations->times_A(point->system->data, &point->terms, v, pdot);    /* (1) */
+        return;
+    }
     if (!A) ZD_SIZED(zd_copy, point->system->nq, v, pdot);
     else if (!layout) ZD_SIZED(multiply, point->system->nv, point->system->nq, A, v, pdot);     /* (1) */
     for (int b = 0; A && layout && b < layout->blocks; b++)

@@ -17,7 +17,9 @@ void zd_add_C(const zd_point *point, double weight, double *C);     /* C (m, nv)
 
 int zd_point_need_times_C(zd_point *point);         /* what the next one needs of C: its entries, or that the system knows where it is */
 void zd_point_velocity_violation(const zd_point *point, double *Psi);       /* (5); needs these, Phi_t */
-void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs A */
+/* Has the terms in `want` computed, and what the next one needs of A: its entries, or that the system knows where it is. */
+int zd_point_need_times_A(zd_point *point, int want);
+void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (1); needs these */
 double zd_point_kinetic(const zd_point *point);     /* needs M */
 /* y (nv,) <- M x; M is stored as the point's is. */
 void zd_times_M(const zd_point *point, const double *M, const double *x, double *y);

@@ -14,6 +14,13 @@
 
 enum { ENTRIES = 4 };
 
+/* Of what is stored, where products take entries at all. */
+static size_t size_of_A(const zd_system *system)
+{
+    if (zd_brings_times_A(system)) return 0;
+    return system->structure ? (size_t)zd_packed_size(system, ZD_A) : (size_t)system->nq * (size_t)system->nv;
+}
+
 zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
                            const double *pdot1)
 {
@@ -25,7 +32,7 @@ zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *la
         .vdot0 = vdot0,
         .pdot0 = pdot0,
         .pdot1 = pdot1,
-        .A0 = zd_take_doubles(arena, (size_t)system->nq * (size_t)system->nv),
+        .A0 = zd_take_doubles(arena, size_of_A(system)),
         .scratch = zd_take_doubles(arena, (size_t)system->scratch),
         .before = zd_take_doubles(arena, (size_t)system->nq),
         .after = zd_take_doubles(arena, (size_t)system->nq),
@@ -39,10 +46,11 @@ int zd_turning_evaluate(zd_turning *self)
     zd_point *point = self->motion->point, there = *point;
     there.terms.A = self->A0;
     there.terms.scratch = self->scratch;
-    int status = zd_point_need(point, ZD_A);
+    const int want = ZD_MOVED | (zd_brings_times_A(system) ? 0 : ZD_A);
+    int status = zd_point_need_times_A(point, 0);
     if (status) return status;
     self->motion->statistics.evaluations++;
-    if (system->evaluate(system->data, ZD_A | ZD_MOVED, self->last->t, self->last->p, self->last->v, &there.terms)) return ZD_CALLBACK;
+    if (system->evaluate(system->data, want, self->last->t, self->last->p, self->last->v, &there.terms)) return ZD_CALLBACK;
     zd_point_rate(&there, self->vdot0, self->before);
     zd_point_rate(point, point->vdot, self->after);
     return ZD_DONE;

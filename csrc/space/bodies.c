@@ -16,13 +16,16 @@ static zd_rotation rotation_of(const double *q)
 
 static const zd_rotation AS_DRAWN = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose)
+void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose, double *quaternion)
 {
     pose[0] = (zd_pose3){{0, 0, 0}, AS_DRAWN};
     for (int i = 1; i <= bodies; i++) {
         const double *own = p + body[i].p;
         pose[i].at = zd_vector3_of(own);
-        pose[i].turned = body[i].turns ? rotation_of(own + 3) : AS_DRAWN;
+        pose[i].turned = AS_DRAWN;
+        if (!body[i].turns) continue;
+        pose[i].turned = rotation_of(own + 3);
+        for (int k = 0; k < 4; k++) quaternion[4 * i + k] = own[3 + k];
     }
 }
 

@@ -24,7 +24,7 @@ typedef struct zd_twist3 {
 enum { ZD_BODY_COORDINATES = 7, ZD_BODY_VELOCITIES = 6, ZD_POINT_COORDINATES = 3 };
 
 /* Arrays (bodies + 1,) begin with the ground. */
-void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose);
+void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose, double *quaternion);
 void zd_bodies_move(int bodies, const zd_body3 *body, const zd_pose3 *pose, const double *v, zd_twist3 *twist);
 void zd_bodies_write_A(int bodies, const zd_body3 *body, const double *p, double *A);       /* (1), block after block */
 void zd_bodies_write_M(int bodies, const zd_body3 *body, double *M);        /* the diagonals, one after another */

@@ -4,6 +4,8 @@
 #include "check.h"
 #include "evaluate.h"
 #include "measures.h"
+#include "products.h"
+#include "sockets.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
@@ -16,6 +18,8 @@ typedef struct parts {
     zd_use_parts uses;
     int *lengths, *quaternion;
     zd_packed packed;
+    zd_sockets sockets;
+    double *weight;
     int gauges, quaternions, nq, nv;       /* so many are there by now */
 } parts;
 
@@ -32,7 +36,9 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(period, rows + relations);
     TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies);
     TAKE(quaternion, bodies);
+    TAKE(weight, ZD_BODY_VELOCITIES * bodies);
 #undef TAKE
+    zd_sockets_take(&to->sockets, arena, bodies, joints, rows + relations);
     zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
     zd_packed_take(&to->packed, arena, bodies, rows + relations, terms + extra);
 }
@@ -52,7 +58,10 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
         A += (turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * nv;
     }
     for (const zd_body3 *body = to->body + 1; body <= to->body + tables->bodies; body++)
-        for (int k = 0; k < ZD_POINT_COORDINATES; k++) to->lengths[body->p + k] = to->lengths[to->nq + body->v + k] = 1;
+        for (int k = 0; k < ZD_POINT_COORDINATES; k++) {
+            to->lengths[body->p + k] = to->lengths[to->nq + body->v + k] = 1;
+            to->weight[body->v + k] = body->mass * tables->gravity[k];
+        }
 }
 
 /* ---- joints, gauges, relations ---- */
@@ -180,6 +189,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
         .structure = &self->packed.structure,
+        .operations = self->sockets.are_all && self->uses.m ? &zd_socket_products : &zd_space_products,
         .quaternions = from->quaternions, .quaternion = from->quaternion,
     };
     self->measures.count = tables->uses.measures;
@@ -206,6 +216,7 @@ static int plan(const zd_space_tables *tables, parts *all)
         .gravity = zd_vector3_of(tables->gravity),
         .bodies = tables->bodies, .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
         .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .period = all->period,
+        .weight = all->weight,
     };
     for (int b = 0; b < tables->bodies; b++) {
         const int turns = all->body[b + 1].turns;
@@ -214,6 +225,8 @@ static int plan(const zd_space_tables *tables, parts *all)
     }
     const int alone = zd_packed_plan(&all->packed, &self->uses, tables->bodies, write_bodies_of, all->gauge);
     self->packed = all->packed;
+    zd_sockets_plan(&all->sockets, self);
+    self->sockets = all->sockets;
     make_system(tables, all);
     return alone;
 }

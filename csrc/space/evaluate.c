@@ -3,11 +3,16 @@
 
 #include "efforts.h"
 #include "rows.h"
+#include "sockets.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
 static int write_force(const zd_space *self, const zd_frame3 *frame, double t, double *f)
 {
+    if (!self->uses.efforts) {
+        memcpy(f, self->weight, (size_t)self->system.nv * sizeof *f);
+        return ZD_DONE;
+    }
     const int status = zd_space_efforts_apply(self, frame, t);
     zd_bodies_gather(self->bodies, self->body, frame->pose, frame->wrench, f);
     return status;
@@ -24,7 +29,10 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     const zd_space *self = data;
     const int bodies = self->bodies;
     const zd_frame3 frame = zd_frame3_of(self, out->scratch);
-    if (want & ZD_MOVED) zd_bodies_place(bodies, self->body, p, frame.pose);
+    if (want & ZD_MOVED) {
+        zd_bodies_place(bodies, self->body, p, frame.pose, frame.quaternion);
+        zd_sockets_turn(&self->sockets, &frame);
+    }
     if (is_moving(self, want)) zd_bodies_move(bodies, self->body, frame.pose, v, frame.twist);
     if (want & ZD_A) zd_bodies_write_A(bodies, self->body, p, out->A);
     if (want & ZD_M) zd_bodies_write_M(bodies, self->body, out->M);
@@ -33,5 +41,6 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
     if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
     if (want & ZD_C) memset(out->C, 0, (size_t)self->packed.size_of_C * sizeof *out->C);
-    return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
+    zd_sockets_write(&self->sockets, &frame, want, out);
+    return want & ROWS && !self->sockets.are_all ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

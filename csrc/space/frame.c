@@ -2,7 +2,8 @@
 #include "gauge.h"
 #include "plan.h"
 
-enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double) };
+enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double),
+       QUATERNION = 4, SIGHTED = sizeof(zd_sighted) / sizeof(double) };
 
 zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 {
@@ -13,6 +14,12 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     scratch += all * TWIST;
     frame.wrench = (zd_wrench3 *)scratch;
     scratch += all * WRENCH;
+    frame.quaternion = scratch;
+    scratch += all * QUATERNION;
+    frame.sighted = (zd_sighted *)scratch;
+    scratch += space->sockets.count * SIGHTED;
+    frame.turns = scratch;
+    scratch += space->sockets.turns;
     frame.row = scratch;
     scratch += all * ZD_BODY_VELOCITIES;
     frame.x = scratch;
@@ -23,7 +30,8 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 
 int zd_frame3_size(const zd_space *space)
 {
-    return (space->bodies + 1) * (POSE + TWIST + WRENCH + ZD_BODY_VELOCITIES) + 3 * space->uses.longest + 3;
+    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * SIGHTED
+         + space->sockets.turns + 3 * space->uses.longest + 3;
 }
 
 static double value_of(const void *mechanism, const void *frame, int gauge)

@@ -102,7 +102,7 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    zd_bodies_place(self->bodies, self->body, p, frame.pose);
+    zd_bodies_place(self->bodies, self->body, p, frame.pose, frame.quaternion);
     zd_bodies_move(self->bodies, self->body, frame.pose, v, frame.twist);
     if (observed->quantity <= ZD_ACCELERATIONS) {
         for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);

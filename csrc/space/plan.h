@@ -4,7 +4,7 @@
 
 #include "../gauges/packed.h"
 #include "../gauges/readings.h"
-#include "bodies.h"
+#include "socket.h"
 #include "tables.h"
 
 typedef struct zd_planned_joint3 {
@@ -22,6 +22,8 @@ struct zd_space {
     const zd_space_gauge *gauge;    /* those given, then those of the joints' rows */
     const double *period;           /* (m,) */
     zd_packed packed;
+    const double *weight;           /* (nv,) of the bodies, as generalized force */
+    zd_sockets sockets;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -31,6 +33,9 @@ typedef struct zd_frame3 {
     zd_pose3 *pose;
     zd_twist3 *twist;
     zd_wrench3 *wrench;
+    double *quaternion;             /* (bodies + 1, 4), of the ground and of particles unused */
+    zd_sighted *sighted;            /* (sockets,) */
+    double *turns;                  /* of the sockets' rows, see sockets.h */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
 } zd_frame3;

@@ -59,12 +59,13 @@ def hanging_links(n):
 class Steps:
     """A run that stands still between windows of some steps, and the least microseconds of a step so far."""
 
-    def __init__(self, system, p, v, steps):
-        self.system, self.start, self.steps, self.least = system, (p, v), steps, np.inf
+    def __init__(self, system, p, v, steps, step=STEP):
+        self.system, self.start, self.steps, self.step, self.least = system, (p, v), steps, step, np.inf
 
     def measure(self, windows):
         options = handed(formulation=list(zd.formulations()).index("schur"), integrator=list(zd.integrators()).index("rk4"),
-                         step=STEP, t1=windows * self.steps * STEP, save_every=self.steps, vector=_gateway.PROCESSOR_UNIT)
+                         step=self.step, t1=windows * self.steps * self.step, save_every=self.steps,
+                         vector=_gateway.PROCESSOR_UNIT)
         run, row = _gateway.Run(self.system._core, options, *self.start), _gateway.Record(self.system._core, 1)
         for _ in range(windows):
             begin = time.process_time()

@@ -144,6 +144,7 @@ typedef struct zd_structure {
  * structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare: so these and times_C must not
  * read it. */
 typedef struct zd_operations {
+    void (*times_A)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = A x, (nq,): where A is provided */
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
     /* x <- x - W C^T y, W (nv,) diagonal; row k of C has entry place[k] of y, and rows of a group stand together there, too */

@@ -1,0 +1,40 @@
+/* Joints whose points coincide: three rows that hold a point of one body on a point of another, and up to three more that each keep a direction
+ * of one perpendicular to one of the other. These are spherical, universal and revolute joints and welds. Of velocities of mass centres their
+ * rows have 1 and -1; what they have of angular velocities is kept in the scratch, so that C is not stored for products with it. */
+#ifndef ZD_SOCKET_H
+#define ZD_SOCKET_H
+
+#include "bodies.h"
+
+enum { ZD_SOCKET_POINT = 3, ZD_SOCKET_ROWS = 6 };   /* rows of the point, and at most of all */
+
+typedef struct zd_socket {
+    int first, second;      /* bodies */
+    int rows;               /* how many it has */
+    int row;                /* the first of them */
+    int turns;              /* where what they have of angular velocities begins: (2, rows, 3), of the first body and the second */
+    int C, width;           /* where the first begins in C, and how long each is */
+    int near, far;          /* where in a row the entries of each body begin; -1: it is the ground */
+    int near_turns, far_turns;  /* whether the body has an angular velocity */
+    zd_vector3 point1, point2;
+    zd_vector3 a[ZD_SOCKET_ROWS - ZD_SOCKET_POINT], b[ZD_SOCKET_ROWS - ZD_SOCKET_POINT];    /* directions of the first, and of the second */
+} zd_socket;
+
+typedef struct zd_sockets {
+    int count;
+    zd_socket *socket;
+    unsigned char *has_row; /* (m,) whether a row is of one */
+    int *end_at;            /* (bodies + 2,) where the sockets of each body begin in */
+    int *end;               /* (2 count,) 2 * socket, or 1 more where the body is its second */
+    int rows;               /* of each of them; 0: they differ */
+    int turns;              /* how many numbers they have of angular velocities */
+    int are_all;            /* whether there are no other rows, and all bodies turn */
+} zd_sockets;
+
+/* What a move leaves of each socket: in the drawing's axes, but for `turns`, which are in the body's own. */
+typedef struct zd_sighted {
+    zd_vector3 arm1, arm2;  /* from the mass centres to the points */
+    zd_vector3 a[ZD_SOCKET_ROWS - ZD_SOCKET_POINT], b[ZD_SOCKET_ROWS - ZD_SOCKET_POINT];
+} zd_sighted;
+
+#endif
