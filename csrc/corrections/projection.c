@@ -120,7 +120,7 @@ static int solve(projection *self, zd_motion *motion, enum zd_limit what, double
 {
     motion->statistics.solves++;
     if (self->plain) return solve_with_identity(self, motion, what, x);
-    int status = zd_motion_factor(motion);
+    int status = zd_motion_factor_for(motion, NULL, self->rhs, x);
     if (!status) status = zd_limits_replace(motion->point, what, self->rhs);
     if (!status) zd_motion_solve(motion, NULL, self->rhs, x, NULL);
     return status;

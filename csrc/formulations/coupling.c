@@ -45,6 +45,35 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
+/* ---- right sides ---- */
+
+/* x <- W y */
+static void times_W(const zd_coupling *self, const double *y, double *x)
+{
+    for (int i = 0; self->is_diagonal && i < self->n; i++) x[i] = self->W[i] * y[i];
+    if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
+}
+
+/* y <- C x - rhs in the order of S, x NULL: zero */
+static void find_right_side(zd_coupling *self, const double *x, const double *rhs, double *y)
+{
+    if (!self->products) {
+        zd_weighted_times(self->weighted, self->C, x, rhs, y);
+        return;
+    }
+    if (x) self->products->times_C(self->data, &self->terms, x, self->lambda);
+    zd_strips_gather(&self->weighted->strips, x ? self->lambda : NULL, rhs, y);
+}
+
+/* x <- W force, and y of S lambda = y */
+static double *begin(zd_coupling *self, const zd_right_side *of)
+{
+    double *y = self->weighted->blocks->x;
+    if (of->force) times_W(self, of->force, of->x);
+    find_right_side(self, of->force ? of->x : NULL, of->rhs, y);
+    return y;
+}
+
 /* ---- factors ---- */
 
 /* What a body contributes to the diagonal of S in a row: c W c^T; W is its diagonal. */
@@ -89,17 +118,17 @@ static int invert_mass(zd_coupling *self, zd_point *point)
     return ZD_DONE;
 }
 
-/* S and its factors; what it takes of C is there before, or is what a call with ZD_MOVED has left in the scratch. */
+/* S and its factors, with the right side that is awaited; what it takes of C is there before, or is what a call with ZD_MOVED has left in the
+ * scratch. */
 static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
 {
-    if (!self->products) {
-        int status = zd_point_need(point, ZD_C);
-        if (!status) *pivots = zd_weighted_factor(self->weighted, self->C, self->W);
-        return status;
-    }
-    int status = point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
-    if (!status) *pivots = zd_weighted_factor_by(self->weighted, self->products, self->data, &self->terms, self->W);
-    return status;
+    int status = !self->products ? zd_point_need(point, ZD_C) : point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
+    if (status) return status;
+    double *y = point->awaited.x ? begin(self, &point->awaited) : NULL;
+    self->begun = point->awaited;
+    *pivots = self->products ? zd_weighted_factor_by(self->weighted, self->products, self->data, &self->terms, self->W, y)
+                             : zd_weighted_factor(self->weighted, self->C, self->W, y);
+    return ZD_DONE;
 }
 
 static int is_to_be_refined(const zd_coupling *self) { return !self->is_accurate || self->share < GOOD; }
@@ -149,24 +178,6 @@ int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
 
 /* ---- solution ---- */
 
-/* x <- W y */
-static void times_W(const zd_coupling *self, const double *y, double *x)
-{
-    for (int i = 0; self->is_diagonal && i < self->n; i++) x[i] = self->W[i] * y[i];
-    if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
-}
-
-/* y <- C x - rhs in the order of S, x NULL: zero */
-static void find_right_side(zd_coupling *self, const double *x, const double *rhs, double *y)
-{
-    if (!self->products) {
-        zd_weighted_times(self->weighted, self->C, x, rhs, y);
-        return;
-    }
-    if (x) self->products->times_C(self->data, &self->terms, x, self->lambda);
-    zd_strips_gather(&self->weighted->strips, x ? self->lambda : NULL, rhs, y);
-}
-
 /* x <- x - W C^T y, y in the order of S */
 static void subtract_weighted(zd_coupling *self, const double *y, double *x)
 {
@@ -178,14 +189,12 @@ static void subtract_weighted(zd_coupling *self, const double *y, double *x)
     self->products->subtract_weighted(self->data, &self->terms, self->W, y, strips->place, x);
 }
 
-/* x <- W (force - C^T lambda), with S lambda = C W force - rhs in the order of S */
-static void exchange(zd_coupling *self, const double *force, const double *rhs, double *x)
+/* x <- W (force - C^T lambda), where x and y are as begin() leaves them, once zd_blocks_forward() is made of y */
+static void finish(zd_coupling *self, const double *force, double *x)
 {
     double *y = self->weighted->blocks->x;
     const size_t bytes = (size_t)self->n * sizeof *x;
-    if (force) times_W(self, force, x);
-    find_right_side(self, force ? x : NULL, rhs, y);
-    zd_weighted_solve(self->weighted, y);
+    zd_blocks_backward(self->weighted->blocks, y);
     if (self->is_diagonal) {
         if (!force) memset(x, 0, bytes);
         subtract_weighted(self, y, x);                                                      /* (13), (27) */
@@ -225,7 +234,8 @@ static void refine(zd_coupling *self, const double *rhs, double *x, double *lamb
 {
     double before = INFINITY, left = find_rest(self, rhs, x, self->rest);
     for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
-        exchange(self, NULL, self->rest, self->step);
+        zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->rest, self->step}));
+        finish(self, NULL, self->step);
         for (int j = 0; j < self->n; j++) x[j] += self->step[j];
         if (lambda) add_multipliers(self, lambda);
         before = left;
@@ -235,7 +245,11 @@ static void refine(zd_coupling *self, const double *rhs, double *x, double *lamb
 
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
 {
-    exchange(self, force, rhs, x);
+    const zd_right_side *begun = &self->begun;
+    const int has_begun = begun->x == x && begun->rhs == rhs && begun->force == force;
+    if (!has_begun) zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){force, rhs, x}));
+    self->begun.x = NULL;
+    finish(self, force, x);
     if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
     if (is_to_be_refined(self)) refine(self, rhs, x, lambda);
 }

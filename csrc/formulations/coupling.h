@@ -23,6 +23,7 @@ typedef struct zd_coupling {
     const zd_operations *products;      /* of the system, in place of those with C; NULL: there are none */
     const void *data;           /* what these are called with, and the terms at the point */
     zd_terms terms;
+    zd_right_side begun;        /* what was awaited where it was factored, until it is solved for; x NULL: nothing */
     const zd_layout *layout;    /* of the point where it was factored, as its C */
     const double *C;
 } zd_coupling;

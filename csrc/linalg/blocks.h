@@ -17,7 +17,7 @@ typedef struct zd_blocks {
     int *kernel;            /* (count,) the size of all blocks of a column that has one for which there is a kernel; else 0 */
     int uniform;            /* the same of all columns; 0: they differ */
     int size;               /* of S */
-    double *S;              /* diagonal blocks, then those below it, column after column; once factored, D^-1 and L */
+    double *S;              /* diagonal blocks, then those below it, column after column; once factored, D^-1 and L D */
     double *diagonal;       /* (rows,): of S before that */
     double *product;        /* room for one block */
     double *x;              /* (rows,) */
@@ -36,9 +36,16 @@ zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering);
 int zd_blocks_find(const zd_blocks *self, int i, int j);
 void zd_blocks_clear(zd_blocks *self);
 /* S, whose blocks have been filled, into its factors. Where `left_out` (rows,) is not NULL, rows whose pivots are not more than `least` of their
- * diagonal entries are noted there, and are as if they were not there, with their columns; with `least` below zero, those noted there already. */
-zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least);
-/* x (rows,), in the order of elimination, <- S^-1 x; those left out become zero. */
-void zd_blocks_solve(const zd_blocks *self, double *x);
+ * diagonal entries are noted there, and are as if they were not there, with their columns; with `least` below zero, those noted there already.
+ * Where x (rows,) is not NULL, zd_blocks_forward() is made of it on the way. */
+zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least, double *x);
+/* x (rows,), in the order of elimination, <- S^-1 x, in two halves; those left out become zero. */
+void zd_blocks_forward(const zd_blocks *self, double *x);
+void zd_blocks_backward(const zd_blocks *self, double *x);
+static inline void zd_blocks_solve(const zd_blocks *self, double *x)
+{
+    zd_blocks_forward(self, x);
+    zd_blocks_backward(self, x);
+}
 
 #endif

@@ -1,14 +1,18 @@
 /* Block L D L^T, right-looking: once the block row k is eliminated, with P = D_k^-1 and B_i the blocks below it,
  *
- *     L_i = B_i P,        S_ij <- S_ij - B_i L_j^T,        S_ii <- S_ii - L_i B_i^T
+ *     S_ij <- S_ij - B_i P B_j^T
  *
- * where each S_ij stands was found beforehand, see blocks.c. Diagonal blocks are inverted by scalar pivots: a row that is left out has none.
- * Solutions take two products with each block.
+ * where each S_ij stands was found beforehand, see blocks.c. The B_i stay as they are, L being B P. Diagonal blocks are inverted by scalar
+ * pivots: a row that is left out has none. Solutions take two products with each block, the first of which can be made as S is factored:
+ *
+ *     forward     x_k <- P x_k,    x_i <- x_i - B_i x_k
+ *     backward    x_k <- x_k - P sum_i B_i^T x_i
  *
  * Kernels are told what the compiler is to know. `n` is the size of the pivot's block; `is_same`: of all blocks of its column, too; `is_whole`:
  * of all blocks of the matrix, so that where they stand follows from their numbers.
  */
 #include <math.h>
+#include <stddef.h>
 
 #include "blocks.h"
 #include "pivot.h"
@@ -85,61 +89,92 @@ ZD_INLINE void multiply(const int a, const int n, const double *B, const double 
         }
 }
 
-/* Column k of blocks of two rows, written out: where a compiler takes entries in pairs that were stored one by one, it waits for each. */
-ZD_INLINE void eliminate_two(const int is_whole, const zd_blocks *self, int k, zd_pivots *pivots)
+/* y (a,) <- y - B x, B (a, n) */
+ZD_INLINE void subtract_times(const int a, const int n, const double *B, const double *x, double *y)
 {
-    const int first = self->begin[k], end = self->begin[k + 1], *target = self->target + self->target_begin[k], at = at_of(2, is_whole, self, k);
-    double *pivot = pivot_of(2, is_whole, self, k);
-    const zd_inverse_of_two P = zd_invert_two(self->diagonal + at, at, pivot, pivots);
-    pivot[0] = P.aa;
-    pivot[1] = pivot[2] = P.ab;
-    pivot[3] = P.bb;
-    for (int e = first; e < end; e++) {
-        double *B = entry_of(2, is_whole, self, e), *D = pivot_of(2, is_whole, self, self->row[e]);
-        const double b0 = B[0], b1 = B[1], b2 = B[2], b3 = B[3];
-        const double l0 = b0 * P.aa + b1 * P.ab, l1 = b0 * P.ab + b1 * P.bb, l2 = b2 * P.aa + b3 * P.ab, l3 = b2 * P.ab + b3 * P.bb;
-        for (int f = first; f < e; f++) {
-            const double *L = entry_of(2, is_whole, self, f);
-            double *to = self->S + *target++;
-            to[0] -= b0 * L[0] + b1 * L[1];
-            to[1] -= b0 * L[2] + b1 * L[3];
-            to[2] -= b2 * L[0] + b3 * L[1];
-            to[3] -= b2 * L[2] + b3 * L[3];
-        }
-        D[0] -= l0 * b0 + l1 * b1;
-        D[2] -= l2 * b0 + l3 * b1;
-        D[3] -= l2 * b2 + l3 * b3;
-        B[0] = l0, B[1] = l1, B[2] = l2, B[3] = l3;
+    for (int i = 0; i < a; i++) {
+        double sum = y[i];
+        for (int k = 0; k < n; k++) sum -= B[i * n + k] * x[k];
+        y[i] = sum;
     }
+}
+
+/* x_k <- P x_k */
+ZD_INLINE void scale(const int n, const int is_same, const zd_blocks *self, const double *P, double *own)
+{
+    double here[ZD_UNROLLED], *scaled = is_same ? here : self->product;
+    multiply(1, n, own, P, scaled);
+    memcpy(own, scaled, (size_t)n * sizeof *own);
 }
 
 ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out, double least,
-                         zd_pivots *pivots)
+                         double *restrict x, zd_pivots *pivots)
 {
-    if (is_same && n == 2) {
-        eliminate_two(is_whole, self, k, pivots);
-        return;
-    }
-    double *P = pivot_of(n, is_whole, self, k), here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;
+    double *P = pivot_of(n, is_whole, self, k), *own = x ? x + at_of(n, is_whole, self, k) : NULL;
+    double here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;
     const int *target = self->target + self->target_begin[k], first = self->begin[k];
     invert(n, self, at_of(n, is_whole, self, k), P, left_out, least, pivots);
+    if (x) scale(n, is_same, self, P, own);
     for (int e = first; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
-        double *B = entry_of(n, is_whole, self, e);
+        const double *B = entry_of(n, is_whole, self, e);
+        multiply(a, n, B, P, product);
         for (int f = first; f < e; f++) {
             const int b = is_same ? n : size_at(self, self->row[f]);
-            subtract_product(a, b, n, B, entry_of(n, is_whole, self, f), self->S + *target++);
+            subtract_product(a, b, n, product, entry_of(n, is_whole, self, f), self->S + *target++);
         }
-        multiply(a, n, B, P, product);
         subtract_product(a, a, n, product, B, pivot_of(n, is_whole, self, row));
-        memcpy(B, product, (size_t)(a * n) * sizeof *B);
+        if (x) subtract_times(a, n, B, own, x + at_of(n, is_whole, self, row));
     }
 }
 
-ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, zd_pivots *pivots)
+ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
 {
     zd_pivots found = *pivots;              /* in registers */
-    for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_whole, self, k, NULL, 0, &found);
+    for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_whole, self, k, NULL, 0, x, &found);
+    *pivots = found;
+}
+
+/* Blocks of two rows are written out, in one pass over all that there is: where a compiler takes entries in pairs that were stored one by one, it
+ * waits for each. Products with P are divided by its determinant last, as that takes longest. `carries`: whether there is an x. */
+ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
+{
+    const int count = self->count, *begin = self->begin, *row = self->row, *target = self->target;
+    double *S = self->S, *pivot = S, *entry = S + 4 * count, y0 = 0, y1 = 0;
+    zd_pivots found = *pivots;              /* in registers */
+    for (int k = 0; k < count; k++, pivot += 4) {
+        const zd_inverse_of_two P = zd_invert_two(self->diagonal + 2 * k, 2 * k, pivot, &found);
+        const double *first = entry, *end = entry + 4 * (begin[k + 1] - begin[k]);
+        pivot[0] = P.aa * P.scale;
+        pivot[1] = P.ab * P.scale;
+        pivot[3] = P.bb * P.scale;
+        if (carries) {
+            double *own = x + 2 * k;
+            y0 = (P.aa * own[0] + P.ab * own[1]) * P.scale;
+            y1 = (P.ab * own[0] + P.bb * own[1]) * P.scale;
+            own[0] = y0, own[1] = y1;
+        }
+        for (; entry < end; entry += 4) {
+            const double b0 = entry[0], b1 = entry[1], b2 = entry[2], b3 = entry[3];
+            const double l0 = b0 * P.aa + b1 * P.ab, l1 = b0 * P.ab + b1 * P.bb, l2 = b2 * P.aa + b3 * P.ab, l3 = b2 * P.ab + b3 * P.bb;
+            const ptrdiff_t at = *row++;
+            double *D = S + 4 * at, *z = x + 2 * at;
+            if (carries) {
+                z[0] -= b0 * y0 + b1 * y1;
+                z[1] -= b2 * y0 + b3 * y1;
+            }
+            D[0] -= (l0 * b0 + l1 * b1) * P.scale;
+            D[2] -= (l2 * b0 + l3 * b1) * P.scale;
+            D[3] -= (l2 * b2 + l3 * b3) * P.scale;
+            for (const double *C = first; C < entry; C += 4) {
+                double *to = S + *target++;
+                to[0] -= (l0 * C[0] + l1 * C[1]) * P.scale;
+                to[1] -= (l0 * C[2] + l1 * C[3]) * P.scale;
+                to[2] -= (l2 * C[0] + l3 * C[1]) * P.scale;
+                to[3] -= (l2 * C[2] + l3 * C[3]) * P.scale;
+            }
+        }
+    }
     *pivots = found;
 }
 
@@ -159,101 +194,114 @@ static void keep_diagonals_of_any(const zd_blocks *self)
     }
 }
 
-zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least)
+zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least, double *x)
 {
     zd_pivots pivots = {-1, 0, 1, 1};
     if (self->uniform && !left_out) {
         FOR_SIZE(keep_diagonals, self->uniform, 1, self)
-        FOR_SIZE(eliminate_all, self->uniform, 1, self, &pivots)
+        if (self->uniform == 2 && x) eliminate_twos(1, self, x, &pivots);
+        else if (self->uniform == 2) eliminate_twos(0, self, NULL, &pivots);
+        else FOR_SIZE(eliminate_all, self->uniform, 1, self, x, &pivots)
         return pivots;
     }
     keep_diagonals_of_any(self);
     for (int k = 0; k < self->count; k++) {
         const int kernel = left_out ? 0 : self->kernel[k];
-        if (!kernel) eliminate(size_at(self, k), 0, 0, self, k, left_out, least, &pivots);
-        FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, &pivots)
+        if (!kernel) eliminate(size_at(self, k), 0, 0, self, k, left_out, least, x, &pivots);
+        FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, x, &pivots)
     }
     return pivots;
 }
 
 /* ---- solution ---- */
 
-/* y (a,) <- y - L x, L (a, n) */
-ZD_INLINE void subtract_times(const int a, const int n, const double *L, const double *x, double *y)
-{
-    for (int i = 0; i < a; i++) {
-        double sum = y[i];
-        for (int k = 0; k < n; k++) sum -= L[i * n + k] * x[k];
-        y[i] = sum;
-    }
-}
-
 ZD_INLINE void forward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
 {
-    double *own = x + at_of(n, is_whole, self, k), here[ZD_UNROLLED], *scaled = is_same ? here : self->product;
+    double *own = x + at_of(n, is_whole, self, k);
+    scale(n, is_same, self, pivot_of(n, is_whole, self, k), own);
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
         subtract_times(a, n, entry_of(n, is_whole, self, e), own, x + at_of(n, is_whole, self, row));
     }
-    multiply(1, n, own, pivot_of(n, is_whole, self, k), scaled);
-    memcpy(own, scaled, (size_t)n * sizeof *own);
 }
 
-/* x_k <- x_k - sum L_i^T x_i */
 ZD_INLINE void backward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
 {
-    double *own = x + at_of(n, is_whole, self, k);
+    const double *P = pivot_of(n, is_whole, self, k);
+    double *own = x + at_of(n, is_whole, self, k), here[ZD_UNROLLED], *sum = is_same ? here : self->product;
+    for (int j = 0; j < n; j++) sum[j] = 0;
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
-        const double *L = entry_of(n, is_whole, self, e), *other = x + at_of(n, is_whole, self, row);
+        const double *B = entry_of(n, is_whole, self, e), *other = x + at_of(n, is_whole, self, row);
         for (int i = 0; i < a; i++)
-            for (int j = 0; j < n; j++) own[j] -= L[i * n + j] * other[i];
+            for (int j = 0; j < n; j++) sum[j] += B[i * n + j] * other[i];
     }
+    subtract_times(n, n, P, sum, own);
 }
 
-ZD_INLINE void solve_two(const zd_blocks *self, double *x)
+/* Of two rows, as eliminate_twos() */
+static void forward_twos(const zd_blocks *self, double *restrict x)
 {
-    for (int k = 0; k < self->count; k++) {
-        const double *P = pivot_of(2, 1, self, k), x0 = x[2 * k], x1 = x[2 * k + 1];
-        for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
-            const double *L = entry_of(2, 1, self, e);
-            double *y = x + 2 * self->row[e];
-            y[0] -= L[0] * x0 + L[1] * x1;
-            y[1] -= L[2] * x0 + L[3] * x1;
+    const int count = self->count, *begin = self->begin, *row = self->row;
+    const double *P = self->S, *B = P + 4 * count;
+    double *own = x;
+    for (int k = 0; k < count; k++, P += 4) {
+        const double y0 = P[0] * own[0] + P[1] * own[1], y1 = P[1] * own[0] + P[3] * own[1];
+        *own++ = y0;
+        *own++ = y1;
+        for (int below = begin[k + 1] - begin[k]; below; below--, B += 4) {
+            double *z = x + 2 * (ptrdiff_t)*row++;
+            z[0] -= B[0] * y0 + B[1] * y1;
+            z[1] -= B[2] * y0 + B[3] * y1;
         }
-        x[2 * k] = P[0] * x0 + P[2] * x1;
-        x[2 * k + 1] = P[2] * x0 + P[3] * x1;
-    }
-    for (int k = self->count - 1; k >= 0; k--) {
-        double x0 = x[2 * k], x1 = x[2 * k + 1];
-        for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
-            const double *L = entry_of(2, 1, self, e), *y = x + 2 * self->row[e];
-            x0 -= L[0] * y[0] + L[2] * y[1];
-            x1 -= L[1] * y[0] + L[3] * y[1];
-        }
-        x[2 * k] = x0;
-        x[2 * k + 1] = x1;
     }
 }
 
-ZD_INLINE void solve_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
+static void backward_twos(const zd_blocks *self, double *restrict x)
+{
+    const int count = self->count, *begin = self->begin, *row = self->row + begin[count];
+    const double *P = self->S + 4 * count, *B = P + 4 * begin[count];
+    double *own = x + 2 * count;
+    for (int k = count - 1; k >= 0; k--) {
+        double s0 = 0, s1 = 0;
+        for (int below = begin[k + 1] - begin[k]; below; below--) {
+            const double *z = x + 2 * (ptrdiff_t)*--row;
+            B -= 4;
+            s0 += B[0] * z[0] + B[2] * z[1];
+            s1 += B[1] * z[0] + B[3] * z[1];
+        }
+        P -= 4;
+        own -= 2;
+        own[0] -= P[0] * s0 + P[1] * s1;
+        own[1] -= P[1] * s0 + P[3] * s1;
+    }
+}
+
+ZD_INLINE void forward_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
 {
     for (int k = 0; k < self->count; k++) forward(n, is_same, is_whole, self, k, x);
+}
+
+ZD_INLINE void backward_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
+{
     for (int k = self->count - 1; k >= 0; k--) backward(n, is_same, is_whole, self, k, x);
 }
 
-void zd_blocks_solve(const zd_blocks *self, double *x)
+void zd_blocks_forward(const zd_blocks *self, double *x)
 {
-    if (self->uniform) {
-        if (self->uniform == 2) solve_two(self, x);
-        else FOR_SIZE(solve_all, self->uniform, 1, self, x)
-        return;
-    }
-    for (int k = 0; k < self->count; k++) {
+    if (self->uniform == 2) forward_twos(self, x);
+    else FOR_SIZE(forward_all, self->uniform, 1, self, x)
+    for (int k = 0; !self->uniform && k < self->count; k++) {
         if (!self->kernel[k]) forward(size_at(self, k), 0, 0, self, k, x);
         FOR_SIZE(forward, self->kernel[k], 0, self, k, x)
     }
-    for (int k = self->count - 1; k >= 0; k--) {
+}
+
+void zd_blocks_backward(const zd_blocks *self, double *x)
+{
+    if (self->uniform == 2) backward_twos(self, x);
+    else FOR_SIZE(backward_all, self->uniform, 1, self, x)
+    for (int k = self->count - 1; !self->uniform && k >= 0; k--) {
         if (!self->kernel[k]) backward(size_at(self, k), 0, 0, self, k, x);
         FOR_SIZE(backward, self->kernel[k], 0, self, k, x)
     }

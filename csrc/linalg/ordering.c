@@ -1,9 +1,10 @@
-/* Minimum degree: next is always the block row that is coupled with fewest others by then (George and Liu, The evolution of the minimum
- * degree ordering algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row joins all
- * cliques that it is in to one, which has its column of the factor as members. So there is no more to keep than the factor has.
+/* Multiple minimum degree: next are the block rows that are coupled with fewest others by then, all of them that are not coupled with each other;
+ * those coupled with one of them wait, with their new degrees, until these are through (George and Liu, The evolution of the minimum degree ordering
+ * algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row joins all cliques that it is in to
+ * one, which has its column of the factor as members. So there is no more to keep than the factor has.
  *
- * Of equal ones, that is taken which has waited longest. This eliminates a chain from both ends at once, and next to each other what is
- * not coupled: the machine then need not wait for one product before it begins the next.
+ * Of equal ones, that is taken which has waited longest. So what is not coupled is eliminated next to each other, a row of loops as a chain from both
+ * ends at once: the machine then need not wait for one product before it begins the next.
  */
 #include "ordering.h"
 
@@ -11,12 +12,16 @@
 
 #include "../workspace.h"
 
-enum { LARGEST_DEGREE = 4095 };     /* of which degrees are told apart */
+enum {
+    LARGEST_DEGREE = 4095,      /* of which degrees are told apart */
+    TO_BE_FOUND,                /* of block rows that are coupled with one that has just been eliminated */
+    QUEUES
+};
 
 /* Block rows by degree, in the order in which they came to it. */
 typedef struct queues {
     int lowest;
-    int *first, *last;      /* (LARGEST_DEGREE + 1,): -1: there is none */
+    int *first, *last;      /* (QUEUES,): -1: there is none */
     int *before, *after;    /* (count,) */
 } queues;
 
@@ -57,13 +62,6 @@ static void take_away(queues *self, int degree, int k)
     else self->before[self->after[k]] = self->before[k];
 }
 
-static int next_of(queues *self)
-{
-    while (self->first[self->lowest] < 0) self->lowest++;
-    int k = self->first[self->lowest];
-    take_away(self, self->lowest, k);
-    return k;
-}
 
 /* ---- the search ---- */
 
@@ -82,8 +80,8 @@ static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *giv
         .marked = take_ints(arena, count),
         .gone = take_ints(arena, pattern->cliques + count),
         .waiting = {
-            .first = take_ints(arena, LARGEST_DEGREE + 1),
-            .last = take_ints(arena, LARGEST_DEGREE + 1),
+            .first = take_ints(arena, QUEUES),
+            .last = take_ints(arena, QUEUES),
             .before = take_ints(arena, count),
             .after = take_ints(arena, count),
         },
@@ -128,7 +126,7 @@ static void begin_search(search *self, const int *column)
             const int k = pattern->member[i];
             self->in[self->in_at[k] + self->in_count[k]++] = c;
         }
-    for (int d = 0; d <= LARGEST_DEGREE; d++) self->waiting.first[d] = self->waiting.last[d] = -1;
+    for (int d = 0; d < QUEUES; d++) self->waiting.first[d] = self->waiting.last[d] = -1;
     for (int k = 0; !self->given && k < pattern->count; k++) append(&self->waiting, self->degree[k] = degree_of(self, column, k), k);
 }
 
@@ -167,7 +165,7 @@ static int join_cliques(search *self, const int *column, int k, int step)
 }
 
 /* Each member of the new clique is in that, and not any more in those that were joined. */
-static void enter_clique(search *self, const int *column, int k, int step)
+static void enter_clique(search *self, int k, int step)
 {
     for (int j = self->begin[step]; j < self->begin[step + 1]; j++) {
         const int i = self->members[j];
@@ -178,22 +176,38 @@ static void enter_clique(search *self, const int *column, int k, int step)
         self->in_count[i] = kept;
     }
     for (int j = self->begin[step]; !self->given && j < self->begin[step + 1]; j++) {
-        const int i = self->members[j], now = degree_of(self, column, i);
-        if (now == self->degree[i]) continue;
+        const int i = self->members[j];
+        if (self->degree[i] == TO_BE_FOUND) continue;
         take_away(&self->waiting, self->degree[i], i);
-        append(&self->waiting, self->degree[i] = now, i);
+        append(&self->waiting, self->degree[i] = TO_BE_FOUND, i);
     }
+}
+
+/* One of the lowest degree; once there is no more of these, degrees are found anew. */
+static int next_of(search *self, const int *column)
+{
+    queues *waiting = &self->waiting;
+    const int are_through = waiting->first[waiting->lowest] < 0;
+    while (are_through && waiting->first[TO_BE_FOUND] >= 0) {
+        const int i = waiting->first[TO_BE_FOUND];
+        take_away(waiting, TO_BE_FOUND, i);
+        append(waiting, self->degree[i] = degree_of(self, column, i), i);
+    }
+    while (waiting->first[waiting->lowest] < 0) waiting->lowest++;
+    const int k = waiting->first[waiting->lowest];
+    take_away(waiting, waiting->lowest, k);
+    return k;
 }
 
 static int eliminate_all(search *self, int *place)
 {
     begin_search(self, place);
     for (int step = 0; step < self->pattern->count; step++) {
-        const int k = self->given ? self->given[step] : next_of(&self->waiting);
+        const int k = self->given ? self->given[step] : next_of(self, place);
         self->degree[k] = -1;
         place[k] = step;
         if (!join_cliques(self, place, k, step)) return 0;
-        enter_clique(self, place, k, step);
+        enter_clique(self, k, step);
     }
     return 1;
 }

@@ -16,8 +16,8 @@ ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double di
     return 1;
 }
 
-typedef struct zd_inverse_of_two {  /* symmetric, in registers */
-    double aa, ab, bb;
+typedef struct zd_inverse_of_two {  /* symmetric, in registers: these entries times the scale, zero where there is none */
+    double aa, ab, bb, scale;
 } zd_inverse_of_two;
 
 /* Of a block whose lower triangle is given, by one division: both pivots would take one each, and the second would wait for the first. What
@@ -30,8 +30,7 @@ ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const
     if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
         are_pivots = zd_judge_pivot(pivots, row, a, diagonal[0], rounding)
                    & zd_judge_pivot(pivots, row + 1, determinant, a * diagonal[1], rounding);
-    const double scale = are_pivots ? 1 / determinant : 0;
-    return (zd_inverse_of_two){c * scale, -b * scale, a * scale};
+    return (zd_inverse_of_two){c, -b, a, are_pivots ? 1 / determinant : 0};
 }
 
 #endif

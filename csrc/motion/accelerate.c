@@ -44,12 +44,12 @@ int zd_motion_accelerate_anew(zd_motion *motion)
     zd_point *point = motion->point;
     if (zd_is_direct(motion)) return accelerate_directly(motion);
     int status = zd_point_need(point, motion->acceleration_needs);
-    if (!status) status = zd_motion_factor(motion);
     if (status) return status;
     zd_point_force(point, point->force);
     ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
     if (motion->is_stabilized) stabilize(motion);
-    status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
+    status = zd_motion_factor_for(motion, point->force, point->rhs, point->vdot);
+    if (!status) status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
     if (status) return status;
     motion->statistics.solves++;
     zd_motion_solve(motion, point->force, point->rhs, point->vdot, point->lambda);      /* (8), (9), (13) */

@@ -137,6 +137,14 @@ static inline int zd_motion_factor(zd_motion *motion)
 {
     return motion->point->known & ZD_FACTORED ? ZD_DONE : zd_motion_factor_anew(motion);
 }
+/* The same, where this is solved for next, with nothing in it changed. */
+static inline int zd_motion_factor_for(zd_motion *motion, const double *force, const double *rhs, double *x)
+{
+    motion->point->awaited = (zd_right_side){force, rhs, x};
+    int status = zd_motion_factor(motion);
+    motion->point->awaited.x = NULL;
+    return status;
+}
 /* Which rows count at the point, also by factoring, where that tells. */
 int zd_motion_find_rows(zd_motion *motion);
 /* The formulation's solve, with right sides and multipliers of all rows, whichever of them count at the point. */

@@ -114,7 +114,7 @@ int zd_bodies_factor(zd_bodies *self)
 zd_pivots zd_bodies_leave_out(zd_bodies *self, unsigned char *left_out, double least)
 {
     self->is_triangular = 0;
-    return zd_blocks_factor(self->blocks, left_out, least);
+    return zd_blocks_factor(self->blocks, left_out, least, NULL);
 }
 
 void zd_bodies_solve(zd_bodies *self, const double *b, double *x)

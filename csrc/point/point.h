@@ -16,6 +16,12 @@ enum {                                  /* known beside the system's own terms *
 
 typedef struct zd_rank zd_rank;         /* constraints/rank.h */
 
+/* Of a solve of formulation.h, and where its x goes. */
+typedef struct zd_right_side {
+    const double *force, *rhs;
+    double *x;
+} zd_right_side;
+
 typedef struct zd_point {
     const zd_system *system;
     zd_statistics *statistics;
@@ -26,6 +32,7 @@ typedef struct zd_point {
     zd_terms terms;
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *force, *rhs;    /* (nv,), (m,): right sides being put together */
+    zd_right_side awaited;  /* what a solve follows with, for a factorization that can begin with it; x NULL: it is not known */
     zd_rank *rank;          /* NULL where the point only serves to evaluate terms */
     int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
     const double *C;        /* those that count: the system's own, stored as they are, or dense (rows, nv) */

@@ -300,10 +300,10 @@ static void fill_S(zd_weighted *self, const double *C, const double *W)
 #undef KERNEL
 }
 
-zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W)
+zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W, double *y)
 {
     fill_S(self, C, W);
-    return zd_blocks_factor(self->blocks, NULL, 0);
+    return zd_blocks_factor(self->blocks, NULL, 0, y);
 }
 
 /* Where a body is taken as several, the system's products would take it as one. */
@@ -313,17 +313,18 @@ const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_syst
     return products && products->add_weighted && !zd_weighted_has_welds(self) ? products : NULL;
 }
 
-zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W)
+zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W,
+                               double *y)
 {
     zd_blocks_clear(self->blocks);
     products->add_weighted(data, terms, W, self->at, self->blocks->S);
-    return zd_blocks_factor(self->blocks, NULL, 0);
+    return zd_blocks_factor(self->blocks, NULL, 0, y);
 }
 
 zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const double *W, unsigned char *without)
 {
     fill_S(self, C, W);
-    return zd_blocks_factor(self->blocks, without, -1);
+    return zd_blocks_factor(self->blocks, without, -1, NULL);
 }
 
 int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out)
@@ -333,7 +334,7 @@ int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, d
     int of_welds = 0;
     if (!in_order) return -1;
     fill_S(self, C, W);
-    (void)zd_blocks_factor(self->blocks, in_order, least);
+    (void)zd_blocks_factor(self->blocks, in_order, least, NULL);
     for (int i = 0; i < self->blocks->rows; i++) of_welds += in_order[i];
     for (int g = 0; g < layout->groups; g++)
         for (int k = layout->row_at[g], i = self->row[g]; k < layout->row_at[g + 1]; k++, i++) of_welds -= left_out[k] = in_order[i];

@@ -45,9 +45,10 @@ zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout);
 static inline int zd_weighted_has_welds(const zd_weighted *self) { return self->largest > 0; }
 /* Those of the system, where they serve for all of its bodies; NULL: C is needed. */
 const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_system *system);
-/* S(W) and its factors, from C or from these products. */
-zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W);
-zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W);
+/* S(W) and its factors, from C or from these products; y is carried along as zd_blocks_factor() does. */
+zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W, double *y);
+zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products, const void *data, const zd_terms *terms, const double *W,
+                               double *y);
 /* The same without the rows that are noted in `without`, in the order of S. */
 zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const double *W, unsigned char *without);
 /* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
