@@ -4,8 +4,8 @@
  *     double s[3], c[3];
  *     zd_sines(3, p, s, c);           s[i] <- sin p[i], c[i] <- cos p[i]
  *
- * Angles stand side by side, and nothing branches up to 2^19, so that a compiler can take several in one vector; what an angle
- * gives does not depend on those beside it. Angles of any size are reduced exactly: up to 2^19 by subtracting multiples of pi/2 in
+ * Angles stand side by side, and nothing branches up to 2^19, so that several go in one vector; what an angle gives does not
+ * depend on those beside it. Angles of any size are reduced exactly: up to 2^19 by subtracting multiples of pi/2 in
  * parts (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980), beyond by multiplying with as many digits of
  * 2/pi as that takes (M. Payne, R. Hanek, Radian reduction for trigonometric functions, SIGNUM Newsletter 18, 1983). The sine of -0
  * is -0, and those of infinities are NaN.
@@ -57,9 +57,26 @@ ZD_SINES_INLINE double zd_double_of(uint64_t bits)
 #undef ZD_OF_TYPE
 #undef ZD_REAL
 #undef ZD_WORDS
-#undef ZD_INLINED
 #undef ZD_WORDS_OF
 #undef ZD_REAL_OF
+
+#if defined(__GNUC__) || defined(__clang__)
+#define ZD_SINES_IN_PAIRS 1
+typedef double zd_pair __attribute__((vector_size(16)));
+typedef uint64_t zd_pair_of_words __attribute__((vector_size(16)));
+#define ZD_OF_TYPE(name) name##_of_pair
+#define ZD_REAL zd_pair
+#define ZD_WORDS zd_pair_of_words
+#define ZD_WORDS_OF(x) ((zd_pair_of_words)(x))
+#define ZD_REAL_OF(w) ((zd_pair)(w))
+#include "sines_kernel.h"
+#undef ZD_OF_TYPE
+#undef ZD_REAL
+#undef ZD_WORDS
+#undef ZD_WORDS_OF
+#undef ZD_REAL_OF
+#endif
+#undef ZD_INLINED
 #undef ZD_TIMES_PLUS
 #undef ZD_LESS_TIMES
 
@@ -128,11 +145,38 @@ ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c
     }
 }
 
-/* s, c (n,) <- sines and cosines of `angle` (n,), which is neither of them */
+#ifdef ZD_SINES_IN_PAIRS
+/* Of two angles. What is rare has its own variables, so that those of others can stay in registers. */
+ZD_SINES_INLINE void zd_sines_of_two(const zd_pair angle, zd_pair *s, zd_pair *c)
+{
+    zd_reduced_of_pair a;
+    zd_reduce_near_of_pair(angle, &a);
+    zd_sines_of_reduced_of_pair(&a, s, c);
+    const zd_pair size = (zd_pair)((zd_pair_of_words)angle & ~(UINT64_C(1) << 63));
+    const zd_pair_of_words far = ~(zd_pair_of_words)(size <= ZD_SINES_NEAR);
+    if (far[0] | far[1]) {
+        const double given[] = {angle[0], angle[1]};
+        double sine[2], cosine[2];
+        zd_sines_far(2, given, sine, cosine);
+        *s = (zd_pair){sine[0], sine[1]};
+        *c = (zd_pair){cosine[0], cosine[1]};
+    }
+}
+#endif
+
+/* s, c (n,) <- sines and cosines of `angle` (n,), which is neither of them. Compilers that have vectors take two at once, the last beside a zero:
+ * left to themselves, they put together and take apart more than they save. */
 ZD_SINES_INLINE void zd_sines(const int n, const double *restrict angle, double *restrict s, double *restrict c)
 {
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
     for (int i = 0; i < n; i++) s[i] = sin(angle[i]), c[i] = cos(angle[i]);
+#elif defined(ZD_SINES_IN_PAIRS)
+    for (int i = 0; i < n; i += 2) {
+        zd_pair sine, cosine;
+        zd_sines_of_two((zd_pair){angle[i], i + 1 < n ? angle[i + 1] : 0}, &sine, &cosine);
+        s[i] = sine[0], c[i] = cosine[0];
+        if (i + 1 < n) s[i + 1] = sine[1], c[i + 1] = cosine[1];
+    }
 #else
     int far = 0;
     for (int i = 0; i < n; i++) far |= !(fabs(angle[i]) <= ZD_SINES_NEAR);
