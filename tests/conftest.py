@@ -3,6 +3,7 @@ a system and an integrator, once for each pair that the core takes.
 """
 
 import atexit
+import importlib.util
 import os
 import shutil
 import signal
@@ -18,6 +19,9 @@ from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
 TAKEN = {f"{name}-{integrator}": (system, integrator)
          for name, system in SYSTEMS.items() for integrator in zd.integrators(system)}
+EXTRAS = ("cloudpickle", "distributed", "ipykernel", "mpmath", "nbclient", "nbformat", "numba", "pandas", "scipy", "sympy",
+          "tqdm", "xarray")
+ABSENT = {name for name in EXTRAS if importlib.util.find_spec(name) is None}
 
 
 def pytest_configure():
@@ -26,6 +30,34 @@ def pytest_configure():
     folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
     os.environ["ZERODRIFT_CACHE"] = folder
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(collector):
+    """A file that needs a package of the extras which is not installed is left out."""
+    return left_out((yield), collector.path)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """So is a test, which may need it through zerodrift."""
+    return left_out((yield), item.path, call)
+
+
+def left_out(report, path, call=None):
+    call = call or getattr(report, "call", None)
+    if report.outcome == "failed" and call and call.excinfo and (name := absent(call.excinfo.value)):
+        report.outcome, report.longrepr = "skipped", (str(path), 0, f"needs {name}, which is not installed")
+    return report
+
+
+def absent(error):
+    """Which package's absence an exception, or what it came from, tells of; None: it is about something else."""
+    while error is not None:
+        if isinstance(error, ModuleNotFoundError) and (name := str(error.name).partition(".")[0]) in ABSENT:
+            return name
+        error = error.__cause__ or error.__context__
+    return None
 
 
 def pytest_generate_tests(metafunc):

@@ -12,7 +12,7 @@ import zerodrift as zd
 from support import ROOT
 
 PENDULUM = ROOT / "tests" / "native" / "pendulum.c"
-COMPILER = shutil.which(os.environ.get("CC", "cc"))
+COMPILER = shutil.which(os.environ.get("CC", "gcc" if os.name == "nt" else "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 
 TERMS = ["M", "f", "Phi", "C", "xi", "V"]
@@ -22,6 +22,8 @@ PROTOTYPE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_int, ctypes
 
 
 def compile_library(source, library, *options):
+    if COMPILER is None:
+        pytest.skip("there is no C compiler")
     subprocess.run([COMPILER, "-shared", "-fPIC", "-O2", "-std=c11", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic",
                     "-Werror", *options, "-I", zd.get_include(), "-o", library, source, "-lm"], check=True)
     return library

@@ -104,6 +104,28 @@ def test_a_part_is_there_as_a_whole_or_not_at_all(tmp_path, monkeypatch):
         zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
 
 
+@pytest.mark.parametrize("refusals", [2, 4])
+def test_what_others_look_at_is_renamed_a_moment_later_on_windows(tmp_path, monkeypatch, refusals):
+    seen, replace = [], os.replace
+
+    def in_use(source, target):
+        seen.append(target.name)
+        if seen.count("study.npz") <= refusals and target.name == "study.npz":
+            raise PermissionError("in use")
+        replace(source, target)
+
+    monkeypatch.setattr(module, "AS_WINDOWS", True)
+    monkeypatch.setattr(module, "PAUSES", (0.0, 0.0, 0.0))
+    monkeypatch.setattr(module.os, "replace", in_use)
+    if refusals > len(module.PAUSES):
+        with pytest.raises(PermissionError, match="in use"):
+            zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
+        return
+    zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
+    assert seen.count("study.npz") == refusals + 1
+    assert not zd.load(tmp_path / "study").failed.any()
+
+
 def test_two_processes_may_work_at_one_study(tmp_path):
     """Each writes its own parts, and they overlap; all orders of these give one ensemble."""
     alone = zd.ensemble(pendulum, 1.0, **STUDY)

@@ -29,7 +29,7 @@ def interrupted(bar, after=0.15, **options):
     def press():
         time.sleep(after)
         sent.append(time.perf_counter())
-        os.kill(os.getpid(), signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)      # os.kill would end the process on Windows
 
     threading.Thread(target=press).start()
     try:

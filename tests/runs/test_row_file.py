@@ -7,6 +7,7 @@ import subprocess
 import sys
 import textwrap
 from dataclasses import fields
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from support import assert_same_bits
 from watched import At, throw
 from zerodrift.runs import room, row_file
 
+not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and kills as Linux does")
 WAYS = {
     "steps": {"step": 0.01}, "fewer": {"step": 0.01, "save_every": 7, "energy": True},
@@ -138,8 +140,8 @@ def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
 
 def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
     whole = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
-    path = tmp_path / "run.zd"
-    path.write_bytes(path.read_bytes()[:-100])
+    path = tmp_path / "cut.zd"
+    path.write_bytes((tmp_path / "run.zd").read_bytes()[:-100])
     sol = zd.load(path)
     assert_same_bits(whole, sol)
     assert not sol.success
@@ -184,12 +186,30 @@ def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, mon
     assert_same_bits(sol, again)
 
 
+@not_on_windows
 def test_an_older_run_keeps_its_rows_where_its_file_is_replaced(bar, tmp_path):
     first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     kept = first.p.copy()
     second = zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert first.p.tobytes() == kept.tobytes()
     assert len(zd.load(tmp_path / "run.zd").t) == len(second.t) == 11
+
+
+@pytest.mark.parametrize(("as_windows", "message"), [
+    (True, r"save_to cannot replace '.*run\.zd' while its rows are in use: a solution that reads them"),
+    pytest.param(False, "denied", marks=not_on_windows)])
+def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatch, as_windows, message):
+    """On Windows its rows are in use; elsewhere the refusal is made up, and is handed on as it is where it is not Windows'."""
+    def refuse(path, missing_ok=False):
+        raise PermissionError("denied")
+
+    first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    if os.name != "nt":
+        monkeypatch.setattr(row_file, "AS_WINDOWS", as_windows)
+        monkeypatch.setattr(row_file.Path, "unlink", refuse)
+    with pytest.raises(PermissionError, match=message):
+        zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
+    assert_same_bits(first, zd.load(tmp_path / "run.zd"))
 
 
 def test_what_is_refused_names_the_argument(bar, tmp_path):
@@ -273,3 +293,19 @@ def test_limits_of_containers_count(tmp_path, monkeypatch):
     (tmp_path / "memory.max").write_text("1000\n")
     assert room.free_memory() == 600
     assert plain is None or plain > 600
+
+
+def test_what_windows_says_of_its_memory(monkeypatch):
+    """By its own function there, elsewhere by one that answers as its documentation says."""
+    def answer(reference):
+        status = reference._obj
+        assert status.size == 64
+        status.free_memory, status.free_with_page_file = 300, 200
+        return 1
+
+    if os.name == "nt":
+        assert 2**20 < room.free_memory() < 2**50
+    monkeypatch.setattr(room, "sys", SimpleNamespace(platform="win32"))
+    kernel = SimpleNamespace(GlobalMemoryStatusEx=answer)
+    monkeypatch.setattr(room.ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
+    assert room._available() == 200

@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from caching import GIVEN, A, Q, elsewhere, made, said
+from cached_system import GIVEN, A, Q, elsewhere, made, said
 from zerodrift.symbolics import cache as kept
 from zerodrift.symbolics import compilers, compiling, define, direct, direct_emission
 

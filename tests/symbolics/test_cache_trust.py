@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import zerodrift as zd
-from caching import elsewhere, made, said
+from cached_system import elsewhere, made, said
 from zerodrift.symbolics import cache as kept
 from zerodrift.symbolics import compiling
 

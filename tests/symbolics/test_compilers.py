@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import zerodrift as zd
-from caching import made
+from cached_system import made
 from zerodrift.symbolics import compilers
 
 PATH = os.environ["PATH"]

@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from caching import Q, made
+from cached_system import Q, made
 from support import assert_close
 from zerodrift.symbolics import compilers, compiling
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
+import time
 import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -24,6 +25,8 @@ FORMAT = 1
 MANIFEST, STUDY = "manifest.json", "study.npz"      # what tells the study from others, and its numbers
 PATTERN = "runs_*_*.npz"                            # each has the runs from the first number on, up to the second
 WHAT = "store of an ensemble"
+AS_WINDOWS = os.name == "nt"        # nothing is renamed there while somebody reads it, or what it is to replace
+PAUSES = 0.01, 0.1, 1.0             # s, before it is tried again
 
 
 def is_one(path: str | Path) -> bool:
@@ -206,6 +209,16 @@ def _write(path: Path, write: Callable[[Any], Any]) -> None:
             write(file)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(temporary, path)
+        _replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _replace(temporary: Path, path: Path) -> None:
+    """Renames a file; on Windows, where other processes and scanners for viruses may look at it, again after a while."""
+    for pause in PAUSES if AS_WINDOWS else ():
+        try:
+            return os.replace(temporary, path)
+        except PermissionError:
+            time.sleep(pause)
+    return os.replace(temporary, path)

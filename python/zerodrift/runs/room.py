@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import shutil
+import sys
 import warnings
 from pathlib import Path
 
@@ -39,8 +41,19 @@ def free_memory() -> int | None:
     return min(known, default=None)
 
 
+class _MemoryStatus(ctypes.Structure):
+    """What Windows says of its memory, in bytes: MEMORYSTATUSEX."""
+
+    _fields_ = [("size", ctypes.c_uint32), ("percent_taken", ctypes.c_uint32)] + [(name, ctypes.c_uint64) for name in (
+        "memory", "free_memory", "with_page_file", "free_with_page_file", "addresses", "free_addresses", "extended")]
+
+
 def _available() -> int | None:
     """What the machine has."""
+    if sys.platform == "win32":
+        status = _MemoryStatus(ctypes.sizeof(_MemoryStatus))
+        known = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+        return min(status.free_memory, status.free_with_page_file) if known else None
     with contextlib.suppress(OSError, ValueError, IndexError):
         for line in Path("/proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):

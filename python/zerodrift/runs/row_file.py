@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import itertools
 import json
+import os
 import struct
 import sys
 from collections.abc import Callable, Mapping
@@ -37,6 +38,7 @@ NOT_IN_ROWS = [name for name in FIELDS if name not in (
     "t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
     "energy_input", "energy_violation", "outputs", *_gateway.COUNTS)]
 STOPPED = "stopped from outside, or has not ended yet"
+AS_WINDOWS = os.name == "nt"        # files that are open, or mapped into memory, are neither removed nor replaced there
 
 
 def checked(save_to: Any) -> Path | None:
@@ -72,7 +74,7 @@ class RowFile:
         most = max(1, BLOCK // row)
         self._record = _gateway.Record(core, most if rows is None else min(most, rows), outputs)
         self._path, self._row, self.rows = path, row, 0
-        path.unlink(missing_ok=True)    # whoever has the old one open keeps its rows
+        _remove(path)
         self._file = path.open("xb", buffering=0)
 
     def begin(self, known: dict[str, Any], position_size: np.ndarray, outputs: Mapping[str, int]) -> None:
@@ -115,7 +117,8 @@ class RowFile:
     grow = keep         # what is written makes room
 
     def join(self) -> None:
-        """Opens what has been written."""
+        """Opens what has been written, without the part of a row that is there where the disk was full."""
+        self._file.truncate(self._begin + self.rows * self._row)    # now, as Windows shortens no file that is mapped
         self._opened = _columns(self._path, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
 
     def take(self) -> dict[str, np.ndarray]:
@@ -130,8 +133,18 @@ class RowFile:
             self._file.seek(0)
             self._put(HEADER.pack(MAGIC, self.rows, self._begin - HEADER.size))
             self._file.seek(self._begin + self.rows * self._row)
-            self._file.truncate()       # part of a row, where the disk was full
             self._put(rest.getvalue())
+
+
+def _remove(path: Path) -> None:
+    """Removes an earlier file; whoever has it open keeps its rows, or, on Windows, keeps the file from being removed."""
+    try:
+        path.unlink(missing_ok=True)
+    except PermissionError as error:
+        if not AS_WINDOWS:
+            raise
+        raise PermissionError(f"save_to cannot replace {str(path)!r} while its rows are in use: a solution that reads them, here "
+                              "or in another process, has to go first; or take another name") from error
 
 
 def _columns(path: Path, begin: int, rows: int, row: int, columns: Mapping[str, Any],
