@@ -56,6 +56,7 @@ def test_the_lines_are_those_that_are_run():
 
 def test_the_command_writes_films_and_a_page(tmp_path, monkeypatch, capsys):
     """With two models and three frames, as all take a minute."""
+    pytest.importorskip("sympy")
     few = [gallery.exhibit("jansen"), gallery.exhibit("watt")]
     monkeypatch.setattr("zerodrift.gallery.page.exhibits", lambda: few)
     monkeypatch.setattr("zerodrift.gallery.page.FRAMES", 3)
