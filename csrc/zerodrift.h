@@ -248,7 +248,7 @@ typedef struct zd_batch {
     int64_t capacity;               /* rows of a run that there is room for */
     double *t, *p, *v, *multipliers;        /* (runs, capacity), (runs, capacity, nq), (runs, capacity, nv), (runs, capacity, m) */
     double *input;                  /* (runs, capacity) J */
-    int *iterations;                /* (runs, capacity) */
+    int *iterations, *energy_skipped;       /* (runs, capacity) */
     double *outputs;                /* (runs, capacity, components of all outputs) */
     int64_t events_capacity;        /* of each event of a run: so many that there is room for */
     int64_t *found;                 /* (runs, events) how often each has happened, also where there was no room for it; NULL: no events */

@@ -1,4 +1,4 @@
-/* What is looked at in one lane: long steps, and the energy at both ends of a run. */
+/* What is looked at in one lane: long steps, and the energy. */
 #include <math.h>
 
 #include "../point/matrices.h"
@@ -66,26 +66,35 @@ void zd_lane_group_note_start(zd_lane_group *self, int lane)
     zd_lane_run *run = &self->run_of[lane];
     run->number_of_C = run->search.number_of_now = run->search.number_of_happening = -1;
     run->search.ended = run->search.is_at_end = run->is_complete = 0;
-    run->kinetic = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
+    run->kinetic = run->kinetic_at_start = zd_has_energy(&motion->system) ? zd_point_kinetic(motion->point) : 0;
     run->energy = motion->balance.initial;
+    run->of_energy = (zd_lane_energy){0};
+}
+
+void zd_lane_group_stand(zd_lane_group *self, int lane, double t, const double *y)
+{
+    zd_motion *motion = &self->run->motion;
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_group_gather(self, lane, y);
+    motion->system.data = zd_lane_group_data(self, lane);
+    motion->point->known = 0;
+    zd_point_move(motion->point, t, self->p, self->v);
+    motion->balance.initial = self->run_of[lane].energy;
+    self->run->stepper.y[lanes->size - 1] = zd_lane_number(lanes, y, lanes->size - 1, lane);
 }
 
 int zd_lane_group_keeps_energy(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
-    const zd_lane_run *run = &self->run_of[lane];
+    zd_lane_run *run = &self->run_of[lane];
     zd_motion *motion = &self->run->motion;
     double violation, kinetic;
     if (!zd_has_energy(&motion->system)) return 1;
-    zd_lane_group_gather(self, lane, lanes->y);
-    motion->system.data = zd_lane_group_data(self, lane);
-    motion->point->known = 0;
-    zd_point_move(motion->point, lanes->t[lane], self->p, self->v);
-    motion->balance.initial = run->energy;
-    self->run->stepper.y[lanes->size - 1] = zd_lane_number(lanes, lanes->y, lanes->size - 1, lane);
+    zd_lane_group_stand(self, lane, lanes->t[lane], lanes->y);
     if (zd_motion_energy_violation(motion, &violation, &kinetic)) return 0;
-    const double potential = zd_point_potential(motion->point), exchanged = fabs(potential - (run->energy - run->kinetic));
-    const double largest = fmax(fmax(kinetic, run->kinetic), exchanged);
+    const double potential = zd_point_potential(motion->point), exchanged = fabs(potential - (run->energy - run->kinetic_at_start));
+    run->kinetic = fmax(run->kinetic, kinetic);
+    const double largest = fmax(run->kinetic, exchanged);
     self->batch->kinetic[run->number] = largest;
     self->batch->energy_error[run->number] = fabs(violation);
     return fabs(violation) < fmax(LARGEST_ENERGY_ERROR * largest, ROUNDING * (largest + fabs(potential))) || violation == 0;

@@ -8,6 +8,21 @@
 #include "lane_numbers.h"
 #include "single.h"
 
+/* What a lane's energy corrections have done, as the statistics have it */
+typedef struct zd_lane_energy {
+    int64_t corrections, skipped;
+    double corrected;       /* J */
+    int skipped_since_row;
+} zd_lane_energy;
+
+/* What is looked at now and then, as safeguards.c does it. */
+typedef struct zd_lane_look {
+    zd_resolution resolution;   /* with numbers of the lane; where steps are of fixed size */
+    int64_t pause;          /* one of so many steps is looked at */
+    zd_statistics found;    /* what has been seen of parts that are not resolved */
+    int is_off;             /* whether the energy was off by more than nobody is told of */
+} zd_lane_look;
+
 /* What is looked for in the step that a lane has just made: where events happen, by steps to times within it. */
 typedef struct zd_lane_search {
     enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
@@ -28,10 +43,13 @@ typedef struct zd_lane_run {    /* in a lane */
     int64_t rows;           /* saved so far */
     int64_t next;           /* of t_eval */
     int is_complete;        /* whether the row is saved at which an event has ended it */
-    double kinetic, energy; /* J: at its start; the energy without what has come in since */
+    double kinetic_at_start, kinetic;   /* J; the largest that was seen */
+    double energy;          /* J: without what has come in since the start */
     double *C;              /* (m, nv): in natural units, at the end of the step */
     double number_of_C;     /* the step at whose end C was evaluated; -1: not yet */
     zd_lane_search search;  /* where there are events */
+    zd_lane_energy of_energy;
+    zd_lane_look look;
 } zd_lane_run;
 
 typedef struct zd_lane_group {
@@ -46,6 +64,8 @@ typedef struct zd_lane_group {
     double *p, *v, *C;      /* (nq,), (nv,), (m, nv): of one lane */
     zd_terms terms;         /* of the system, for C alone */
     zd_reader reader;       /* of events */
+    zd_last last;           /* of the lane that is looked at: where its step began, */
+    double *vdot0;          /* (nv,): and how */
 } zd_lane_group;
 
 /* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice: the first time only counts the memory. */
@@ -65,9 +85,21 @@ void zd_lane_group_set_next(zd_lane_group *self, int lane);
 
 /* ends.c: whether the rows of C have turned by so much in a long step that it is not believed */
 int zd_lane_group_is_turned(zd_lane_group *self, int lane);
-/* Whether the run in the lane, which has ended, keeps its energy as well as runs do that nobody is warned of. */
+/* Whether the run in the lane keeps its energy, where it is, as well as runs do that nobody is warned of. */
 int zd_lane_group_keeps_energy(zd_lane_group *self, int lane);
+/* Takes the run that looks at lanes to the state y at t of one. */
+void zd_lane_group_stand(zd_lane_group *self, int lane, double t, const double *y);
 void zd_lane_group_note_start(zd_lane_group *self, int lane);
+
+/* lane_energy.c: as zd_lanes has correct_rest */
+void zd_lane_group_correct_rest(void *group, const double *t, double *y, int forced);
+
+/* lane_looks.c: lays out what one lane has for that, */
+zd_lane_look zd_lane_look_take(zd_arena *arena, zd_lane_group *self);
+/* as it is where a run begins; */
+void zd_lane_group_begin_looks(zd_lane_group *self, int lane);
+/* and what the step just made shows: each part by itself, and the energy. */
+void zd_lane_group_look_closely(zd_lane_group *self, int lane);
 
 /* lane_events.c: where events happen in the steps just made */
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);

@@ -36,10 +36,13 @@ typedef struct zd_lanes {
     int has_A, has_input, max_iterations, corrects;
     int is_fixed;
     double t0, end, step, steps;        /* steps: how many, where they are of fixed size */
-    double rtol, atol, longest, tiny, most_steps, save_every;
+    double rtol, atol, longest, tiny, most_steps, save_every, decay;
     double astray, nearby, limit;       /* as the guard has them */
     enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* for events: of numbers of y alone, or else every step */
     int events;
+    /* Corrections besides the projection, of y at t in the lanes of which is_corrected says so; NULL: none. `forced`: whatever the step. */
+    void (*correct_rest)(void *of, const double *t, double *y, int forced);
+    void *of;                           /* the group, for that */
     const zd_watched *watched;          /* (events,) where it watches numbers */
     /* and of each: so many numbers, each for all lanes beside each other. A condition is 1 where it holds, else 0. */
     double *first;          /* of all of them */
@@ -64,12 +67,17 @@ typedef struct zd_lanes {
     double *most_iterations;                /* of a step, since somebody has set it to 0 */
     double *leaves;         /* whether the run has to be made by itself */
     double *is_long;        /* whether the last step was so long that rows of C may have turned in it */
+    double *is_corrected;
+    double *next_look, *look_soon;      /* the step after which somebody looks closely; whether that has to be sooner than it was */
+    double *at_limit, *below_limit, *stiff;     /* steps that are as long as stability allows, and not; those that count */
+    double *fastest;        /* the largest speed where somebody did */
     double *has_event;      /* whether an event may have happened in the last step, which was accepted */
     double *t_row, *is_wanted;      /* a time within the last step, and whether it is to be looked at */
     double *y_row, *lambda_row;     /* (size,), (m,): what is found there */
     /* of the step being made */
     double *k;              /* (stages with those for values between, size): rates */
     double *stage, *y1;     /* (size,) */
+    double *tolerated;      /* (size,): an error as large as this, where steps are chosen */
     double *pdot1, *vdot1, *power1, *pivots1;
     double *Phi, *dp, *dv;  /* (mh,), (nq,), (nv,) */
     double *other;          /* (nq + nv + m + 1 + nv,): what another order makes of it */

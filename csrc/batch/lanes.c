@@ -64,7 +64,8 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **ones[] = {&self->is_active, &self->t, &self->number, &self->h, &self->after_rejection, &self->next_t, &self->next_number,
                        &self->t_before, &self->power, &self->order, &self->speed, &self->streak, &self->iterations, &self->rejected,
-                       &self->most_iterations, &self->leaves, &self->is_long, &self->has_event, &self->t_row, &self->is_wanted};
+                       &self->most_iterations, &self->leaves, &self->is_long, &self->is_corrected, &self->next_look, &self->look_soon,
+                       &self->at_limit, &self->below_limit, &self->stiff, &self->fastest, &self->has_event, &self->t_row, &self->is_wanted};
     self->data = take(self, arena, doubles);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
     self->y = take(self, arena, size);
@@ -88,6 +89,7 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
     self->k = take(self, arena, (int64_t)(T->stages + 1 + T->more) * size);
     self->stage = take(self, arena, size);
     self->y1 = take(self, arena, size);
+    self->tolerated = take(self, arena, self->is_fixed ? 0 : size);
     self->pdot1 = take(self, arena, nq);
     self->vdot1 = take(self, arena, nv);
     self->power1 = take(self, arena, 1);
@@ -137,6 +139,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .rtol = settings->rtol, .atol = settings->atol, .longest = settings->max_step > 0 ? settings->max_step : INFINITY,
         .tiny = 16 * 0x1p-52 * fmax(fabs(settings->t0), fabs(settings->t1)),
         .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
+        .decay = run->stepper.integrator->decay,
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
     };
     take_states(self, arena, doubles);
@@ -200,7 +203,8 @@ static void load_units(zd_lanes *self, int lane, const zd_run *run)
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)
 {
     double *const zeros[] = {self->number, self->after_rejection, self->streak, self->iterations, self->rejected, self->most_iterations,
-                             self->leaves, self->is_long, self->has_event, self->is_wanted, self->next_number};
+                             self->leaves, self->is_long, self->look_soon, self->at_limit, self->below_limit,
+                             self->stiff, self->fastest, self->has_event, self->is_wanted, self->next_number};
     for (size_t i = 0; i < sizeof zeros / sizeof zeros[0]; i++) zeros[i][lane] = 0;
     load(self, lane, doubles, data, self->data);
     load_state(self, lane, run);

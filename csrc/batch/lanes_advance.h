@@ -72,6 +72,25 @@ ZD_KERNEL zd_condition ZD_NAMED(control)(zd_lanes *self, zd_real h, zd_real norm
     return accepted;
 }
 
+/* Corrections besides the projection, in these lanes. A lane in which they fail leaves. */
+ZD_KERNEL void ZD_NAMED(correct_rest)(zd_lanes *self, zd_condition which, const double *t, double *y, int forced)
+{
+    if (!self->correct_rest) return;
+    *REAL(self->is_corrected) = AS_NUMBER(which);
+    self->correct_rest(self->of, t, y, forced);
+}
+
+/* When somebody has to look: where an uneasy step wants it soon, after the next of every eight steps. */
+ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
+{
+    const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
+    const zd_real eights = (0.125 * (number + 1.0) - 0.4375 + magic) - magic, soon = 8.0 * (eights + 1.0);
+    const zd_real look = *REAL(self->next_look);
+    const zd_real next = ZD_WHERE(HOLDS(self->look_soon) & (soon < look), soon, look);
+    *REAL(self->next_look) = next;
+    return (*REAL(self->t) >= *REAL(self->next_t)) | (number >= *REAL(self->next_number)) | (number >= next);
+}
+
 /* Whether events may have happened in a step just made. */
 ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
 {
@@ -105,6 +124,7 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
         accepted &= ZD_NAMED(control)(self, h, norm);
     }
     if (self->m && self->corrects) failed |= ZD_NAMED(land)(self, (const double *)&t1, self->y1, accepted) & accepted;
+    ZD_NAMED(correct_rest)(self, accepted & ~failed, (const double *)&t1, self->y1, 0);
     const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
     ZD_NAMED(accelerate)(self, (const double *)&t1, self->y1, self->y1 + self->nq * ZD_LANES, &to);
     failed |= accepted & ~ZD_NAMED(is_believed)(self, taken, &speed, &continues);
@@ -112,7 +132,7 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
     ZD_NAMED(keep)(self, accepted, t1, speed, continues);
     if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->most_steps));
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
-    const zd_condition is_due = (*REAL(self->t) >= *REAL(self->next_t)) | (*REAL(self->number) >= *REAL(self->next_number));
+    const zd_condition is_due = ZD_NAMED(is_due)(self);
     if (!self->watches) return failed | (accepted & (is_due | HOLDS(self->is_long)));
     const zd_condition happens = accepted & ZD_NAMED(has_events)(self);
     *REAL(self->has_event) = AS_NUMBER(happens);
@@ -186,6 +206,7 @@ ZD_KERNEL void ZD_NAMED(land_between)(zd_lanes *self, zd_condition inside, const
 {
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
     if (self->m && self->corrects) failed = ZD_NAMED(land)(self, t_row, self->y_row, inside) & inside;
+    ZD_NAMED(correct_rest)(self, inside & ~failed, t_row, self->y_row, 1);
     ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_row);
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
     if (!multipliers) return;

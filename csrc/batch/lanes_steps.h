@@ -117,7 +117,7 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
     return sound;
 }
 
-/* Steps in succession that are longer than the method is stable for: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0), as guard.c has it. */
+/* Steps of fixed size in succession that are longer than the method is stable for: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0), as guard.c has it. */
 ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real moved)
 {
     zd_real changed = ZD_SPLAT(0.0);
@@ -145,6 +145,9 @@ ZD_KERNEL zd_condition ZD_NAMED(is_believed)(zd_lanes *self, zd_real h, zd_real 
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
     *speed = path.speed;
     const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= 1.0;
+    const zd_condition is_calm = (CALM * CALM * path.detour <= path.moved + self->nearby)
+                               & (path.speed <= FASTER * *REAL(self->fastest) + self->nearby);
+    *REAL(self->look_soon) = ZD_WHERE(is_calm, *REAL(self->look_soon), ZD_SPLAT(1.0));
     zd_condition believed = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
     if (self->mh && self->corrects) {
         const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, ZD_SPLAT(self->nearby));
@@ -216,31 +219,71 @@ ZD_KERNEL zd_real ZD_NAMED(inverse_root)(zd_real x, int k)
     return y;
 }
 
-/* The sum of squares of sum_j weight_j k_j in units of scale, which stands in `stage` */
+/* The sum of squares of sum_j weight_j k_j in units of what is allowed */
 ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weights)
 {
     zd_real squares = ZD_SPLAT(0.0);
     ZD_NAMED(combine)(self, 0, self->size, weights, ZD_SPLAT(1.0), NULL, self->other);
     for (int i = 0; i < self->size; i++) {
-        const zd_real x = REAL(self->other)[i] / REAL(self->stage)[i];
+        const zd_real x = REAL(self->other)[i] / REAL(self->tolerated)[i];
         squares = ZD_FMA(x, x, squares);
     }
     return squares;
+}
+
+/* Counts steps that are as long as stability allows, as adaptive.c does it, of these lanes: by |lambda h|, see runge_kutta.c. */
+ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition looks, zd_real h)
+{
+    const int size = self->size, stages = self->method.stages;
+    const zd_stored *of_stage = REAL(self->k) + (stages - 1) * size, *of_y = of_stage + size;
+    zd_real rates = ZD_SPLAT(0.0), states = rates, rounding = rates;
+    for (int i = 0; i < size; i++) {
+        const zd_real unit = 1.0 / REAL(self->tolerated)[i], rate = (of_y[i] - of_stage[i]) * unit;
+        const zd_real state = (REAL(self->y1)[i] - REAL(self->stage)[i]) * unit, least = STATE_ROUNDING * REAL(self->y1)[i] * unit;
+        rates = ZD_FMA(rate, rate, rates);
+        states = ZD_FMA(state, state, states);
+        rounding = ZD_FMA(least, least, rounding);
+    }
+    const zd_condition known = looks & (states > rounding) & (rates > 0.0);
+    const zd_condition is_long = known & (h * h * rates > AT_THE_LIMIT * AT_THE_LIMIT * self->decay * self->decay * states);
+    const zd_real below = ZD_WHERE(is_long, ZD_SPLAT(0.0), *REAL(self->below_limit) + AS_NUMBER(known));
+    const zd_condition is_calm = known & ~is_long & (below >= (double)NOT_STIFF_AFTER);
+    const zd_real at = ZD_WHERE(is_calm, ZD_SPLAT(0.0), *REAL(self->at_limit) + AS_NUMBER(is_long));
+    *REAL(self->below_limit) = below;
+    *REAL(self->at_limit) = at;
+    const zd_real more = ZD_WHERE(at == (double)STIFF_AFTER, at, ZD_WHERE(at > (double)STIFF_AFTER, ZD_SPLAT(1.0), ZD_SPLAT(0.0)));
+    *REAL(self->stiff) += ZD_WHERE(is_long, more, ZD_SPLAT(0.0));
+}
+
+/* Which lanes look at that: where it costs an evaluation, at one of so many steps. */
+ZD_KERNEL zd_condition ZD_NAMED(looks_at_stiffness)(const zd_lanes *self)
+{
+    const zd_method *method = &self->method;
+    const zd_condition none = ZD_SPLAT(0.0) != 0.0;
+    if (method->tableau->c[method->stages - 1] != 1) return none;
+    if (method->tableau->e[method->stages] != 0) return ~none;
+    const zd_real magic = ZD_SPLAT(0x1p52), share = (*REAL(self->number) + *REAL(self->rejected) + 1.0) / (double)LOOK_AT_STIFFNESS;
+    return (share + magic) - magic == share;
 }
 
 /* The error of the step to y1, root mean square in units of what is allowed: see runge_kutta.h. */
 ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
 {
     const zd_method *method = &self->method;
-    if (method->tableau->e[method->stages] != 0) ZD_NAMED(rate)(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
+    const zd_condition looks = ZD_NAMED(looks_at_stiffness)(self) & HOLDS(self->is_active);
+    const int is_looking = ZD_ANY(looks);
+    if (method->tableau->e[method->stages] != 0 || is_looking) ZD_NAMED(rate)(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
     for (int i = 0; i < self->size; i++) {
         const zd_real a = ZD_NAMED(size_of)(REAL(self->y)[i]), b = ZD_NAMED(size_of)(REAL(self->y1)[i]);
-        REAL(self->stage)[i] = ZD_FMA(LARGER(a, b), ZD_SPLAT(self->rtol), ZD_SPLAT(self->atol));
+        REAL(self->tolerated)[i] = ZD_FMA(LARGER(a, b), ZD_SPLAT(self->rtol), ZD_SPLAT(self->atol));
     }
     const zd_real sum = ZD_NAMED(squares)(self, &method->e);
     const zd_real blend = method->tableau->e3 ? sum + 0.01 * ZD_NAMED(squares)(self, &method->e3) : sum;
     const zd_condition is_zero = sum == 0.0;
-    return ZD_WHERE(is_zero, ZD_SPLAT(0.0), ZD_NAMED(size_of)(h) * sum / ZD_SQRT(ZD_WHERE(is_zero, ZD_SPLAT(1.0), blend) * (double)self->size));
+    const zd_real norm = ZD_WHERE(is_zero, ZD_SPLAT(0.0),
+                                  ZD_NAMED(size_of)(h) * sum / ZD_SQRT(ZD_WHERE(is_zero, ZD_SPLAT(1.0), blend) * (double)self->size));
+    if (is_looking) ZD_NAMED(watch_stiffness)(self, looks & (norm <= 1.0), h);
+    return norm;
 }
 
 ZD_KERNEL zd_real ZD_NAMED(factor)(const zd_lanes *self, zd_real norm)

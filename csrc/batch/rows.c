@@ -24,7 +24,9 @@ static void save_row(zd_lane_group *self, int lane)
     if (batch->v) store(lanes, lane, lanes->y_row + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
     if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_row, lanes->size - 1, lane) : 0;
     if (batch->iterations) batch->iterations[row] = (int)lanes->most_iterations[lane];
+    if (batch->energy_skipped) batch->energy_skipped[row] = run->of_energy.skipped_since_row;
     lanes->most_iterations[lane] = 0;
+    run->of_energy.skipped_since_row = 0;
     if (batch->multipliers) store(lanes, lane, lanes->lambda_row, lanes->m, batch->multipliers + row * lanes->m);
 }
 

@@ -37,7 +37,17 @@ int zd_lanes_serve(const zd_batch *batch)
     return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &direct) != NULL;
 }
 
-/* What is corrected after a step has to be the projection in the mass metric, of positions and of velocities, or nothing. */
+/* Corrections that follow the projection are made lane by lane. Events look at the ends of steps that all of them have been made at. */
+static int rest_serves(const zd_run *run)
+{
+    const zd_motion *motion = &run->motion;
+    for (int i = 0; i < motion->corrections; i++)
+        if (!motion->active[i].row->after_step || (run->settings.events && motion->active[i].every != 1)) return 0;
+    return !motion->is_stabilized;
+}
+
+/* What is corrected after a step has to be the projection in the mass metric, of positions and of velocities, with what follows that; or
+ * nothing. */
 static int run_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
@@ -45,7 +55,7 @@ static int run_serves(const zd_run *run)
     if (!(motion->road.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
-    return motion->corrections == 1 && hold->positions && hold->velocities && hold->every == 1 && hold->in_mass_metric;
+    return rest_serves(run) && hold->positions && hold->velocities && hold->every == 1 && hold->in_mass_metric;
 }
 
 /* ---- memory ---- */
@@ -67,11 +77,15 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
     group.reader = zd_reader_take(arena, batch->settings->events, system);
+    group.last.p = zd_take_doubles(arena, (size_t)system->nq);
+    group.last.v = zd_take_doubles(arena, (size_t)system->nv);
+    group.vdot0 = zd_take_doubles(arena, (size_t)system->nv);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,
             .C = zd_take_doubles(arena, rows),
             .search = zd_lane_search_take(arena, &group.lanes),
+            .look = zd_lane_look_take(arena, &group),
         };
     return group;
 }
@@ -104,6 +118,7 @@ static void begin(zd_lane_group *self, int lane)
     zd_found_forget(self->batch, number);
     self->active++;
     zd_lane_group_note_start(self, lane);
+    zd_lane_group_begin_looks(self, lane);
 }
 
 /* Gives the lane a run; where there is none it stands still, with numbers of a lane that has one. */
@@ -138,13 +153,19 @@ static int say_event(const zd_lane_group *self, int lane)
 static void end(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
-    const int64_t number = self->run_of[lane].number, steps = (int64_t)lanes->number[lane];
+    const zd_lane_run *run = &self->run_of[lane];
+    const int64_t number = run->number, steps = (int64_t)lanes->number[lane];
     self->batch->way[number] = ZD_IN_LANES;
     self->batch->rows[number] = self->run_of[lane].rows;
     self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
         .steps = steps, .direct_steps = lanes->direct ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
         .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? steps : 0,
+        .stiff = (int64_t)lanes->stiff[lane],
+        .energy_corrections = run->of_energy.corrections, .energy_skipped = run->of_energy.skipped,
+        .energy_corrected = run->of_energy.corrected,
+        .unresolved = run->look.found.unresolved, .unresolved_time = run->look.found.unresolved_time,
+        .part_error = run->look.found.part_error, .part = run->look.found.part,
         .rank = lanes->m,
     };
 }
@@ -162,7 +183,7 @@ static int is_over(zd_lane_group *self, int lane)
     }
     const int is_complete = run->is_complete || (settings->t_eval && !settings->events && run->next == settings->t_evals);
     if (!is_complete && lanes->t[lane] != lanes->end) return 0;
-    if (zd_lane_group_keeps_energy(self, lane)) end(self, lane);
+    if (zd_lane_group_keeps_energy(self, lane) && !run->look.is_off) end(self, lane);
     else zd_single_run(self->batch, self->own, run->number);
     return 1;
 }
@@ -190,6 +211,8 @@ static void look(zd_lane_group *self)
         if (zd_lane_group_is_turned(self, lane)) lanes->leaves[lane] = 1;
         lanes->is_long[lane] = 0;
     }
+    for (int lane = 0; lane < lanes->lanes; lane++)
+        if (self->run_of[lane].number >= 0 && lanes->leaves[lane] == 0) zd_lane_group_look_closely(self, lane);
     if (lanes->watches) zd_lane_group_locate(self);
     do zd_lane_group_save(self);
     while (replace(self));
@@ -197,6 +220,8 @@ static void look(zd_lane_group *self)
 
 static void run_all(zd_lane_group *self)
 {
+    self->lanes.of = self;
+    if (self->run->motion.corrections > 1) self->lanes.correct_rest = zd_lane_group_correct_rest;
     for (int lane = 0; lane < self->lanes.lanes; lane++) fill(self, lane);
     while (self->active && !zd_batch_is_stopped(self->batch)) {
         look(self);

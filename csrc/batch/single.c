@@ -61,6 +61,7 @@ static zd_record record_of(const zd_batch *batch, const zd_single *own, int64_t 
     redirect(&record.v, batch->v, run, rows * system->nv);
     redirect(&record.input, batch->input, run, rows);
     if (batch->iterations) record.iterations = batch->iterations + run * rows;
+    if (batch->energy_skipped) record.energy_skipped = batch->energy_skipped + run * rows;
     redirect(&record.multipliers, batch->multipliers, run, rows * count_constraints(system));
     if (record.outputs) redirect(&record.outputs, batch->outputs, run, rows * width_of(batch->settings->outputs, system));
     return record;

@@ -9,7 +9,7 @@ import numpy as np
 from .._core import ffi, lib
 from .base import ERRORS, MESSAGE_SIZE, doubles, text
 from .callbacks import Watcher
-from .runs import NAMES_AND_KINDS
+from .runs import COUNTS, NAMES_AND_KINDS
 from .systems import CoreSystem, Kind
 
 STATISTICS = np.dtype([(name, {"int64_t": np.int64, "double": float}[kind]) for name, kind in NAMES_AND_KINDS.items()])
@@ -82,7 +82,7 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     The interpreter is free for other threads meanwhile. The system must not be written in Python.
     """
     k, shapes = len(p0), {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,)}
-    columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name == "iterations" else float)
+    columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name in COUNTS else float)
                for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
     messages = np.zeros((k, MESSAGE_SIZE), np.int8)

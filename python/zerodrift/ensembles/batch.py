@@ -112,7 +112,7 @@ def _make(plan: Plan, batch: Batch, first: int, last: int, wanted: tuple[str, ..
         room = plan.remembered["events"] = most     # once more, with room for all
 
 
-STATES = ("t", "p", "v", "input", "multipliers", "iterations")
+STATES = ("t", "p", "v", "input", "multipliers", *_gateway.COUNTS)
 
 
 def made_again(plan: Plan, run: int) -> Solution:
@@ -135,7 +135,8 @@ def _solution_in_lanes(plan: Plan, run: int) -> Solution | None:
     again, record = _gateway.Run(core, batch.options, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
     again.record_states(record, states)
     rows = record.take()
-    rows["multipliers"][:], rows["iterations"][:] = states["multipliers"], states["iterations"]
+    for name in ("multipliers", *_gateway.COUNTS):
+        rows[name][:] = states[name]
     results = again.results()._replace(statistics=_gateway.Statistics(*made.statistics[0].tolist()),
                                        largest_kinetic=float(made.kinetic[0]))
     return solution_of_rows(system, span, batch.chosen, record, results, time.perf_counter() - begin, int(made.status[0]),

@@ -42,8 +42,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     Where direct functions serve a built-in system, or bodies in absolute coordinates are joined by pins alone and these have more
     than 40 rows, and outputs are coordinates, velocities and multipliers at times that are known before, several runs are made
     at once in the lanes of the processor's vector unit: those of `simulate` but for rounding, with their events where these are
-    names or expressions. What a lane cannot make, energy corrections, callables as events, and a run whose elimination is not
-    sound somewhere, is made by `simulate`'s own steps; `repr` says how many runs took which road.
+    names or expressions. What a lane cannot make, callables as events, and a run whose elimination is not sound somewhere, is
+    made by `simulate`'s own steps; `repr` says how many runs took which road.
 
     Parameters
     ----------
