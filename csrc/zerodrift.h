@@ -151,6 +151,10 @@ int zd_check_given(enum zd_table table, int row, const zd_given *given, char *me
 
 enum zd_unit zd_processor_unit(void);       /* the last that this processor has */
 
+/* What libraries are handed that were compiled with ZD_FAR_SINES_OF_CORE: see zerodrift/sines.h. */
+void zd_far_sines(int n, const double *angle, double *s, double *c);
+void zd_far_reductions(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
+
 /* ---- a run ---- */
 
 typedef struct zd_statistics {

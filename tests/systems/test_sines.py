@@ -103,11 +103,13 @@ def test_bits_are_those_of_the_table(library):
     assert_same(evaluated(library, angles), expected)
 
 
-def test_systems_use_them(library):
-    """Built in and symbolic ones."""
+@pytest.mark.parametrize("largest", [9.0, 1e7, 1e150])
+def test_systems_use_them(library, largest):
+    """Built in and symbolic ones, whose compiled functions have those of angles that are far from the core."""
     import sympy as sp
 
-    alpha = np.random.default_rng(1).uniform(-9, 9, 3)
+    alpha = np.random.default_rng(1).uniform(-largest, largest, 3)
+    alpha[1] = 2.0
     s, c = evaluated(library, alpha)
     C = zd.systems.four_bar().evaluate(alpha).C
     lengths = np.array([0.3, 1.0, 0.6])
@@ -115,8 +117,8 @@ def test_systems_use_them(library):
     p, v = sp.symbols("p:3"), sp.symbols("v:3")
     system = zd.symbolic(p, speeds=v, kinetic=sum(rate**2 for rate in v) / 2, potential=sp.S(0),
                          force=[sp.sin(p[0]), sp.cos(p[1]) * v[0] ** 2, sp.sin(sp.cos(p[2]) - v[1]) + sp.sin(v[0])])
-    rates = np.array([2.0, 0.5, 3.0])
+    rates = np.array([2.0, 0.5, 3.0]) * [largest / 9.0, 1.0, 1.0]
     evaluation = system.evaluate(alpha, rates)
     sines = evaluated(library, [c[2] - rates[1], rates[0]])[0]
-    assert_same(evaluation.f, [s[0], c[1] * 4.0, sines[0] + sines[1]])
+    assert_same(evaluation.f, [s[0], c[1] * rates[0] ** 2, sines[0] + sines[1]])
     assert_close(evaluation.power, evaluation.f @ rates, tol.SAME)

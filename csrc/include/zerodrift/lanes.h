@@ -16,8 +16,8 @@
  * give what the same text gives that was written with products and sums. Nothing else is contracted, for which there is
  * -ffp-contract=off.
  */
-#include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "sines.h"
 #include "units.h"
@@ -43,6 +43,12 @@
 typedef long long zd_eight_bits __attribute__((vector_size(64)));
 #define ZD_ANY_8(bits) (__builtin_ia32_ptestmq512((zd_eight_bits)(bits), (zd_eight_bits)(bits), -1) != 0)
 #define ZD_HALF_OF_4(x, half) __builtin_ia32_vextractf128_pd256(x, half)
+#endif
+#if defined(__GNUC__)
+#define ZD_ROOT_OF(x) __builtin_sqrt(x)
+#else
+#include <math.h>
+#define ZD_ROOT_OF(x) sqrt(x)
 #endif
 #define ZD_JOINED_(name, unit, lanes) name##_##unit##_##lanes
 #define ZD_JOINED(name, unit, lanes) ZD_JOINED_(name, unit, lanes)
@@ -122,18 +128,19 @@ typedef uint64_t zd_vector_words __attribute__((vector_size(8 * ZD_WIDTH)));
 #endif
 #include "sines_kernel.h"
 
-/* Of angles of which one at least is no number or not within +-2^19 */
-ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_vector_sines_far)(const zd_vector *angle, zd_vector *s, zd_vector *c)
+/* Of angles of which one at least is no number or not within +-2^19: those that are not are reduced anew. */
+ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *angle, ZD_NAMED(zd_reduced) *a)
 {
-    ZD_NAMED(zd_reduced) a;
-    ZD_NAMED(zd_reduce_near)(*angle, &a);
-    for (int k = 0; k < ZD_WIDTH; k++) {
-        if (fabs((*angle)[k]) <= ZD_SINES_NEAR) continue;
-        zd_reduced far;
-        zd_reduce((*angle)[k], &far);
-        a.r[k] = far.r, a.tail[k] = far.tail, a.quadrant[k] = far.quadrant;
-    }
-    ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
+    double x[ZD_WIDTH], r[ZD_WIDTH], tail[ZD_WIDTH];
+    uint64_t quadrant[ZD_WIDTH];
+    memcpy(x, angle, sizeof x);
+    memcpy(r, &a->r, sizeof r);
+    memcpy(tail, &a->tail, sizeof tail);
+    memcpy(quadrant, &a->quadrant, sizeof quadrant);
+    zd_reduce_those_far(ZD_WIDTH, x, r, tail, quadrant);
+    memcpy(&a->r, r, sizeof r);
+    memcpy(&a->tail, tail, sizeof tail);
+    memcpy(&a->quadrant, quadrant, sizeof quadrant);
 }
 
 /* Of a vector of angles. What is rare has its own variables, so that those of others can stay in registers. */
@@ -141,14 +148,14 @@ ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_vector_sines)(const zd_vector angle,
 {
     ZD_NAMED(zd_reduced) a;
     ZD_NAMED(zd_reduce_near)(angle, &a);
-    ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
     zd_vector size = (zd_vector)((zd_vector_words)angle & ~(UINT64_C(1) << 63));
     if (ZD_ANY(~(size <= ZD_SINES_NEAR))) {
-        zd_vector given = angle, sine, cosine;
-        ZD_NAMED(zd_vector_sines_far)(&given, &sine, &cosine);
-        *s = sine;
-        *c = cosine;
+        zd_vector given = angle;
+        ZD_NAMED(zd_reduced) far = a;
+        ZD_NAMED(zd_reduce_far_lanes)(&given, &far);
+        a = far;
     }
+    ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
 }
 
 #undef ZD_OF_TYPE
@@ -172,7 +179,7 @@ typedef int zd_condition;
 #define ZD_BOTH(a, b) ((a) && (b))
 #define ZD_EITHER(a, b) ((a) || (b))
 #define ZD_NOT(a) (!(a))
-#define ZD_SQRT(x) sqrt(x)
+#define ZD_SQRT(x) ZD_ROOT_OF(x)
 #if ZD_UNIT
 #define ZD_FMA(a, b, c) __builtin_fma(a, b, c)
 #define ZD_FMS(a, b, c) __builtin_fma(a, b, -(c))
@@ -206,7 +213,7 @@ typedef int64_t zd_condition __attribute__((vector_size(8 * ZD_LANES)));
 #elif ZD_LANES == 4
 #define ZD_SQRT(x) ((zd_real)ZD_SQRT_4(x))
 #else
-#define ZD_SQRT(x) ((zd_real){sqrt((x)[0]), sqrt((x)[1])})
+#define ZD_SQRT(x) ((zd_real){ZD_ROOT_OF((x)[0]), ZD_ROOT_OF((x)[1])})
 #endif
 #define ZD_FMA ZD_TIMES_PLUS
 #define ZD_FMS(a, b, c) ZD_FMA(a, b, -(c))

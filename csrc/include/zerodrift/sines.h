@@ -17,16 +17,21 @@
 #ifndef ZERODRIFT_SINES_H
 #define ZERODRIFT_SINES_H
 
-#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #if defined(__GNUC__) || defined(__clang__)
 #define ZD_SINES_INLINE static inline __attribute__((always_inline))
 #define ZD_SINES_RARE static __attribute__((noinline, cold, unused))
+#define ZD_SIZE_OF(x) __builtin_fabs(x)     /* <math.h> takes a compiler longer than all that is below */
 #else
+#include <math.h>
 #define ZD_SINES_INLINE static inline
 #define ZD_SINES_RARE static inline
+#define ZD_SIZE_OF(x) fabs(x)
+#endif
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
+#include <math.h>
 #endif
 
 ZD_SINES_INLINE uint64_t zd_bits_of(double x)
@@ -80,6 +85,26 @@ typedef uint64_t zd_pair_of_words __attribute__((vector_size(16)));
 #undef ZD_TIMES_PLUS
 #undef ZD_LESS_TIMES
 
+/* ---- what is rare: angles of which one at least is no number or not within +-2^19 ---- */
+
+#ifdef ZD_FAR_SINES_OF_CORE
+
+/* Compilers take as long for it as for a quarter of a small system. So a library that is compiled when it is wanted is handed what the
+ * core has, zd_far_sines and zd_far_reductions, before it is called. */
+static void (*zd_sines_far)(int n, const double *angle, double *s, double *c);
+static void (*zd_reduce_those_far)(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
+
+void zd_take_far_sines(void (*sines)(int, const double *, double *, double *),
+                       void (*reductions)(int, const double *, double *, double *, uint64_t *));
+void zd_take_far_sines(void (*sines)(int, const double *, double *, double *),
+                       void (*reductions)(int, const double *, double *, double *, uint64_t *))
+{
+    zd_sines_far = sines;
+    zd_reduce_those_far = reductions;
+}
+
+#else
+
 /* 32 bits of a number that is written in words, from one bit on */
 ZD_SINES_INLINE uint32_t zd_word_at(const uint32_t *words, int bit)
 {
@@ -127,15 +152,14 @@ ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
 /* Of any number; of what is none, and of infinities, NaN */
 ZD_SINES_RARE void zd_reduce(double x, zd_reduced *reduced)
 {
-    if (fabs(x) <= ZD_SINES_NEAR)
+    if (ZD_SIZE_OF(x) <= ZD_SINES_NEAR)
         zd_reduce_near(x, reduced);
-    else if (fabs(x) < INFINITY)
+    else if (ZD_SIZE_OF(x) <= 0x1.fffffffffffffp1023)
         zd_reduce_far(x, reduced);
     else
         *reduced = (zd_reduced){x - x, 0, 0};
 }
 
-/* Angles of which one at least is no number or not within +-2^19 */
 ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c)
 {
     for (int i = 0; i < n; i++) {
@@ -144,6 +168,19 @@ ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c
         zd_sines_of_reduced(&reduced, s + i, c + i);
     }
 }
+
+/* r, tail, quadrant (n,) of those that are far; of others they stay */
+ZD_SINES_RARE void zd_reduce_those_far(int n, const double *angle, double *r, double *tail, uint64_t *quadrant)
+{
+    for (int i = 0; i < n; i++) {
+        if (ZD_SIZE_OF(angle[i]) <= ZD_SINES_NEAR) continue;
+        zd_reduced far;
+        zd_reduce(angle[i], &far);
+        r[i] = far.r, tail[i] = far.tail, quadrant[i] = far.quadrant;
+    }
+}
+
+#endif
 
 #ifdef ZD_SINES_IN_PAIRS
 /* Of two angles. What is rare has its own variables, so that those of others can stay in registers. */
@@ -179,7 +216,7 @@ ZD_SINES_INLINE void zd_sines(const int n, const double *restrict angle, double 
     }
 #else
     int far = 0;
-    for (int i = 0; i < n; i++) far |= !(fabs(angle[i]) <= ZD_SINES_NEAR);
+    for (int i = 0; i < n; i++) far |= !(ZD_SIZE_OF(angle[i]) <= ZD_SINES_NEAR);
     for (int i = 0; i < n; i++) {
         zd_reduced reduced;
         zd_reduce_near(angle[i], &reduced);

@@ -56,19 +56,20 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
-    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TERMS", "VERSION", "Card", "CoreSystem", "Function",
-    "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record", "Results", "Run",
-    "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash", "count_steps",
-    "default", "direct_unit", "doubles", "error_of", "find", "in_library", "is_length", "kind_at", "kinds", "load_data",
-    "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings", "step", "takes_direct",
-    "takes_embeddings", "terms_of",
+    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TAKE_FAR_SINES", "TERMS", "VERSION", "Card", "CoreSystem",
+    "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record",
+    "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash",
+    "count_steps", "default", "direct_unit", "doubles", "error_of", "find", "hand_far_sines", "in_library", "is_length",
+    "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings",
+    "step", "takes_direct", "takes_embeddings", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.
 _LATER = {
     "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "Stop", "derive", "error_name", "has_lanes",
                 "run_batch", "tables_of_kind"),
-    "functions": ("Function", "InLibrary", "address_of", "find", "in_library", "load_data", "numba_signature"),
+    "functions": ("Function", "InLibrary", "TAKE_FAR_SINES", "address_of", "find", "hand_far_sines", "in_library", "load_data",
+                  "numba_signature"),
     "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

@@ -10,7 +10,7 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .._core import ffi
+from .._core import ffi, lib
 from .._fingerprint import fingerprint
 from .native import VERSION
 
@@ -155,6 +155,15 @@ def digest_of(path: Path) -> str:
 def address_of(library: ctypes.CDLL, symbol: str) -> int:
     """Where a symbol of a library is; ValueError where there is none."""
     return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
+
+
+TAKE_FAR_SINES = "zd_take_far_sines"    # of libraries that were compiled with ZD_FAR_SINES_OF_CORE
+
+
+def hand_far_sines(library: ctypes.CDLL) -> None:
+    """The core's sines of angles that are far, for a library that was compiled without: see zerodrift/sines.h."""
+    given = (ffi.addressof(lib, name) for name in ("zd_far_sines", "zd_far_reductions"))
+    library[TAKE_FAR_SINES](*(ctypes.c_void_p(int(ffi.cast("intptr_t", each))) for each in given))
 
 
 def in_library(path: str | Path, symbol: Any) -> Function:

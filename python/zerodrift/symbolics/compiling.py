@@ -32,6 +32,7 @@ OPTIMIZED = ("-O3",)
 # same in a third to two thirds more time. Behind functions of vector units, one of GCC's expensive optimizations clears the upper
 # halves of registers; else all that follows them is several times as slow.
 QUICKLY = ("-O1", "-fexpensive-optimizations", "-fschedule-insns2")
+FAR_SINES_OF_CORE = "ZD_FAR_SINES_OF_CORE"      # see zerodrift/sines.h
 SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
 SOURCE, PRODUCT = "system.c", "system.dll" if cache.AS_WINDOWS else "system.so"
@@ -40,10 +41,11 @@ PLACE = re.compile(rf"{re.escape(SOURCE)}[:(](\d+)")     # of what a compiler co
 
 def library(source: str, progress: Callable[[str], Any] = lambda what: None,
             symbols: Sequence[str] = SYMBOLS, defined: Sequence[str] = (),
-            optimized: Sequence[str] = QUICKLY) -> ctypes.CDLL | None:
+            optimized: Sequence[str] = QUICKLY, meanwhile: Callable[[], Any] = lambda: None) -> ctypes.CDLL | None:
     """The library of a C source with these symbols, compiled where the cache does not have it; None: there is no compiler.
 
-    `defined` are macros, as compilers take them: ``["NAME=value"]``; `optimized` are flags that change no bits.
+    `defined` are macros, as compilers take them: ``["NAME=value"]``; `optimized` are flags that change no bits; `meanwhile` is
+    called while a compiler is at work.
 
     Raises
     ------
@@ -53,13 +55,15 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     compiler = compilers.find()
     if compiler is None:
         return None
+    symbols = *symbols, _gateway.TAKE_FAR_SINES
     source = compilers.exporting(source, symbols)
-    line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, defined)
+    line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, [FAR_SINES_OF_CORE, *defined])
     note = _note(source, line)
     found = _kept(note)
     if found is None:
         progress("compiling")
-        found = _made(source, line, compiler.environment, note, symbols)
+        found = _made(source, line, compiler.environment, note, symbols, meanwhile)
+    _gateway.hand_far_sines(found)
     return found
 
 
@@ -84,9 +88,10 @@ def _kept(note: str) -> ctypes.CDLL | None:
         return None
 
 
-def _made(source: str, line: list[str], environment: dict[str, str] | None, note: str, symbols: Sequence[str]) -> ctypes.CDLL:
+def _made(source: str, line: list[str], environment: dict[str, str] | None, note: str, symbols: Sequence[str],
+          meanwhile: Callable[[], Any]) -> ctypes.CDLL:
     """Compile, load and keep."""
-    data = _build(source, line, environment)
+    data = _build(source, line, environment, meanwhile)
     digest = _digest(data)
     cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from
     try:
@@ -126,13 +131,14 @@ def _load(name: str, data: bytes) -> ctypes.CDLL:
 # ---- the compiler ----
 
 
-def _build(source: str, line: list[str], environment: dict[str, str] | None = None) -> bytes:
+def _build(source: str, line: list[str], environment: dict[str, str] | None = None,
+           meanwhile: Callable[[], Any] = lambda: None) -> bytes:
     """Compile; what the library holds."""
     try:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
             folder = Path(name)
             (folder / SOURCE).write_text(source, encoding="utf-8")
-            status, said = _run(line, folder, environment)
+            status, said = _run(line, folder, environment, meanwhile)
             product = folder / PRODUCT
             if status or not product.is_file():
                 raise _complaint(line, status, said, source)
@@ -142,7 +148,7 @@ def _build(source: str, line: list[str], environment: dict[str, str] | None = No
                                 "and write permission") from None
 
 
-def _run(line: list[str], folder: Path, environment: dict[str, str] | None) -> tuple[int, str]:
+def _run(line: list[str], folder: Path, environment: dict[str, str] | None, meanwhile: Callable[[], Any]) -> tuple[int, str]:
     """The status of a command in a folder, and what it said; it reads nothing, and is ended with all it started."""
     with open(folder / "said", "w+b") as said:
         try:
@@ -152,6 +158,7 @@ def _run(line: list[str], folder: Path, environment: dict[str, str] | None) -> t
             why = "it, or the program that its first line names, is missing or for another machine"
             raise _failure(line, f"cannot be run ({error.strerror})", f": {why}. {compilers.advice()}") from None
         try:
+            meanwhile()
             status = _wait(process)
             if status is None:
                 raise _failure(line, f"did not end within {PATIENCE:g} s", f". {compilers.advice()}")

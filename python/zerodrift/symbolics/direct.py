@@ -10,14 +10,15 @@ import numpy as np
 from . import direct_emission, orders
 from .direct_emission import Bounded
 from .elimination import Elimination
+from .emission import mathematics
 from .joint import elimination
 from .lowering import Lowering
 from .plain import NAMED, Function
 from .restoring import restored
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
-HEADING = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/system.h>",
-           "#include <zerodrift/units.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
+HEADING = ["/* Written by zerodrift.symbolic. */", "#include <zerodrift/system.h>", "#include <zerodrift/units.h>"]
+VERSION = ["", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 
 def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | str:
@@ -72,5 +73,5 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
         functions += [(_embedding if embedding else _projecting)(each) for each in found]
         eliminations += found
     return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
-                                  heading=HEADING if heading is None else heading, file=file,
+                                  heading=heading or [*HEADING, mathematics(lowering.operations), *VERSION], file=file,
                                   lanes_header=lanes_header, data=data)

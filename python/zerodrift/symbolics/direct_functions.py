@@ -45,6 +45,10 @@ class DirectFunctions:
             self._others = DirectFunctions(*self._definition, self._offset, self._data, embeds=True)
         return self._others
 
+    def prepare(self) -> None:
+        """Write them, as long as there is nothing else to do; they are compiled when they are wanted."""
+        self._write()
+
     def _write(self) -> tuple[str, int] | None:
         """The C source and how many constants it has; None: there is none."""
         if not self._is_written:

@@ -15,6 +15,9 @@ from .plain import Function
 
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place
+MATH = "#include <math.h>"
+# Which takes a compiler as long as a tenth of a small system: of most systems these are all that is needed of it.
+WITHOUT_MATH = "double fabs(double), sqrt(double);"
 TURNS = {"sin": "sine", "cos": "cosine"}    # what the core has functions of its own for, and its array of them
 
 
@@ -120,6 +123,15 @@ def turn_of(function: Any) -> str:
     return TURNS.get(function.__name__, "") if is_known else ""
 
 
+def mathematics(operations: Iterable[Operation]) -> str:
+    """The line of C that declares what these call of the C library."""
+    def is_called(operation: Operation) -> bool:
+        code, (first, *_) = operation.code, operation.arguments
+        return code == "power" or (code == "call" and not turn_of(first)) or (code == "number" and not math.isfinite(first))
+
+    return MATH if any(map(is_called, operations)) else WITHOUT_MATH
+
+
 @cache
 def _printer(language: str) -> Any:
     """SymPy's printer of a language: only functions of expressions need it."""
@@ -201,13 +213,12 @@ class CWriter(Writer):
         text = self.text(heading, [], constants, [*self._locals(data), *body])
         return text, count, scratch + bool(blocks.kept)
 
-    @staticmethod
-    def text(heading: list[str], functions: list[str], constants: list[str], body: list[str]) -> str:
+    def text(self, heading: list[str], functions: list[str], constants: list[str], body: list[str]) -> str:
         """The C source from what is in it."""
         return "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
-            "#include <math.h>", "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
-            "const int zd_interface_version = ZD_INTERFACE_VERSION;", "", *functions,
+            "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", mathematics(self.operations),
+            "", "const int zd_interface_version = ZD_INTERFACE_VERSION;", "", *functions,
             "/* What follows from the parameters alone, behind them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",

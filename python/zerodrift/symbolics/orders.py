@@ -117,14 +117,25 @@ def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tupl
     p = start + np.concatenate([np.zeros((1, nq)), spread * chance.uniform(-1, 1, (SAMPLES, nq))]) * unit_p
     names = [name for name in ("A", "Phi", "C") if name in terms]
     evaluate = numeric.evaluator(lowering, {name: terms[name] for name in names}, parameters)
-    for _ in range(ITERATIONS if mh else 0):
-        p = p - _newton(evaluate(t, p), sizes)
     found = evaluate(t, p)
-    C = found["C"].reshape(len(t), -1, nv) * unit_v
+    is_open = _open(found, mh, unit_v)
+    for _ in range(ITERATIONS if mh else 0):
+        if not is_open.any():
+            break
+        p[is_open] -= _newton({name: value[is_open] for name, value in found.items()}, sizes)
+        for name, value in evaluate(t[is_open], p[is_open]).items():
+            found[name][is_open] = value
+        is_open = _open(found, mh, unit_v)
+    return found["C"].reshape(len(t), -1, nv)[~is_open] * unit_v
+
+
+def _open(found: dict[str, np.ndarray], mh: int, unit_v: np.ndarray) -> np.ndarray:
+    """Which configurations (k,) violate the constraints."""
+    C = found["C"].reshape(len(found["C"]), -1, len(unit_v)) * unit_v
     closed = np.isfinite(C).all(axis=(1, 2))
     if mh:
         closed &= (np.abs(found["Phi"]) <= CLOSED * _largest(C)[:, :mh, 0]).all(axis=1)
-    return C[closed]
+    return ~closed
 
 
 def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> np.ndarray:

@@ -73,15 +73,15 @@ class SymbolicSystem(BaseSystem):
         self._packing = checked(code.structure and Structure(**code.structure), code.sizes, "A" in code.provides)
         self._set_start(p0, v0)
         self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
-        self._library = compiling.library(code.c_source, progress)
+        is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
+        self._direct = direct or DirectFunctions(
+            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
+        self._library = compiling.library(code.c_source, progress, meanwhile=self._direct.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
                           f"some hundred times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._in_python()
-        is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
-        self._direct = direct or DirectFunctions(
-            code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._with_direct: dict[tuple[str, bool], _gateway.NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> _gateway.NativeCore:
