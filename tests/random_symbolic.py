@@ -6,8 +6,11 @@ import sympy as sp
 import zerodrift as zd
 
 
-def random_system(seed):
-    """Of up to six velocities: M full or nearly diagonal, rows holonomic and not, every third driven, every fourth with A."""
+def random_system(seed, apart=None):
+    """Of up to six velocities: M full or nearly diagonal, rows holonomic and not, every third driven, every fourth with A.
+
+    With `apart`, its holonomic rows end in one that is the first, doubled, but for so much of the last coordinate.
+    """
     rng = np.random.default_rng(seed)
     n = int(rng.integers(2, 7))
     mh = int(rng.integers(0, n))
@@ -24,6 +27,8 @@ def random_system(seed):
         row = sum(size * sp.sin(q[i] + shift) for i, size, shift in terms) + q[k]
         driven = sp.sin(t + 1) if seed % 3 == 0 else 0
         rows.append(row + driven - row.subs(dict(zip(q, p0, strict=True))) - (np.sin(1) if seed % 3 == 0 else 0))
+    if apart is not None:
+        rows.append(2 * rows[0] + sp.Symbol("apart") * (q[-1] - p0[-1]))
     rolling = [sum(sp.cos(q[i] * rng.uniform(0.5, 2)) * u[i] * rng.uniform(0.5, 2) for i in rng.permutation(n)[:3])
                for _ in range(mn)]
     if seed % 3 == 0:
@@ -37,5 +42,6 @@ def random_system(seed):
         options["kinetic"] = kinetic
     potential = sum(m * sp.sin(x) for m, x in zip(numbers_[1], q, strict=True))
     damping = [-d * w for d, w in zip(numbers_[2], u, strict=True)]
+    parameters = {a: 1.0} | ({} if apart is None else {"apart": apart})
     return zd.symbolic(q, speeds=u, constraints=rows, nonholonomic=rolling, potential=potential, force=damping,
-                       parameters={a: 1.0}, time=t, p0=p0, v0=np.zeros(n), **options)
+                       parameters=parameters, time=t, p0=p0, v0=np.zeros(n), **options)

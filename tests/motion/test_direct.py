@@ -197,6 +197,35 @@ def test_steps_that_are_chosen_take_independent_velocities(equations):
     assert_close(direct.p[-1], general.p[-1], 1e-6)
 
 
+# ---- random rows that depend on each other, nearly or not at all ----
+
+
+@functools.cache
+def with_a_row_apart(seed, apart):
+    """Orders are written for rows that are as far apart as others; it starts with velocities that satisfy them."""
+    made = random_system(seed, 1.0) if apart == 1 else with_a_row_apart(seed, 1.0).with_parameters(apart=apart)
+    evaluation = made.evaluate(made.p0, np.zeros(made.nv))
+    rates = np.zeros(len(evaluation.C)) if evaluation.Phi_t is None else evaluation.Phi_t
+    return made.starting(v0=-np.linalg.pinv(evaluation.C) @ rates)
+
+
+@pytest.mark.parametrize("apart", [1.0, 0.1, 1e-3, 0.0])
+@pytest.mark.parametrize("equations", [*DEPENDENT, *INDEPENDENT])
+@pytest.mark.parametrize("seed", [0, 18, 20])       # driven, with a nonholonomic row and one held by time; one; the other
+def test_both_roads_agree_however_far_rows_are_apart(seed, equations, apart):
+    """What is nearly the same twice is ranked on the general road, and so is what is the same."""
+    of = with_a_row_apart(seed, apart)
+    general, direct = both(of, 0.3, step=0.01, formulation=equations)
+    assert general.success
+    assert direct.stats["rank"] == general.stats["rank"] == len(of.constraints) - (apart == 0)
+    if apart <= 1e-3 or (equations == "independent" and of.mh * of.mn):
+        assert direct.stats["direct_steps"] == 0
+    elif apart == 1:
+        assert direct.stats["direct_steps"] == direct.stats["steps"]
+    direct.stats["direct_steps"] = direct.stats["steps"]
+    assert_same_motion(general, direct, tol.STEPPED / max(apart, 1e-3) ** 2)
+
+
 # ---- where it is left ----
 
 
