@@ -34,6 +34,7 @@ def drawing():
     (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1, 0), damping=-1), ValueError, "damping of 'A'"),
     (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 1, 1))), ValueError, "45 degrees"),
     (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1),)), ValueError, "must be two directions"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=3), ValueError, "must be two directions"),
     (lambda m, link, *_: m.screw("A", m.ground, link.start, axis=(0, 0, 1), pitch=0), ValueError, "pitch of 'A' must not be 0"),
     (lambda m, *_: m.rod("A", m.ground.point((0, 1, 0)), "bead"), ValueError, "length of 'A', as drawn"),
     (lambda m, *_: m.revolute("A", m.ground, "bead", axis=(0, 0, 1)), ValueError, "'bead' is a particle"),

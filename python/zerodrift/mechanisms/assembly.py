@@ -314,7 +314,9 @@ class Assembly:
     def _unit_of(self, name: str) -> str:
         """The unit of a held measure; of drives and couplings, which are named without one, none is told."""
         quantity = name.split(".")[1:]
-        return "" if not quantity else "rad" if quantity[-1] == "angle" else "m"
+        if not quantity or quantity[-1].endswith("]"):      # a cosine has none either
+            return ""
+        return "rad" if quantity[-1] == "angle" else "m"
 
     # ---- velocities ----
 

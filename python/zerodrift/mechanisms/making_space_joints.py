@@ -15,6 +15,7 @@ from .space_joints import BY_KIND, SpaceJoint, has_torque
 Side = Body | Point | str
 RIGHT_ANGLE = 1e-9      # of the cosine
 FLAT = 1e-6             # of the sine: what counts as parallel
+TOUCHING = 0.01         # of the height of the centre: a drawing that is less off is a rough one, and is assembled
 
 
 class SpaceJointVerbs(Elements):
@@ -85,7 +86,7 @@ class SpaceJointVerbs(Elements):
         Measure('cross.angle1')
         """
         self._in_space("universal", "revolute")
-        if len(axes) != 2:
+        if np.ndim(axes) == 0 or len(axes) != 2:
             raise ValueError(f"axes of {name!r} must be two directions, one of the first body and one of the second")
         first_axis, second_axis = (self._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(axes))
         cosine = float(first_axis @ second_axis)
@@ -226,8 +227,13 @@ class SpaceJointVerbs(Elements):
         first, second = self._different(name, first.point(at=at), self._point("second", second))
         self._turning(name, "rolling", first.body, second.body)
         frame, shape = self._shape(name, second.body, normal, radius, axle, semiaxes)
-        if not (second.drawn - at) @ normal > 0:
+        height = float((second.drawn - at) @ normal)
+        if not height > 0:
             raise ValueError(f"normal of {name!r} must point to the side of the plane on which the centre is drawn")
+        gap = height - float(np.linalg.norm(shape * (frame @ second.body.pose.local_direction(normal))))
+        if abs(gap) > TOUCHING * height:
+            raise ValueError(f"{name!r} has no contact as drawn: {second.body.name!r} is {abs(gap):.3g} m "
+                             f"{'off' if gap > 0 else 'in'} the plane; draw its centre {height - gap:.6g} m from it")
         frames = np.stack([first.body.pose.local_direction(row) for row in _frame(normal, None)]), frame
         return self._add(BY_KIND["rolling"](name, first, second, frames=frames, semiaxes=shape))
 

@@ -78,9 +78,18 @@ def _points(element: Any) -> tuple[str, ...]:
     return ("start", "end", "center") if isinstance(element, Link) else ("center",)
 
 
+def reading_of_start(name: str, elements: Mapping[str, Any]) -> Reading | None:
+    """The same of what a start may give: the rotation of a body in space, too, by its nine cosines."""
+    owner, _, quantity = name.partition(".")
+    body = elements.get(owner)
+    if quantity == "rotation" and isinstance(body, Body) and body.turns and body.dimension == 3:
+        return Reading((name,) * 9, False)
+    return reading(name, elements)
+
+
 def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any]) -> Reading:
     """What a start reads, which holds or wishes it to have a value; an error where there is no such."""
-    read = reading(name, elements)
+    read = reading_of_start(name, elements)
     if read is None:
         owner = elements.get(name.partition(".")[0])
         known = readable(owner) if owner is not None else []

@@ -12,6 +12,7 @@ from .elements import Elements
 from .forces import Actuator
 from .measures import name_of
 from .readings import checked_reading
+from .space import given_rotation
 
 
 class StartVerbs(Elements):
@@ -28,8 +29,8 @@ class StartVerbs(Elements):
         Parameters
         ----------
         held : dict of measure to value
-            What is met: positions and velocities by object or by name, components or vectors. Later calls add and replace; None
-            as a value takes back.
+            What is met: positions and velocities by object or by name, components or vectors; of a body in space its
+            ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace; None as a value takes back.
         wish : dict of measure to value
             What is met as nearly as possible after that.
 
@@ -79,6 +80,9 @@ def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
         name = name_of(measure, f"a key of {what}")
         if value is not None:
             said = f"{what}[{name!r}]"
-            value = _check.vector(said, value, dimension) if np.ndim(value) else _check.number(said, value)
+            if dimension == 3 and name.endswith(".rotation"):
+                value = given_rotation(said, value)
+            else:
+                value = _check.vector(said, value, dimension) if np.ndim(value) else _check.number(said, value)
         read[name] = value
     return read

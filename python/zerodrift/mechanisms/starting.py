@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
+from .._rotations import quaternion_of
 from ..errors import CorrectionFailed, InconsistentStart, SingularSystem
 from .assembly import Assembly, Target
 from .bodies import Body, Point
@@ -17,7 +18,7 @@ from .forces import Motor
 from .joints import Joint
 from .measuring import measuring
 from .numbers import Numbers
-from .readings import Reading, checked_reading, reading
+from .readings import Reading, checked_reading, reading_of_start
 from .tables import Tables
 from .tabulated import tables_of
 from .tree import loop
@@ -91,7 +92,7 @@ class Starting:
         return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t)
 
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
-        p, _ = assembly.core.state(tables.drawn())
+        p, _ = assembly.core.state(self._drawn(tables))
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
         try:
             return assembly.positions(p, held, wished)
@@ -100,6 +101,15 @@ class Starting:
         except InconsistentStart as error:
             raise InconsistentStart(f"{error}{self._loop_in_words()}") from None
 
+    def _drawn(self, tables: Tables) -> np.ndarray:
+        """Poses of mass centres as drawn; of bodies whose rotation is held, with that: no small steps lead half a turn away."""
+        poses = tables.drawn()
+        for name, value in self.drawing.held.items():
+            body, _, quantity = name.partition(".")
+            if quantity == "rotation":
+                poses[tables.number[body] - 1, 3:] = quaternion_of(value @ tables.inertias.of[body].axes)
+        return poses
+
     def targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool = False) -> list[Target]:
         """The components of what is held or wished, of positions or of velocities."""
         if not given:
@@ -107,13 +117,13 @@ class Starting:
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []
         for name, value in given.items():
-            read: Reading = reading(name, self.drawing.elements)
+            read: Reading = reading_of_start(name, self.drawing.elements)
             if read.is_rate != rates:
                 continue
             base, _, axis = name.rpartition(".")
             if name in index:
-                targets += [Target(name if np.ndim(value) == 0 else f"{name}.{'xyz'[i]}", index[name], i, float(each))
-                            for i, each in enumerate(np.atleast_1d(value))]
+                targets += [Target(_component(name, i, np.shape(value)), index[name], i, float(each))
+                            for i, each in enumerate(np.ravel(value))]
             else:
                 targets.append(Target(name, index[base], "xyz".index(axis), float(value)))
         return targets
@@ -199,6 +209,11 @@ def bodies_of(element: Any) -> tuple[Body, ...]:
     if isinstance(element, Point):
         return (element.body,)
     return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)
+
+
+def _component(name: str, i: int, shape: tuple[int, ...]) -> str:
+    """What an error calls an entry of what is held: of a number, a vector or a matrix."""
+    return name if not shape else f"{name}.{'xyz'[i]}" if len(shape) == 1 else f"{name}[{i // 3}, {i % 3}]"
 
 
 def size_of(drawing: Drawing, numbers: Numbers) -> float:

@@ -229,7 +229,7 @@ class Solution:
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
-        """A measure of the plane in the axes of a body."""
+        """A vector in the axes of a body."""
         name, body = (getattr(each, "name", each) for each in (name, body))
         base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
         if axis in AXES:
@@ -237,6 +237,8 @@ class Solution:
         values = self[name]
         if values.ndim == 1 or body == "ground":
             return values
+        if values.shape[1:] == (3,):
+            return np.einsum("kji,kj->ki", self[f"{body}.rotation"], values)
         angle = self[f"{body}.angle"]
         c, s = np.cos(angle), np.sin(angle)
         return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
@@ -246,7 +248,7 @@ class Solution:
         if not self.outputs or not isinstance(name, str):
             return None
         if name in self.outputs:
-            return self.outputs[name]
+            return self.outputs[name].reshape(-1, 3, 3) if name.endswith(".rotation") else self.outputs[name]
         base, _, axis = name.rpartition(".")
         vector, component = self.outputs.get(base), AXES.get(axis, -1)
         return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
