@@ -1,7 +1,8 @@
 """Random mechanisms in space, and their accelerations by an independent model: bodies, and what each joint holds, in NumPy.
 
 Constraints are written from what a joint is for, of the poses alone, with more rows than needed where that is plainer, and are
-differentiated by differences; accelerations follow by least squares, which takes redundant rows.
+differentiated by differences; accelerations follow by least squares, which takes redundant rows. What rolls or glides on the
+ground has rows of velocities besides. Motions are those of a plain RK4, and reactions have to balance each body.
 """
 
 import numpy as np
@@ -12,14 +13,15 @@ import zerodrift as zd
 H = 1e-4        # of central differences, whose error is some H^2 and round-off over H
 KINDS = ("revolute", "prismatic", "cylindrical", "universal", "spherical", "planar", "rod", "slot", "weld", "screw")
 PITCH = 0.5
+ON_GROUND = {"ball": (0.3, 0.3, 0.3), "disc": (0.0, 0.4, 0.4), "egg": (0.3, 0.5, 0.4)}    # semiaxes of what rolls, in m
 
 
 class Plain:
     """A mechanism with what is needed to write its equations again."""
 
-    def __init__(self, rng, bodies, loops):
+    def __init__(self, rng, bodies, loops, on_ground=None):
         self.m = zd.Mechanism("random", dimension=3, gravity=rng.normal(size=3))
-        self.bodies, self.held, self.forces = [self.m.ground], [], []
+        self.bodies, self.held, self.on_ground, self.joints = [self.m.ground], [], [], {}
         self.pose = {"ground": (np.zeros(3), Rotation.identity())}
         self.mass = {}
         for b in range(bodies):
@@ -29,6 +31,8 @@ class Plain:
             one, other = rng.choice(bodies + 1, 2, replace=False)
             kind = str(rng.choice(["spherical", "rod", "slot", "universal"]))
             self._join(rng, f"loop{k}", kind, self.bodies[one], self.bodies[other])
+        if on_ground:
+            self._put_on_ground(rng, on_ground)
         self._add_forces(rng)
         self.system = self.m.system()
 
@@ -64,6 +68,29 @@ class Plain:
         ends = (self._local(first, place), self._local(second, other if kind == "rod" else place))
         axes = [(self._turned_back(first, d), self._turned_back(second, d)) for d in (axis, normal)]
         self.held.append((kind, first.name, second.name, *ends, axes))
+        self.joints[name] = first.name, second.name, other if kind == "rod" else place
+
+    def _put_on_ground(self, rng, kind):
+        """The last body rolls on a plane of the ground, or a point of it glides along a blade."""
+        body, centre = self.bodies[-1], rng.normal(size=3)
+        up, along, _ = Rotation.random(random_state=rng).as_matrix()
+        if kind == "blade":
+            self.m.knife_edge("blade", body.point(at=centre), along=along, normal=up)
+            self.joints["blade"] = "ground", body.name, centre
+            across = self._turned_back(body, np.cross(up, along))
+            self.on_ground.append((kind, body.name, self._local(body, centre), across))
+            return
+        tilt = Rotation.from_rotvec(rng.uniform(0.2, 1) * along) if kind == "disc" else Rotation.identity()
+        axle = tilt.apply(np.cross(up, along))
+        shape = np.diag(ON_GROUND[kind]) if kind != "disc" else 0.4 * (np.eye(3) - np.outer(axle, axle))
+        R = self.bodies[-1].pose.rotation if kind == "egg" else np.eye(3)
+        S = R @ shape @ shape.T @ R.T
+        given = {"ball": {"radius": 0.3}, "disc": {"radius": 0.4, "axle": axle}, "egg": {"semiaxes": ON_GROUND["egg"]}}[kind]
+        foot = centre - np.sqrt(up @ S @ up) * up
+        self.m.rolling("floor", self.m.ground, body.point(at=centre), at=foot, normal=up, **given)
+        self.joints["floor"] = "ground", body.name, centre - S @ up / np.sqrt(up @ S @ up)
+        turned = self.pose[body.name][1].as_matrix()
+        self.on_ground.append((kind, body.name, self._local(body, centre), (up, turned.T @ S @ turned)))
 
     def _add_forces(self, rng):
         one, other = rng.choice(len(self.bodies), 2, replace=False)
@@ -93,8 +120,24 @@ class Plain:
 
     def jacobian(self, poses):
         steps = np.eye(6 * len(self.names())) * H
-        return np.stack([(self.constraints(self.moved(poses, d)) - self.constraints(self.moved(poses, -d))) / (2 * H)
+        rows = np.stack([(self.constraints(self.moved(poses, d)) - self.constraints(self.moved(poses, -d))) / (2 * H)
                          for d in steps], axis=1)
+        return np.vstack([rows, *(self._rows_on_ground(poses, *each) for each in self.on_ground)])
+
+    def _rows_on_ground(self, poses, kind, name, local, given):
+        """Rows of velocities: no point of a body has any where it touches, or none across a blade."""
+        R = poses[name][1]
+        arm = R.apply(local)
+        if kind == "blade":
+            held = [R.apply(given)]
+        else:
+            up, S = given[0], R.as_matrix() @ given[1] @ R.as_matrix().T
+            arm = arm - S @ up / np.sqrt(up @ S @ up)
+            held = np.eye(3)        # the contact is where a body is farthest down: that its height stays is the part along `up`
+        rows = np.zeros((len(held), 6 * len(self.names())))
+        at = 6 * self.names().index(name)
+        rows[:, at:at + 6] = [np.r_[d, np.cross(arm, d)] for d in held]
+        return rows
 
     def loads(self, poses, v):
         """Generalized forces (6 n,), gyroscopic ones included."""
@@ -147,22 +190,66 @@ def _held(first, second, kind, local1, local2, axes):
             "rod": np.linalg.norm(apart)}[kind]      # less its length, which its derivatives do not see
 
 
-def compare(seed, formulation="nullspace"):
-    """How far accelerations of the core are from those of the model, of the largest; None where nothing is free."""
-    rng = np.random.default_rng(seed)
-    plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, 3)))
-    poses = plain.pose
-    _, s, vt = np.linalg.svd(plain.jacobian(poses))
-    rank = int((s > 1e-6 * s[0]).sum())
-    if rank == len(vt) or (s[:rank].min() < 1e-2 * s[0]):
-        return None         # nothing is free, or nearly dependent rows would need more digits than differences have
-    v = vt[rank:].T @ rng.normal(size=len(vt) - rank)
-    expected = plain.accelerations(poses, v)
-    p, own = plain.system.p0, v.reshape(-1, 6).copy()
-    turned = plain.system._core.poses(p)[0][:, 3:]
-    own[:, 3:] = [Rotation.from_quat(q, scalar_first=True).inv().apply(w) for q, w in zip(turned, own[:, 3:], strict=True)]
-    start = plain.system._core.state(np.zeros((len(own), 7)), own)[1]
-    sol = zd.simulate(plain.system, 1e-6, p, start, step=1e-6, formulation=formulation)
-    found = np.concatenate([[*sol[f"{name}.center.acceleration"][0], *sol[f"{name}.angular_acceleration"][0]]
-                            for name in plain.names()])
-    return np.abs(found - expected).max() / max(np.abs(expected).max(), 1.0)
+class Compared:
+    """One random mechanism, and how far the core is off in accelerations, the balance of reactions, and the end of a motion."""
+
+    def __init__(self, seed, on_ground=None, loops=2):
+        rng = np.random.default_rng(seed)
+        self.plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, loops + 1)), on_ground)
+        _, s, vt = np.linalg.svd(self.plain.jacobian(self.plain.pose))
+        rank = int((s > 1e-6 * s[0]).sum())
+        # with nothing free there is nothing to see, and nearly dependent rows would need more digits than differences have
+        self.can_be = rank < len(vt) and s[:rank].min() >= 1e-2 * s[0]
+        self.v = vt[rank:].T @ rng.normal(size=len(vt) - rank)
+
+    def _run(self, formulation, span, step):
+        system, own = self.plain.system, self.v.reshape(-1, 6).copy()
+        turned = system._core.poses(system.p0)[0][:, 3:]
+        own[:, 3:] = [Rotation.from_quat(q, scalar_first=True).inv().apply(w) for q, w in zip(turned, own[:, 3:], strict=True)]
+        start = system._core.state(np.zeros((len(own), 7)), own)[1]
+        p, v = zd.assemble(system, system.p0, start)        # the model's rows are as exact as differences are
+        return zd.simulate(system, span, p, v, step=step, formulation=formulation)
+
+    def accelerations(self, formulation):
+        """Of the largest acceleration: how far these are off, and what is left of mass times acceleration less all forces."""
+        expected, sol = self.plain.accelerations(self.plain.pose, self.v), self._run(formulation, 1e-6, 1e-6)
+        found = np.concatenate([[*sol[f"{name}.center.acceleration"][0], *sol[f"{name}.angular_acceleration"][0]]
+                                for name in self.plain.names()])
+        size = max(np.abs(expected).max(), 1.0)
+        return np.abs(found - expected).max() / size, np.abs(self._unbalanced(sol, found)).max() / size
+
+    def _unbalanced(self, sol, found):
+        """What forces, reactions among them, leave of mass times acceleration (6 n,)."""
+        plain = self.plain
+        left = dict(zip(plain.names(), plain.loads(plain.pose, self.v).reshape(-1, 6).copy(), strict=True))
+        for joint, (first, second, place) in plain.joints.items():
+            force = sol[f"{joint}.force"][0]
+            torque = sol[f"{joint}.torque"][0] if f"{joint}.torque" in plain.system.measures else np.zeros(3)
+            for body, sign in ((first, -1), (second, 1)):
+                if body != "ground":
+                    left[body] += sign * np.r_[force, torque + np.cross(place - plain.pose[body][0], force)]
+        for name, change in zip(plain.names(), found.reshape(-1, 6), strict=True):
+            R, (mass, J, _) = plain.pose[name][1].as_matrix(), plain.mass[name]
+            left[name] -= np.r_[mass * change[:3], R @ J @ R.T @ change[3:]]
+        return np.concatenate(list(left.values()))
+
+    def motion(self, formulation, span=0.01, steps=2):
+        """How far places are off in the end, in m."""
+        sol, poses, v = self._run(formulation, span, span / steps), self.plain.pose, self.v
+        for _ in range(steps):
+            poses, v = self._step(poses, v, span / steps)
+        return max(np.abs(sol[f"{name}.center.position"][-1] - poses[name][0]).max() for name in self.plain.names())
+
+    def _step(self, poses, v, h):
+        """One step of RK4: turns add up by increments, whose own change with the attitude is taken to third order."""
+        k = []
+        for part in (0, 0.5, 0.5, 1):
+            moved, u = (poses, v) if not k else (self.plain.moved(poses, part * h * k[-1][0]), v + part * h * k[-1][1])
+            rate = u.reshape(-1, 6).copy()
+            if k:
+                turned = (part * h * k[-1][0]).reshape(-1, 6)[:, 3:]
+                twist = np.cross(turned, rate[:, 3:])
+                rate[:, 3:] += -twist / 2 + np.cross(turned, twist) / 12
+            k.append((rate.ravel(), self.plain.accelerations(moved, u)))
+        step, change = ((k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]) * h / 6 for i in (0, 1))
+        return self.plain.moved(poses, step), v + change
