@@ -51,13 +51,26 @@ int zd_quaternions_wrong_length(const zd_system *system, const double *p, int an
     return -1;
 }
 
+static int block_of_coordinate(const zd_layout *layout, int coordinate)
+{
+    int low = 0, high = layout->blocks - 1;
+    while (low < high) {
+        const int middle = low + (high - low + 1) / 2;
+        if (layout->coordinate_at[middle] <= coordinate) low = middle;
+        else high = middle - 1;
+    }
+    return low;
+}
+
 int zd_quaternions_not_kept(const zd_point *point, int *velocity)
 {
     const zd_system *system = point->system;
-    const int nv = system->nv;
+    const zd_layout *layout = point->layout;
     for (int k = 0; k < system->quaternions; k++) {
         const int first = system->quaternion[k];
-        for (int j = 0; j < nv; j++) {
+        const int begin = layout ? layout->velocity_at[block_of_coordinate(layout, first)] : 0;
+        const int end = layout ? layout->velocity_at[block_of_coordinate(layout, first + ENTRIES - 1) + 1] : system->nv;
+        for (int j = begin; j < end; j++) {     /* those of its blocks: no other changes it */
             double along = 0, largest = 0;
             for (int i = first; i < first + ENTRIES; i++) {
                 along += point->p[i] * zd_entry_of_A(point, i, j);
