@@ -7,6 +7,7 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from large_mechanisms import four_bars, star
 from support import FORMULATIONS, INTEGRATORS, assert_same_bits, motion
 from zerodrift.runs import simulate as simulation
 
@@ -117,6 +118,16 @@ def test_cost_of_a_step(bar):
     assert stats["factorizations"] == 1 + 4 * 800 + iterations
     assert stats["solves"] == 1 + 5 * 800 + iterations
     assert stats["evaluations"] <= 2 * stats["factorizations"] + 800
+
+
+@pytest.mark.parametrize("make", [four_bars, star])
+@pytest.mark.parametrize("n", [2, 20])
+def test_cost_of_a_step_of_declared_structure(make, n):
+    """The same, with few rows and with so many that nothing dense is made, and where one body has many joints."""
+    stats = zd.simulate(make(n).system("absolute"), 0.1, step=5e-3).stats
+    assert stats["velocity_corrections"] == stats["steps"] == 20
+    assert stats["factorizations"] == 1 + 4 * 20 + stats["position_iterations"]
+    assert stats["solves"] == 1 + 5 * 20 + stats["position_iterations"]
 
 
 def test_cost_of_a_step_without_corrections(bar):
