@@ -54,7 +54,8 @@ def test_coordinates_along_the_tree_are_those_that_the_core_finds():
 
 @pytest.mark.parametrize(("m", "layout"), [
     (chain(1), "joint"), (chain(6), "joint"), (known.four_bar(), "joint"), (four_bars(1), "joint"), (star(16), "joint"),
-    (chain(100), "absolute"), (four_bars(10), "absolute"), (star(300), "absolute"), (binary_tree(7), "absolute")],
+    (zd.models.andrews(), "joint"), (chain(24), "absolute"), (chain(100), "absolute"),
+    (four_bars(10), "absolute"), (star(300), "absolute"), (binary_tree(7), "absolute")],
     ids=lambda given: getattr(given, "name", given))
 def test_the_ends_are_clear(m, layout):
     assert m.system().layout == layout

@@ -10,8 +10,8 @@ coordinates n, and m rows that close loops:
 D is the sum of the bodies' depths in the tree, and R that of the depths of both bodies of each row that closes a loop, as these
 are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in
 the order in which a run eliminates; all else that a step does for each body and joint grows with them. Weights are those that
-tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies; those of absolute
-coordinates are a third larger, as mechanisms whose loops share bodies, such as Andrews', take more than these.
+tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies; but a is larger, as
+mechanisms of unequal bodies that share loops take more in absolute coordinates, Andrews' three times what is counted.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .tables import Tables
 
 FACTORIZATIONS = 5
 JOINT = 1.0, 700.0, 40.0, 650.0     # 1, b, d, r
-ABSOLUTE = 11000.0, 4.2             # a, s
+ABSOLUTE = 16000.0, 2.5             # a, s
 NANOSECONDS = 0.38      # of an operation, there
 DEARER = 3.0            # so many times the operations are worth a sentence, and
 WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
