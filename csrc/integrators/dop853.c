@@ -97,10 +97,9 @@ ZD_INLINE void add_up(const int size, const double *weight, double h, const doub
 }
 
 /* The polynomial between the ends of the step just made, of order seven: its coefficients are seven vectors. */
-static int spread(void *memory, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
+ZD_INLINE int spread_sized(const int size, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
 {
-    zd_runge_kutta *self = memory;
-    const int size = self->size, positions = rate->direct ? rate->system->nq : 0;
+    const int positions = rate->direct ? rate->system->nq : 0;
     double *k = self->k, *F = self->polynomial, *f1 = k + STAGES * size;
     int status = rate->evaluate(rate->context, t + h, y1, f1);
     ZD_UNROLL
@@ -118,6 +117,15 @@ static int spread(void *memory, const zd_rate *rate, double t, double h, const d
     ZD_UNROLL
     for (int i = 0; i < 4; i++) add_up(size, d + i * ALL, h, k, F + (3 + i) * size);
     return status;
+}
+
+/* Of three and four coordinates with as many velocities, whose sums are written out; and of any */
+static int spread(void *memory, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
+{
+    zd_runge_kutta *self = memory;
+    return self->size == 6   ? spread_sized(6, self, rate, t, h, y0, y1)
+         : self->size == 8   ? spread_sized(8, self, rate, t, h, y0, y1)
+                             : spread_sized(self->size, self, rate, t, h, y0, y1);
 }
 
 static void between(const void *memory, double x, const double *y0, double *y)

@@ -6,8 +6,6 @@
  */
 #include "between.h"
 
-#include <math.h>
-
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder)
 {
     zd_output self = {
@@ -46,6 +44,11 @@ static int is_wanted(const zd_output *self, double until)
     return !zd_output_is_complete(self) && self->t_eval[self->next] <= until;
 }
 
+static int is_wanted_before(const zd_output *self, double t)
+{
+    return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
+}
+
 /* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step. */
 static int move_to_next(zd_output *self)
 {
@@ -60,7 +63,7 @@ static int move_to_next(zd_output *self)
 static int save_within(zd_output *self, zd_record *record)
 {
     int status = ZD_DONE;
-    while (!status && is_wanted(self, nextafter(self->after.t, -INFINITY))) {
+    while (!status && is_wanted_before(self, self->after.t)) {
         if (!zd_record_has_room(record)) return ZD_FULL;
         status = move_to_next(self);
         if (!status) status = zd_recorder_add(self->recorder, record);
