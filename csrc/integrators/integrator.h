@@ -13,11 +13,14 @@ typedef struct zd_integrator {
     int (*step)(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics);
     /* Instead of it, where rates are not enough and a step has constraints and impulses of its own. */
     int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);
+    /* By what the error of the next step will be measured, about: (size,). NULL: it makes no difference to the step. */
+    void (*weigh)(void *self, int size, const double *scale);
     double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
      * there, 0: not known; NULL where card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h);
+    double (*longest)(const void *self);    /* the longest step after the one just made that it is likely to solve; NULL: any */
     /* A polynomial between y0 and y1, the ends of the step just made from t to t + h, whose error is that of the method; then its value y at a
      * share of the step. NULL: there is none, and shorter steps lead between. */
     int (*spread)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);

@@ -12,7 +12,7 @@
 #include "../linalg/lu.h"
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
-#include "integrator.h"
+#include "differences.h"
 
 enum { MAX_ITERATIONS = 20 };
 static const double SLOW = 0.01;                /* a matrix is made anew when an iteration leaves more of the defect */
@@ -25,13 +25,10 @@ typedef struct trapezoidal {
     double *y0, *f0;    /* (size,) */
     double *y1, *f1;    /* (size,) */
     double *g;          /* (size,): the defect, then Newton's step */
-    double *varied;     /* (size,): f at a varied y1 */
-    double *scale;      /* (size,): largest terms seen in each equation: these have units of their own */
-    double *J;          /* (size, size): I - h/2 df/dy, factored */
-    double *unit;       /* (size,): powers of two near scale when J was made, which is in these units: pivots compare */
+    zd_differences differences;
+    double *J;          /* (size, size): I - h/2 df/dy in the units of the differences, factored */
     int *order;         /* (size,) */
     int factored;
-    double least_size;      /* of y_i, for the choice of differences: where y_i and f_i are rounding, they do not show their size */
     double factored_h;
     const zd_rate *rate;    /* of the step being solved, as are the next three */
     double t1, h;
@@ -55,9 +52,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .y1 = zd_take_doubles(arena, n),
         .f1 = zd_take_doubles(arena, n),
         .g = zd_take_doubles(arena, n),
-        .varied = zd_take_doubles(arena, n),
-        .scale = zd_take_doubles(arena, n),
-        .unit = zd_take_doubles(arena, n),
+        .differences = zd_differences_take(arena, size),
         .J = zd_take_doubles(arena, n * n),
         .order = zd_take(arena, n * sizeof(int)),
     };
@@ -69,37 +64,12 @@ static int rate_at_end(trapezoidal *self, double *f)
     return self->rate->evaluate(self->rate->context, self->t1, self->y1, f);
 }
 
-/* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
-static double increment(const trapezoidal *self, int i)
-{
-    double size = fmax(fabs(self->y1[i]), fmax(fabs(self->h * self->f1[i]), fmax(self->scale[i], self->least_size)));
-    return 0x1p-26 * (size > 0 ? size : 1);
-}
-
-static void choose_units(trapezoidal *self)
-{
-    for (int i = 0; i < self->size; i++) {
-        int exponent = 0;
-        double size = fmax(self->scale[i], self->least_size);
-        if (size > 0 && size < INFINITY) (void)frexp(size, &exponent);
-        self->unit[i] = ldexp(1, exponent);
-    }
-}
-
 static int factor_matrix(trapezoidal *self)
 {
-    int n = self->size;
-    choose_units(self);
-    for (int j = 0; j < n; j++) {
-        double here = self->y1[j];
-        self->y1[j] = here + increment(self, j);
-        double change = self->y1[j] - here;
-        int status = rate_at_end(self, self->varied);
-        self->y1[j] = here;
-        if (status) return status;
-        for (int i = 0; i < n; i++)
-            self->J[i * n + j] = (i == j) - 0.5 * self->h * (self->varied[i] - self->f1[i]) / change * (self->unit[j] / self->unit[i]);
-    }
+    const int n = self->size;
+    int status = zd_differences_make(&self->differences, self->rate, self->t1, self->h, -0.5 * self->h, self->y1, self->f1, self->J);
+    if (status) return status;
+    for (int i = 0; i < n; i++) self->J[i * n + i] += 1;
     self->factored = zd_lu_factor(n, self->J, self->order) == n;
     self->factored_h = self->h;
     return self->factored ? ZD_DONE : ZD_NO_STEP;
@@ -110,17 +80,17 @@ static int residual(void *context, double *size)
     trapezoidal *self = context;
     int status = rate_at_end(self, self->f1);
     if (status) return status;
-    double largest = 0, scale = 0, from_nothing = 0;
+    double largest = 0, scale = 0, from_nothing = 0, *seen = self->differences.scale;
     self->defect = 0;
     for (int i = 0; i < self->size; i++) {
         double mean = 0.5 * self->h * (self->f0[i] + self->f1[i]);
         double g = self->g[i] = self->y1[i] - self->y0[i] - mean;
-        self->scale[i] = fmax(self->scale[i], fabs(self->y0[i]) + fabs(mean));
-        if (g != 0 && self->scale[i] > 0) self->defect = fmax(self->defect, fabs(g) / self->scale[i]);
+        seen[i] = fmax(seen[i], fabs(self->y0[i]) + fabs(mean));
+        if (g != 0 && seen[i] > 0) self->defect = fmax(self->defect, fabs(g) / seen[i]);
         else from_nothing = fmax(from_nothing, fabs(g));
         if (isnan(g)) self->defect = INFINITY;
         largest = fmax(largest, fabs(g));
-        scale = fmax(scale, self->scale[i]);
+        scale = fmax(scale, seen[i]);
     }
     /* Where y and f have been zero so far, what a solve has left there is its rounding of all others. */
     if (from_nothing > 0) self->defect = fmax(self->defect, from_nothing / scale);
@@ -141,9 +111,9 @@ static int improve(void *context)
         int status = factor_matrix(self);
         if (status) return status;
     }
-    for (int i = 0; i < self->size; i++) self->g[i] /= self->unit[i];
+    for (int i = 0; i < self->size; i++) self->g[i] /= self->differences.unit[i];
     zd_lu_solve(self->size, self->J, self->order, self->g);
-    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i] * self->unit[i];
+    for (int i = 0; i < self->size; i++) self->y1[i] -= self->g[i] * self->differences.unit[i];
     return ZD_DONE;
 }
 
@@ -164,7 +134,7 @@ static void resize(trapezoidal *self, int size)
     if (size == self->size) return;
     self->size = size;
     self->factored = 0;
-    memset(self->scale, 0, (size_t)size * sizeof(double));
+    zd_differences_resize(&self->differences, size);
 }
 
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
@@ -180,11 +150,11 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     if (status) return status;
     for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
 
-    self->least_size = 0;
+    self->differences.least_size = 0;
     status = solve_step(self, statistics);
     if (status == ZD_NO_CONVERGENCE || status == ZD_NO_STEP) {
         self->factored = 0;
-        self->least_size = 1e-3 * zd_max_abs(self->size, y);
+        self->differences.least_size = 1e-3 * zd_max_abs(self->size, y);
         for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
         status = solve_step(self, statistics);
     }

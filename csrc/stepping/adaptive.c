@@ -91,11 +91,19 @@ static void watch_stiffness(zd_course *course, double lambda_h)
     } else if (++control->below_limit >= NOT_STIFF_AFTER) control->at_limit = 0;
 }
 
+static void weigh(zd_course *course)
+{
+    zd_stepper *stepper = course->stepper;
+    set_scale(course, stepper->y, stepper->y);
+    stepper->integrator->weigh(stepper->memory, course->motion->rate.size, course->control.scale);
+}
+
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
 static int attempt(zd_course *course, double h, double t1, double *norm)
 {
     zd_stepper *stepper = course->stepper;
     const int is_short = zd_is_short(course);
+    if (stepper->integrator->weigh) weigh(course);
     int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(stepper, h);
     if (status) return status;
     set_scale(course, stepper->last.y, stepper->y);
@@ -152,6 +160,8 @@ int zd_adaptive_step(zd_course *course)
         }
         if (!status && norm <= 1) {
             course->control.h = h * fmin(largest, factor(course, norm));
+            if (course->stepper->integrator->longest)
+                course->control.h = fmin(course->control.h, course->stepper->integrator->longest(course->stepper->memory));
             zd_pace_step(&course->control.pace, t1);
             return ZD_DONE;
         }

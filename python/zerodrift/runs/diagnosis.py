@@ -91,7 +91,7 @@ def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
                                  f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")
     if stats["stiff"]:
         yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
-                                 f"of its {steps} steps; an implicit method takes longer ones")
+                                 f"of its {steps} steps; an implicit method, as 'radau', takes longer ones")
 
 
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:

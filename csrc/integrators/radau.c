@@ -1,0 +1,377 @@
+/* Radau's method IIA with three stages, of order five:
+ *
+ *     z_i = h sum_j a_ij f(t + c_j h, y + z_j),    y <- y + z_3
+ *
+ * It is stable for steps of any size and damps what it cannot resolve. Z is found by Newton's iteration; with A^-1 = T Lambda T^-1 and W = T^-1 Z,
+ * its equations (Lambda / h) W - J W = T^-1 F(Z) - (Lambda / h) W fall apart into one real and one complex system of the state's size. J is kept from
+ * step to step as long as the iteration contracts well with it, and its factors as long as h stays.
+ *
+ * E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd edition, 1996, section IV.8: the numbers, the estimate of the error,
+ * and when to make J anew.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "../linalg/newton.h"
+#include "../linalg/norms.h"
+#include "../linalg/small.h"
+#include "radau_matrices.h"
+
+enum {
+    STAGES = 3,
+    MOST_ITERATIONS = 40,   /* to rounding; */
+    WORTHWHILE = 10,        /* where an error is allowed, shorter steps are cheaper than more of them */
+};
+
+static const double c[STAGES] = {0.15505102572168219018, 0.64494897427831780982, 1};
+static const double GAMMA = ZD_RADAU_GAMMA, ALPHA = ZD_RADAU_ALPHA, BETA = ZD_RADAU_BETA;
+static const double T[STAGES][STAGES] = {
+    {0.0944387624889752415, -0.141255295020954208, 0.0300291941051474245},
+    {0.250213122965333311, 0.204129352293799932, -0.382942112757261938},
+    {1, 1, 0},
+};
+static const double T_inverse[STAGES][STAGES] = {
+    {4.17871859155190473, 0.327682820761062387, 0.523376445499449548},
+    {-4.17871859155190473, -0.327682820761062387, 0.476623554500550452},
+    {0.502872634945786876, -2.57192694985560543, 0.596039204828224925},
+};
+/* Of the error's estimate, in the stages: (-13 - 7 sqrt(6)) / 3, (-13 + 7 sqrt(6)) / 3, -1 / 3 */
+static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, -1.0 / 3};
+
+static const double SLOW = 0.001;               /* J is made anew for the next step when an iteration has left more of the one before */
+static const double SMALL = 0.001;              /* of the error that is allowed: what the iteration may leave */
+static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
+static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding */
+static const double LEAST = 1e-3;               /* of the largest entry of the state: the others are varied by no less */
+static const double SHORTER = 0.5, GROWTH = 0.005;  /* the bound: of a step that was too long for the iteration; more with each that was not */
+static const double STALLED = 0.5;              /* of the change before: an iteration that changes more has stalled */
+
+typedef struct radau {
+    int size;
+    double *f0;             /* (size,): where the step begins */
+    double *f, *z, *w;      /* (STAGES, size) */
+    double *change;         /* (STAGES, size): of w, by an iteration */
+    double *before;         /* (STAGES, size): z of the step before, by which an iteration starts */
+    double *stage;          /* (size,) */
+    double *error_scale;    /* (size,): what the error of the step is measured by, */
+    int has_scale;          /* if it is: values within a step, which are not, are solved to rounding, as they have to be the same whenever asked for */
+    zd_radau_matrices matrices;
+    double *seen;           /* (size,): the differences' scale */
+    double t0, h;           /* of the step last made, from its beginning */
+    double before_h;        /* 0: there was no step before */
+    int is_new_J;           /* whether it was made at the start of this step */
+    double contraction;     /* what the last iteration left of the change before */
+    double bound;           /* s: of steps, from one that was too long for the iteration, and growing since; 0: there was none */
+    int steps_since;        /* that */
+    double norm_before;     /* of the iteration before, in this step; 0: there was none */
+    int iterations;
+    /* of the step being solved */
+    const zd_rate *rate;
+    const double *y0;
+} radau;
+
+static int suits(const zd_system *system)
+{
+    return !zd_is_too_large(system);
+}
+
+static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+{
+    (void)given;
+    (void)table, (void)system;
+    const size_t n = (size_t)size;
+    radau self = {
+        .size = size,
+        .f0 = zd_take_doubles(arena, n),
+        .f = zd_take_doubles(arena, STAGES * n),
+        .z = zd_take_doubles(arena, STAGES * n),
+        .w = zd_take_doubles(arena, STAGES * n),
+        .change = zd_take_doubles(arena, STAGES * n),
+        .before = zd_take_doubles(arena, STAGES * n),
+        .stage = zd_take_doubles(arena, n),
+        .error_scale = zd_take_doubles(arena, n),
+        .matrices = zd_radau_matrices_take(arena, size),
+        .contraction = 1,
+    };
+    self.seen = self.matrices.differences.scale;
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+/* to (STAGES, n) <- matrix (STAGES, STAGES) times from */
+static void transform(int n, const double matrix[STAGES][STAGES], const double *from, double *to)
+{
+    for (int s = 0; s < STAGES; s++)
+        for (int i = 0; i < n; i++) to[s * n + i] = matrix[s][0] * from[i] + matrix[s][1] * from[n + i] + matrix[s][2] * from[2 * n + i];
+}
+
+/* ---- Newton's iteration ---- */
+
+static void see_sizes(radau *self)
+{
+    const int n = self->size;
+    const double *z = self->z, *change = self->change;
+    double *seen = self->seen;
+    for (int k = 0; k < STAGES * n; k++) seen[k % n] = fmax(seen[k % n], fabs(z[k]) + fabs(change[k]));
+}
+
+/* In units of what an iteration may leave */
+static double measure(const radau *self)
+{
+    const int n = self->size;
+    const double *scale = self->has_scale ? self->error_scale : self->seen;
+    double sum = 0, largest = 0;
+    for (int k = 0; k < STAGES * n; k++) {
+        const double part = fabs(self->change[k]) / scale[k % n];
+        if (self->change[k] == 0) continue;
+        if (isnan(part)) return part;
+        sum += part * part;
+        largest = fmax(largest, part);
+    }
+    return self->has_scale ? sqrt(sum / (STAGES * n)) / SMALL : largest / ROUNDING;
+}
+
+/* Whether a change is what rates are rounded by. Entries of the state that are nothing but rounding do not show their size: that of all has to do. */
+static int is_rounding(const radau *self)
+{
+    return zd_max_abs(STAGES * self->size, self->change) < NEARLY * zd_max_abs(self->size, self->seen);
+}
+
+/* change <- what an iteration adds to w */
+static void solve(radau *self)
+{
+    const int n = self->size;
+    const double h = self->h, *w = self->w;
+    double *x = self->change;
+    transform(n, T_inverse, self->f, x);
+    for (int i = 0; i < n; i++) {
+        x[i] -= GAMMA / h * w[i];
+        x[n + i] -= (ALPHA * w[n + i] + BETA * w[2 * n + i]) / h;
+        x[2 * n + i] -= (ALPHA * w[2 * n + i] - BETA * w[n + i]) / h;
+    }
+    zd_radau_solve_real(&self->matrices, x);
+    zd_radau_solve_complex(&self->matrices, x + n, x + 2 * n);
+}
+
+static int add_change(void *context)
+{
+    radau *self = context;
+    for (int i = 0; i < STAGES * self->size; i++) self->w[i] += self->change[i];
+    transform(self->size, T, self->w, self->z);
+    return ZD_DONE;
+}
+
+static int evaluate_stages(radau *self)
+{
+    const int n = self->size;
+    for (int s = 0; s < STAGES; s++) {
+        for (int i = 0; i < n; i++) self->stage[i] = self->y0[i] + self->z[s * n + i];
+        int status = self->rate->evaluate(self->rate->context, self->t0 + c[s] * self->h, self->stage, self->f + s * n);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}
+
+/* `size` is what w will miss once the change has been added, as the iteration contracts. */
+static int residual(void *context, double *size)
+{
+    radau *self = context;
+    int status = evaluate_stages(self);
+    if (status) return status;
+    solve(self);
+    see_sizes(self);
+    const double norm = measure(self), before = self->norm_before;
+    const int left = WORTHWHILE - ++self->iterations;
+    if (before > 0) self->contraction = norm / before;
+    const double share = self->contraction;
+    self->norm_before = norm;
+    *size = norm == 0 ? 0 : share < 1 ? share / (1 - share) * norm : norm;
+    if (before > 0 && share > STALLED && is_rounding(self)) *size = 0;
+    else if (self->has_scale && before > 0 && !(share < 1 && *size * pow(share, left) <= 1)) return ZD_NO_CONVERGENCE;
+    return *size <= 1 ? add_change(self) : ZD_DONE;
+}
+
+static int iterate(radau *self, zd_statistics *statistics)
+{
+    const zd_newton newton = {residual, add_change, 1, MOST_ITERATIONS, 0, NULL};
+    int iterations;
+    double left;
+    transform(self->size, T_inverse, self->z, self->w);
+    self->norm_before = 0;
+    self->iterations = 0;
+    self->contraction = pow(fmax(self->contraction, 0x1p-52), 0.8);
+    int status = zd_newton_solve(&newton, self, &iterations, &left);
+    statistics->implicit_iterations += self->iterations;
+    return status;
+}
+
+/* ---- a step ---- */
+
+/* The value at a share of the step of the polynomial through 0 and the three stages z */
+static double value_between(const double *z, int n, double x)
+{
+    double sum = 0;
+    for (int i = 0; i < STAGES; i++) {
+        double basis = x / c[i];
+        for (int j = 0; j < STAGES; j++)
+            if (j != i) basis *= (x - c[j]) / (c[i] - c[j]);
+        sum += basis * z[i * n];
+    }
+    return sum;
+}
+
+/* z from where the step before leads, or from nothing */
+static void start(radau *self)
+{
+    const int n = self->size;
+    memset(self->z, 0, (size_t)(STAGES * n) * sizeof(double));
+    if (self->before_h == 0) return;
+    for (int s = 0; s < STAGES; s++)
+        for (int i = 0; i < n; i++)
+            self->z[s * n + i] = value_between(self->before + i, n, 1 + c[s] * self->h / self->before_h) - self->before[2 * n + i];
+}
+
+/* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
+static void remember(radau *self, double t, double h, int size)
+{
+    if (size != self->size) {
+        self->size = size;
+        self->h = self->before_h = 0;
+        zd_radau_matrices_resize(&self->matrices, size);
+    }
+    const double end = self->t0 + self->h;
+    if (self->h != 0 && fabs(t - end) <= ROUNDING * fabs(end)) {
+        double *old = self->before;
+        self->before = self->z;
+        self->z = old;
+        self->before_h = self->h;
+    } else if (t != self->t0) self->before_h = 0;
+    self->t0 = t;
+    self->h = h;
+}
+
+static int solve_step(radau *self, double *y, int with_new_J, zd_statistics *statistics)
+{
+    zd_radau_matrices *matrices = &self->matrices;
+    self->is_new_J = with_new_J;
+    int status = with_new_J ? zd_radau_make_J(matrices, self->rate, self->t0, self->h, y, self->f0) : ZD_DONE;
+    if (!status && matrices->h != self->h) status = zd_radau_factor(matrices, self->h);
+    if (status) return status;
+    start(self);
+    return iterate(self, statistics);
+}
+
+static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
+{
+    radau *self = memory;
+    remember(self, t, h, rate->size);
+    self->rate = rate;
+    self->y0 = y;
+    int status = zd_rate_of_beginning(rate, t, y, self->f0);
+    if (status) return status;
+    self->matrices.differences.least_size = LEAST * zd_max_abs(rate->size, y);
+    for (int i = 0; i < rate->size; i++) self->seen[i] = fmax(self->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
+    status = solve_step(self, y, !self->matrices.has_J, statistics);
+    if (status && status != ZD_CALLBACK && !self->is_new_J) {
+        self->contraction = 1;
+        status = solve_step(self, y, 1, statistics);
+    }
+    self->has_scale = 0;
+    self->matrices.has_J = !status && (self->contraction <= SLOW || self->iterations <= 2);
+    if (status) {
+        self->contraction = 1;
+        self->bound = SHORTER * h;
+        self->steps_since = 0;
+        self->h = 0;
+        return status == ZD_NO_CONVERGENCE || status == ZD_NOT_FINITE ? ZD_NO_STEP : status;
+    }
+    self->bound *= ++self->steps_since * GROWTH + 1;
+    for (int i = 0; i < self->size; i++) y[i] += self->z[2 * self->size + i];
+    return ZD_DONE;
+}
+
+/* ---- its error ---- */
+
+static void weigh(void *memory, int size, const double *scale)
+{
+    radau *self = memory;
+    memcpy(self->error_scale, scale, (size_t)size * sizeof *scale);
+    self->has_scale = 1;
+}
+
+static double root_mean_square(int n, const double *x, const double *scale)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += x[i] / scale[i] * (x[i] / scale[i]);
+    return sqrt(sum / n);
+}
+
+/* error <- (gamma / h - J)^-1 (f + sum_i e_i z_i / h) */
+static void estimate(const radau *self, const double *f, double *error)
+{
+    const int n = self->size;
+    const double *z = self->z;
+    for (int i = 0; i < n; i++) error[i] = f[i] + (e[0] * z[i] + e[1] * z[n + i] + e[2] * z[2 * n + i]) / self->h;
+    zd_radau_solve_real(&self->matrices, error);
+}
+
+/* Where the step is long for the fastest parts, what it damps is taken for error at first: what follows if that is added at the beginning. */
+static int error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
+                 double *lambda_h)
+{
+    (void)t1, (void)h;
+    radau *self = memory;
+    const int n = self->size;
+    double *error = self->change, *f = self->f;
+    *lambda_h = 0;
+    estimate(self, self->f0, error);
+    *norm = root_mean_square(n, error, scale);
+    if (*norm <= 1) return ZD_DONE;
+    for (int i = 0; i < n; i++) self->stage[i] = y[i] - self->z[2 * n + i] + error[i];
+    int status = rate->evaluate(rate->context, self->t0, self->stage, f);
+    if (status) return status;
+    estimate(self, f, error);
+    *norm = root_mean_square(n, error, scale);
+    return ZD_DONE;
+}
+
+/* What the iteration contracts by is not known beforehand, as J changes within a step: so it is tried. */
+static double longest(const void *memory)
+{
+    const radau *self = memory;
+    return self->bound > 0 ? self->bound : INFINITY;
+}
+
+/* The polynomial that the stages lie on */
+static int spread(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
+{
+    (void)self, (void)rate, (void)t, (void)h, (void)y0, (void)y1;
+    return ZD_DONE;
+}
+
+static void between(const void *memory, double share, const double *y0, double *y)
+{
+    const radau *self = memory;
+    for (int i = 0; i < self->size; i++) y[i] = y0[i] + value_between(self->z + i, self->size, share);
+}
+
+const zd_integrator zd_radau = {
+    .card = {
+        .name = "radau",
+        .summary = "Radau's implicit method IIA with three stages, of order five, for stiff systems.",
+        .equations = "Hairer and Wanner, section IV.8",
+        .order = 5, .error_order = 3,
+        .description = "Order five, stable for steps of any size, and parts that are too fast for a step are damped: for stiff systems, "
+                       "at steps chosen by an error estimate of order three. Its equations are solved by Newton's iteration with a "
+                       "Jacobian from differences, which is kept while it serves.",
+        .reference = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II: Stiff and Differential-Algebraic Problems, "
+                     "2nd edition, Springer, 1996, section IV.8",
+    },
+    .suits = suits,
+    .take = take,
+    .step = step,
+    .weigh = weigh,
+    .error = error,
+    .longest = longest,
+    .spread = spread,
+    .between = between,
+};

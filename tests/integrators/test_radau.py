@@ -1,0 +1,114 @@
+"""Radau's method against its equations solved by SciPy, its closed form, and SciPy's own on stiff systems."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
+import tolerances as tol
+import zerodrift as zd
+from support import assert_close, rate
+
+C = np.array([(4 - np.sqrt(6)) / 10, (4 + np.sqrt(6)) / 10, 1])
+A = np.array([C ** (k + 1) / (k + 1) for k in range(3)]).T @ np.linalg.inv(np.vander(C, increasing=True))     # its collocation
+
+
+def test_a_step_satisfies_its_equations(system):
+    """z_i = h sum_j a_ij f(t + c_j h, y + z_j), with f from NumPy, and not what the projection does to its end."""
+    h = 0.02
+    sol = zd.simulate(system, 3 * h, step=h, integrator="radau", stabilization=None)
+    y = np.hstack([sol.p, sol.v])
+    for k in range(3):
+        def defect(z, k=k):
+            stages = z.reshape(3, -1)
+            f = np.array([rate(system, sol.t[k] + c * h, y[k] + stage) for c, stage in zip(C, stages, strict=True)])
+            return (stages - h * A @ f).ravel()
+        start = np.array([c * h * rate(system, sol.t[k], y[k]) for c in C]).ravel()
+        z = fsolve(defect, start, xtol=1e-14).reshape(3, -1)
+        assert_close(y[k + 1], y[k] + z[2], tol.STEPPED, scale=np.abs(y[k]).max())
+
+
+@pytest.mark.parametrize("omega_h", [0.1, 1.0, 30.0, 1e4])
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning", "ignore::zerodrift.AccuracyWarning")
+def test_of_an_oscillator_it_is_its_rational_function(omega_h):
+    """R(z) = (1 + 2z/5 + z^2/20) / (1 - 3z/5 + 3z^2/20 - z^3/60), of z = h A; beyond all steps that resolve it, it dies out."""
+    stiffness, h = 1.0, omega_h
+    oscillator = zd.systems.oscillator(mass=1.0, stiffness=stiffness, x0=0.3, v0=-0.2)
+    z = h * np.array([[0, 1], [-stiffness, 0]])
+    one = np.eye(2)
+    R = np.linalg.solve(one - 3 / 5 * z + 3 / 20 * z @ z - z @ z @ z / 60, one + 2 / 5 * z + z @ z / 20)
+    sol = zd.simulate(oscillator, 20 * h, step=h, integrator="radau")
+    expected = [np.linalg.matrix_power(R, k) @ (0.3, -0.2) for k in range(21)]
+    assert_close(np.hstack([sol.p, sol.v]), expected, 1e-12, scale=1)
+    if omega_h > 1e3:
+        assert np.abs(sol.p[-1]) < 1e-12
+
+
+def bushed_crank(stiffness, damping):
+    m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0.1, 0), mass=0.5)
+    rod = m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
+    piston = m.particle("piston", 0.4, at=(0.4, 0))
+    m.revolute("main", m.ground, crank.start)
+    m.bushing("pin", crank.end, rod.start, stiffness=stiffness, damping=damping)
+    m.revolute("wrist", rod.end, piston)
+    m.slot("cylinder", m.ground, piston, axis=(1, 0))
+    return m.system()
+
+
+def test_stiff_bushings(formulation):
+    """Beside an explicit method: as far off as its tolerance says, in a tenth of the steps, and nothing is said of stiffness."""
+    system = bushed_crank(1e7, 1e3)
+    with pytest.warns(zd.StabilityWarning, match="stiff for 'dop853'"):
+        exact = zd.simulate(system, 0.5, rtol=1e-10, atol=1e-10, integrator="dop853")
+    sol = zd.simulate(system, 0.5, rtol=1e-7, atol=1e-7, integrator="radau", formulation=formulation)
+    assert np.abs(sol.p[-1] - exact.p[-1]).max() < 1e-6
+    assert sol.stats["steps"] < exact.stats["steps"] / 10
+    assert np.abs(sol.position_violation).max() <= 1e-12
+
+
+@pytest.mark.parametrize("omega", [1e2, 1e5, 1e8])
+def test_steps_do_not_shrink_as_a_system_becomes_stiffer(omega):
+    """A slow mass, and a light one that follows it by a hard spring and damper: beside SciPy's Radau, which shares no code."""
+    system = zd.System(2, mass=np.eye(2), p0=[1.0, 1.0], parameters={"w": omega},
+                       force=lambda p, v, w: np.array([-p[0], w * w * (p[0] - p[1]) + 2 * w * (v[0] - v[1])]))
+    sol = zd.simulate(system, 3.0, rtol=1e-6, atol=1e-8, integrator="radau")
+    other = solve_ivp(lambda t, y: [y[2], y[3], -y[0], omega**2 * (y[0] - y[1]) + 2 * omega * (y[2] - y[3])],
+                      (0, 3), [1.0, 1, 0, 0], method="Radau", rtol=1e-6, atol=1e-8)
+    assert abs(sol.p[-1, 0] - np.cos(3)) < 1e-5
+    assert abs(sol.p[-1, 1] - np.cos(3)) < 1e-5 + 2 / omega**2
+    assert sol.stats["steps"] < 1.5 * len(other.t)
+    assert sol.stats["evaluations"] < 1.5 * other.nfev + 50 * other.njev
+
+
+def test_values_between_are_those_of_its_stages(bar):
+    """They err as the steps that are chosen do, and are corrected alike."""
+    times = np.linspace(0, 2, 117)
+    exact = zd.simulate(bar, 2.0, step=2 / 1600, integrator="dop853")
+    for rtol in (1e-5, 1e-8):
+        steps = zd.simulate(bar, 2.0, rtol=rtol, atol=rtol, integrator="radau")
+        sol = zd.simulate(bar, 2.0, rtol=rtol, atol=rtol, integrator="radau", t_eval=times)
+        assert sol.stats["evaluations"] - steps.stats["evaluations"] < 4 * len(times)
+        error = max(np.abs(steps.p - exact(steps.t)[0]).max(), rtol)
+        assert np.abs(sol.p - exact(times)[0]).max() <= 3 * error
+        assert np.abs(sol.position_violation).max() <= 1e-12
+        assert np.abs(sol.velocity_violation).max() <= 1e-12
+
+
+def test_a_jacobian_serves_for_many_steps(bar):
+    """Or each step would take as many evaluations more as the state has entries."""
+    sol = zd.simulate(zd.systems.oscillator(), 10.0, step=0.01, integrator="radau")
+    assert sol.stats["evaluations"] < 1000 * 10
+
+
+def test_what_it_cannot_solve_is_said(bar):
+    with pytest.raises(zd.StepFailed, match=r"implicit 'radau' step were not solved; try a smaller step$"):
+        zd.simulate(bar, 8.0, step=4.0, integrator="radau")
+    chain = zd.Mechanism("chain")
+    before = chain.ground
+    for k in range(101):
+        link = chain.link(f"link {k}", (k, 0), (k + 1, 0), mass=1.0)
+        chain.revolute(f"pin {k}", before, link.start)
+        before = link.end
+    with pytest.raises(zd.UnsuitedIntegrator, match=r"'radau' .* up to 300 velocities"):
+        zd.simulate(chain.system("absolute"), 0.1, step=0.01, integrator="radau")
