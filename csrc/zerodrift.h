@@ -234,7 +234,16 @@ double zd_run_omega_h(const zd_run *run);                   /* largest omega h o
 
 /* ---- many runs of one system, whose numbers differ ---- */
 
-enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES };     /* how a run was made: not, as one that is created, or beside others */
+enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES, ZD_UNUSUAL };     /* how a run was made: not, as one that is created, or beside others */
+
+/* Systems of one shape, of which every run has its own. */
+typedef struct zd_family {
+    const void *of;
+    /* The system of a run, and where it starts if this is not known before, p (nq,), v (nv,). NULL: it is one that somebody has to look at more
+     * closely. In any case free(*made) has to follow. Several threads may call it. */
+    const zd_system *(*make)(const void *of, int64_t run, double *p, double *v, void **made);
+    void (*free)(void *made);
+} zd_family;
 
 /* Runs that differ by the data of their system and by their start. Entries of a run follow those of the run before; results that are NULL are
  * not wanted. */
@@ -244,7 +253,8 @@ typedef struct zd_batch {
     int64_t runs;
     const double *data;             /* (runs, doubles): in the place of the system's; NULL: that is the same for all */
     int64_t doubles;                /* that this is; 0: it consists of others, and is the same for all */
-    const double *p0, *v0;          /* (runs, nq), (runs, nv) */
+    const zd_family *family;        /* NULL: all have the system, but for its data */
+    const double *p0, *v0;          /* (runs, nq), (runs, nv); NULL: as the family finds them */
     const zd_settings *assembly;    /* starts are put onto the constraints first, as zd_project() does it by these; NULL: they are not */
     const int *hold_p, *hold_v;     /* (nq,), (nv,): what that holds; NULL: nothing */
     int lanes;                      /* whether runs are made in vector lanes where they can */
@@ -259,7 +269,7 @@ typedef struct zd_batch {
     double *t_events, *p_events, *v_events; /* (runs, events, events_capacity), (.., nq), (.., nv): where the first of them did */
     int64_t *rows;                  /* (runs,) that were saved */
     int *status;                    /* (runs,) ZD_PAUSED where it was stopped */
-    int *way;                       /* (runs,) of zd_way; one that could not be created is not begun */
+    int *way;                       /* (runs,) of zd_way; one that could not be created is not begun, and what its family does not make is unusual */
     zd_statistics *statistics;      /* (runs,) */
     double *kinetic, *energy_error; /* (runs,) as zd_run_kinetic() and zd_run_energy_error() have them */
     char *message;                  /* (runs, message_size): of runs that failed, or ended early */

@@ -14,7 +14,7 @@
 static int are_of_pins(const zd_batch *batch)
 {
     const zd_formulation *formulation = zd_formulation_of(batch->settings->formulation);
-    return batch->system->pinned && !batch->data && zd_takes_many_rows(formulation, batch->system);
+    return batch->system->pinned && !batch->data && !batch->settings->events && zd_takes_many_rows(formulation, batch->system);
 }
 
 static int are_known(const zd_events *events)
@@ -29,7 +29,7 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
-    if (!batch->lanes || system->quaternions || settings->outputs || !are_known(settings->events) || settings->given_jacobian
+    if (!batch->lanes || batch->family || system->quaternions || settings->outputs || !are_known(settings->events) || settings->given_jacobian
         || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;

@@ -79,8 +79,8 @@ int zd_batch_is_stopped(const zd_batch *batch)
 
 int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_single *own, int64_t run)
 {
-    memcpy(own->p, batch->p0 + run * system->nq, (size_t)system->nq * sizeof(double));
-    memcpy(own->v, batch->v0 + run * system->nv, (size_t)system->nv * sizeof(double));
+    if (batch->p0) memcpy(own->p, batch->p0 + run * system->nq, (size_t)system->nq * sizeof(double));
+    if (batch->v0) memcpy(own->v, batch->v0 + run * system->nv, (size_t)system->nv * sizeof(double));
     if (!batch->assembly) return ZD_DONE;
     return zd_project(system, batch->assembly, batch->settings->t0, own->p, own->v, batch->hold_p, batch->hold_v, NULL,
                       zd_message_of(batch, run), batch->message_size);
@@ -118,18 +118,31 @@ static zd_settings settings_of(const zd_batch *batch, zd_found *found, zd_events
     return settings;
 }
 
-void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number)
+static void run_of(const zd_batch *batch, const zd_single *own, const zd_system *system, int64_t number)
 {
-    const zd_system system = zd_single_system(batch, number);
     zd_record record = record_of(batch, own, number);
     zd_found found = {batch, number};
     zd_events events;
     const zd_settings settings = settings_of(batch, &found, &events);
     zd_found_forget(batch, number);
-    batch->status[number] = zd_single_start(batch, &system, own, number);
+    batch->status[number] = zd_single_start(batch, system, own, number);
     if (batch->status[number]) return;
-    zd_run *run = zd_run_create(&system, &settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
+    zd_run *run = zd_run_create(system, &settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
                                 batch->message_size);
     if (run) advance(batch, run, &record, number);
     zd_run_free(run);
+}
+
+void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number)
+{
+    const zd_system system = zd_single_system(batch, number);
+    if (!batch->family) {
+        run_of(batch, own, &system, number);
+        return;
+    }
+    void *made;
+    const zd_system *mine = batch->family->make(batch->family->of, number, own->p, own->v, &made);
+    if (mine) run_of(batch, own, mine, number);
+    else batch->way[number] = ZD_UNUSUAL, batch->status[number] = ZD_DONE;
+    batch->family->free(made);
 }

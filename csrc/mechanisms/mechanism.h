@@ -70,6 +70,12 @@ int zd_mechanism_data_size(void);
  * functions that were written out from the plan: the pointer to these is what the data begins with. */
 void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double *numbers, void *data);
 
+/* A component of a measure that the start holds: of positions, or of velocities. */
+typedef struct zd_target {
+    int measure, component, is_rate;
+    double value;
+} zd_target;
+
 /* What all joints and elements come down to: links of a tree, rows of gauges, and efforts along gauges. Bodies have the tree's numbers
  * here, in which inner ones come first. */
 typedef struct zd_plan {

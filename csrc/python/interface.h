@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#include "../mechanisms/mechanism.h"
+#include "../mechanisms/varied.h"
 #include "../space/tables.h"
 #include "../zerodrift.h"
 

@@ -66,8 +66,8 @@ __all__ = [
 
 # Imported at first use: most people have no compiled systems of their own.
 _LATER = {
-    "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "Stop", "derive", "error_name", "has_lanes",
-                "run_batch", "tables_of_kind"),
+    "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "UNUSUAL", "Stop", "derive", "error_name",
+                "has_lanes", "run_batch", "tables_of_kind"),
     "functions": ("Function", "InLibrary", "TAKE_FAR_SINES", "address_of", "find", "hand_far_sines", "in_library", "load_data",
                   "numba_signature"),
     "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),

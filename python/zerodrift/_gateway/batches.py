@@ -13,7 +13,7 @@ from .runs import COUNTS, NAMES_AND_KINDS
 from .systems import CoreSystem, Kind
 
 STATISTICS = np.dtype([(name, {"int64_t": np.int64, "double": float}[kind]) for name, kind in NAMES_AND_KINDS.items()])
-NOT_BEGUN, BY_ITSELF, IN_LANES = lib.ZD_NOT_BEGUN, lib.ZD_BY_ITSELF, lib.ZD_IN_LANES
+NOT_BEGUN, BY_ITSELF, IN_LANES, UNUSUAL = lib.ZD_NOT_BEGUN, lib.ZD_BY_ITSELF, lib.ZD_IN_LANES, lib.ZD_UNUSUAL
 
 
 class Stop:
@@ -71,17 +71,20 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
          "energy_error": "double[]"}
 
 
-def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray, v0: np.ndarray, capacity: int,
-              wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
-              lanes: bool = True, events: Watcher | None = None, room: int = 0) -> BatchResults:
+def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray | None, v0: np.ndarray | None,
+              capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
+              lanes: bool = True, family: Any = None, count: int | None = None, outputs: Any = None,
+              events: Watcher | None = None, room: int = 0) -> BatchResults:
     """Runs of systems that have their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
 
     Events have to be ones that the core knows; there is room for so many of each, of their states, too, where "p" is wanted.
 
     Where data is None, that of the core serves all; it consists of `size` doubles, or of something else where that is 0.
-    The interpreter is free for other threads meanwhile. The system must not be written in Python.
+    Of a `family` each run has its own system; where p0 is None, `count` of them find their starts. `outputs` are measures that
+    are recorded. The interpreter is free for other threads meanwhile. The system must not be written in Python.
     """
-    k, shapes = len(p0), {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,)}
+    k = count if p0 is None else len(p0)
+    shapes = {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "outputs": (outputs.width if outputs else 0,)}
     columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name in COUNTS else float)
                for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
@@ -92,13 +95,18 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     members: dict[str, Any] = {
         "system": core.c, "settings": options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
         "doubles": size, "lanes": lanes,
-        "p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv), "message": ffi.from_buffer("char[]", messages),
+        "message": ffi.from_buffer("char[]", messages),
         **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
         **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
     if happened is not None:
         members |= {"events_capacity": room, "found": ffi.from_buffer("int64_t[]", happened.count),
                     **{f"{name}_events": ffi.from_buffer("double[]", array) for name in ("t", "p", "v")
                        if (array := getattr(happened, name)) is not None}}
+    if p0 is not None:
+        members |= {"p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv)}
+    if family is not None:
+        members |= {"family": family.c}
+    options.outputs = outputs.c if outputs else ffi.NULL
     if data is not None:
         members |= {"data": doubles(data, data.size)}
     if assembly is not None:

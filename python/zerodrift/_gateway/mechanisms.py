@@ -261,14 +261,19 @@ class MechanismCore(CoreSystem):
 
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
     """The core's mechanism, and words that have to live as long."""
-    bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
-    gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
-    uses, words = written_uses(tables, has_laws, laws_know_time)
-    c = ffi.new("zd_tables *", {
-        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses})
+    written, words = written_tables(tables, has_laws, laws_know_time)
+    c = ffi.new("zd_tables *", written)
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = lib.zd_mechanism_create(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
     return ffi.gc(mechanism, lib.zd_mechanism_free), words
+
+
+def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
+    """What a `zd_tables` is filled with, and the words that have to live as long as what is made from it."""
+    bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
+    gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    uses, words = written_uses(tables, has_laws, laws_know_time)
+    return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
+            "body": bodies, "joint": joints, "gauge": gauges, "uses": uses}, words

@@ -11,7 +11,7 @@ from .. import _check, _gateway
 from ..runs import diagnosis, settings
 from ..runs import events as events_of
 from ..runs.operations import assembly
-from ..runs.simulate import solution_of_rows
+from ..runs.simulate import simulate, solution_of_rows
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.tables import NumberTables
@@ -28,18 +28,22 @@ class Batch(NamedTuple):
     system: BaseSystem                      # whose numbers vary
     options: Any                            # of the core
     rows: int                               # that a run saves at most
-    columns: dict[str, tuple[str, int]]     # where each output is: in "p", "v" or "multipliers"
+    columns: dict[str, tuple[str, Any]]     # where each output is: in "p", "v", "multipliers" or "outputs", its column or columns
+    outputs: _gateway.Outputs | None        # measures that the core records
     direct: tuple[str, bool] | None         # the vector unit of direct functions, and whether they embed; None: none are taken
     assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
     chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
     events: _gateway.Watcher | None         # which the core knows
+    numbers: int                            # of the tables of one run, about
 
     @property
     def runs_at_once(self) -> int:
         """In one call."""
         groups = {group for group, _ in self.columns.values()}
-        of_rows = self.rows * (1 + len(groups) * max(self.system.nq, self.system.nv, self.system.m))
-        return max(1, MOST_NUMBERS // (of_rows + FEW_EVENTS * (len(self.events.events) if self.events else 0)))
+        most = max(self.system.nq, self.system.nv, self.system.m, self.outputs.width if self.outputs else 0)
+        of_rows = self.rows * (1 + len(groups) * most)
+        of_events = FEW_EVENTS * (len(self.events.events) if self.events else 0)
+        return max(1, MOST_NUMBERS // max(of_rows + of_events, self.numbers))
 
 
 def batch_of(plan: Plan) -> Batch | None:
@@ -56,18 +60,22 @@ def _batch(plan: Plan) -> Batch | None:
     watched = events_of.events(options.pop("events"), system)
     if watched is not None and not _are_known(watched, system, set(runs.parameters)):
         return None
-    columns = _columns(system, plan.names)
-    if columns is None or not plan.is_tabular:
+    if not plan.is_tabular:
         return None
     found = settings.plan(system, _check.span(plan.t_span), **options)
     if found.rows is None:
         return None
     takes_direct = _gateway.takes_direct(core_of(system), found.options)
     direct = (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None
-    system._number_tables(runs.parameters_from(0, 1), 1, direct)    # what has to be compiled is compiled here, once
-    return Batch(system, found.options, found.rows, columns, direct,
+    tables = runs.tables(system, 0, 1, direct)      # what has to be compiled is compiled here, once
+    found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
+    is_family = tables is not None and tables.family is not None
+    if found_columns is None or (is_family and watched is not None):
+        return None
+    return Batch(system, found.options, found.rows, *found_columns, direct,
                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
-                 None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)))
+                 None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
+                 tables.family.numbers if is_family else 0)
 
 
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
@@ -77,38 +85,59 @@ def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varie
                for event in watched)
 
 
-def _columns(system: BaseSystem, names: tuple[str, ...]) -> dict[str, tuple[str, int]] | None:
-    """Where outputs are among the numbers of a row; None where one of them is elsewhere."""
+ANGLES = ("angle", "angular_velocity")      # of bodies: measures that are coordinates and velocities of the same name
+
+
+def _columns(system: BaseSystem, names: tuple[str, ...],
+             core: _gateway.CoreSystem) -> tuple[dict[str, tuple[str, Any]], _gateway.Outputs | None] | None:
+    """Where outputs are among the numbers of a row, and which measures are recorded; None where one of them is elsewhere."""
     known: dict[str, list[tuple[str, int]]] = {}
     for group, variables in {"p": system.coordinates, "v": system.velocities, "multipliers": system.constraints}.items():
         for column, variable in enumerate(variables):
             known.setdefault(variable.name, []).append((group, column))
-    if any(len(known.get(name, ())) != 1 or system._watching.find(name) is not None for name in names):
+    measured = {name: place for name in names if (place := system._watching.find(name)) is not None
+                and not (len(known.get(name, ())) == 1 and name.rpartition(".")[2] in ANGLES)}
+    if any(len(known.get(name, ())) != 1 for name in names if name not in measured):
         return None
-    return {name: known[name][0] for name in names}
+    numbers = list(dict.fromkeys(place.number for place in measured.values()))
+    outputs = _gateway.Outputs(numbers, system._watching.core, core) if numbers else None
+    ends = np.cumsum([0, *(outputs.sizes if outputs else ())]).tolist()
+    columns: dict[str, tuple[str, Any]] = {name: known[name][0] for name in names if name not in measured}
+    for name, place in measured.items():
+        begin, size = (ends[numbers.index(place.number)], outputs.sizes[numbers.index(place.number)])
+        is_one = size == 1 or place.component is not None
+        columns[name] = "outputs", begin + (place.component or 0) if is_one else slice(begin, begin + size)
+    return {name: columns[name] for name in names}, outputs
 
 
-def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> Part:
-    """The runs first ... last - 1; fewer where they are stopped."""
-    made, tables = _make(plan, batch, first, last, ("t", *(group for group, _ in batch.columns.values())), stop)
+def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> tuple[Part, list[int]] | None:
+    """The runs first ... last - 1, fewer where they are stopped; and which of these the core has left to be made by `simulate`.
+
+    None where they differ in more than numbers: then each has to be made by itself.
+    """
+    tables = plan.runs.tables(batch.system, first, last, batch.direct)
+    if tables is None:
+        return None
+    made = _make(plan, batch, tables, first, last, ("t", *(group for group, _ in batch.columns.values())), stop)
     count = int(np.argmax(paused)) if (paused := made.status == _gateway.PAUSED).any() else last - first
     if not count:
-        return nothing(0)
+        return nothing(0), []
     doubtful = ~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)
-    return _part(plan, batch, made, _messages(made, tables), doubtful[:count])
+    left = np.flatnonzero(made.way[:count] == _gateway.UNUSUAL)
+    return _part(plan, batch, made, _messages(made, tables), doubtful[:count]), (left + first).tolist()
 
 
-def _make(plan: Plan, batch: Batch, first: int, last: int, wanted: tuple[str, ...],
-          stop: _gateway.Stop | None = None) -> tuple[_gateway.BatchResults, NumberTables]:
-    tables = batch.system._number_tables(plan.runs.parameters_from(first, last), last - first, batch.direct)
+def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int, wanted: tuple[str, ...],
+          stop: _gateway.Stop | None = None) -> _gateway.BatchResults:
     p0, v0 = plan.runs.starts(tables, first, last)
     room = plan.remembered.setdefault("events", FEW_EVENTS)
     while True:
         made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
-                                  tuple(dict.fromkeys(wanted)), batch.assembly, stop, events=batch.events, room=room)
+                                  tuple(dict.fromkeys(wanted)), batch.assembly, stop, family=tables.family, count=last - first,
+                                  outputs=batch.outputs, events=batch.events, room=room)
         most = 0 if made.events is None else int(made.events.count.max(initial=0))
         if most <= room:
-            return made, tables
+            return made
         room = plan.remembered["events"] = most     # once more, with room for all
 
 
@@ -117,15 +146,28 @@ STATES = ("t", "p", "v", "input", "multipliers", *_gateway.COUNTS)
 
 def made_again(plan: Plan, run: int) -> Solution:
     """One run by itself, with the bits that it has among others."""
-    return _solution_in_lanes(plan, run) or plan.solution(run)
+    batch = batch_of(plan)
+    tables = None if batch is None else plan.runs.tables(batch.system, run, run + 1, batch.direct)
+    if batch is None or tables is None:
+        return plan.solution(run)
+    if tables.family is not None:
+        return _solution_of_family(plan, batch, tables, run)
+    return _solution_in_lanes(plan, batch, tables, run) or plan.solution(run)
 
 
-def _solution_in_lanes(plan: Plan, run: int) -> Solution | None:
+def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int) -> Solution:
+    """From the start that the core has found, which differs from Python's by rounding."""
+    start = tables.family.start(0, batch.system.nq, batch.system.nv)
+    if plan.runs.states or start is None:
+        return plan.solution(run)
+    recorded = [name for name, (group, _) in batch.columns.items() if group == "outputs"]
+    return simulate(plan.runs.system(run), plan.t_span, *start, **plan.options, outputs=recorded or None)
+
+
+def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int) -> Solution | None:
     """None where it is not made in lanes."""
-    batch, begin = batch_of(plan), time.perf_counter()
-    if batch is None:
-        return None
-    made, _ = _make(plan, batch, run, run + 1, STATES)
+    begin = time.perf_counter()
+    made = _make(plan, batch, tables, run, run + 1, STATES)
     if made.way[0] != _gateway.IN_LANES:
         return None
     states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}

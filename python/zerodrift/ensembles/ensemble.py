@@ -45,6 +45,9 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     names or expressions. What a lane cannot make, callables as events, and a run whose elimination is not sound somewhere, is
     made by `simulate`'s own steps; `repr` says how many runs took which road.
 
+    Of a mechanism in the plane whose numbers vary, and that has no laws, wishes or drives of constant speed, the core makes and
+    assembles each by itself, and records measures: what `simulate` makes but for rounding of the start.
+
     Parameters
     ----------
     system : system, Mechanism or callable

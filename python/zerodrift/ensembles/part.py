@@ -55,14 +55,18 @@ class Part(NamedTuple):
             return (self.t[:rows] for rows in self.rows)
         return iter(np.split(self.t, np.cumsum(self.rows)[:-1]))
 
+    def between(self, begin: int, end: int) -> Part:
+        """The same of some of the runs."""
+        ends = np.cumsum([0, *self.rows])
+        rows, first, last = self.rows[begin:end], int(ends[begin]), int(ends[end])
+        t = self.t[:rows.max(initial=0)] if self.is_shared else self.t[first:last]
+        return Part(rows, t, {name: array[first:last] for name, array in self.arrays.items()}, self.failed[begin:end],
+                    self.messages[begin:end], self.roads[begin:end], self.doubtful[begin:end], self.values[begin:end],
+                    self.t_events[begin:end], self.solutions[begin:end])
+
     def behind(self, count: int) -> Part:
         """The same without the first runs."""
-        ends = np.cumsum(self.rows)
-        begin = int(ends[count - 1])
-        t = self.t[:self.rows[count:].max(initial=0)] if self.is_shared else self.t[begin:]
-        return Part(self.rows[count:], t, {name: array[begin:] for name, array in self.arrays.items()}, self.failed[count:],
-                    self.messages[count:], self.roads[count:], self.doubtful[count:], self.values[count:], self.t_events[count:],
-                    self.solutions[count:])
+        return self.between(count, len(self.rows))
 
 
 def single(t: np.ndarray, arrays: dict[str, np.ndarray], message: str, *, failed: bool, value: Any = None,

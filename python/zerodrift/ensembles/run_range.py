@@ -41,22 +41,50 @@ def run_range(plan: Plan, first: int, last: int, is_cancelled: Callable[[], bool
     made = []
     for run in range(first, last):
         try:
-            made.append(_one(plan, run, is_cancelled))
+            made.append(_one_or_its_error(plan, run, is_cancelled))
         except Cancelled:
             break
-        except Exception as error:      # it could not begin, or its own functions raised: the others go on
-            made.append(single(np.zeros(0), {}, f"{type(error).__name__}: {error}", failed=True))
     return joined(made) if made else nothing(0)
+
+
+def _one_or_its_error(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:
+    try:
+        return _one(plan, run, is_cancelled)
+    except Cancelled:
+        raise
+    except Exception as error:      # it could not begin, or its own functions raised: the others go on
+        return single(np.zeros(0), {}, f"{type(error).__name__}: {error}", failed=True)
 
 
 def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool]) -> Part:
     """Runs that the core makes, so many at once that their memory is bounded."""
     stop, made = is_cancelled if isinstance(is_cancelled, _gateway.Stop) else None, []
-    while first < last and not is_cancelled():
-        end = min(last, first + batch.runs_at_once)
-        made.append(batch_range(plan, batch, first, end, stop))
-        first = end
+    try:
+        while first < last and not is_cancelled():
+            end = min(last, first + batch.runs_at_once)
+            made += _parts(plan, batch, first, end, is_cancelled, stop)
+            first = end
+    except Cancelled:
+        pass
     return joined([part for part in made if len(part.rows)] or [nothing(0)])
+
+
+def _parts(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool],
+           stop: _gateway.Stop | None) -> list[Part]:
+    """The same of so many in one call: those that the core leaves to others are made where it is their turn."""
+    found = batch_range(plan, batch, first, last, stop)
+    if found is None and last == first + 1:
+        return [_one_or_its_error(plan, first, is_cancelled)]
+    if found is None:       # one of them differs in more than numbers
+        middle = (first + last) // 2
+        before = _parts(plan, batch, first, middle, is_cancelled, stop)
+        return before if is_cancelled() else before + _parts(plan, batch, middle, last, is_cancelled, stop)
+    part, left = found
+    made, begin = [], first
+    for run in left:
+        made += [part.between(begin - first, run - first), _one_or_its_error(plan, run, is_cancelled)]
+        begin = run + 1
+    return [*made, part.between(begin - first, len(part.rows))] if left else [part]
 
 
 def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:

@@ -158,11 +158,19 @@ class Runs:
     def is_tabular(self, system: BaseSystem) -> bool:
         """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python."""
         sizes = {"p0": system.nq, "v0": system.nv}
-        if self.start_values or (isinstance(system, MechanismSystem) and set(self.states) != set(sizes)):
+        is_mechanism = isinstance(system, MechanismSystem)
+        if self.start_values or (is_mechanism and set(self.states) != set(sizes) and not (self.parameters and not self.states)):
             return False        # it finds them in Python
         fits = all(array.shape[-1] == sizes[name] and np.isfinite(array).all() for name, array in self.states.items())
-        has_start = "p0" in self.states or system.p0 is not None
-        return fits and has_start and system._number_tables(self.parameters_from(0, 1), 1) is not None
+        has_start = "p0" in self.states or is_mechanism or system.p0 is not None
+        return fits and has_start and self.tables(system, 0, 1) is not None
+
+    def tables(self, system: BaseSystem, first: int, last: int, direct: tuple[str, bool] | None = None) -> NumberTables | None:
+        """The numbers of the runs first ... last - 1, of this system but for its parameters; None: there are no such tables."""
+        parameters = self.parameters_from(first, last)
+        if isinstance(system, MechanismSystem):
+            return system._number_tables(parameters, last - first, direct, starts_are_known=bool(self.states))
+        return system._number_tables(parameters, last - first, direct)
 
     def parameters_from(self, first: int, last: int) -> dict[str, np.ndarray]:
         """Of the runs first ... last - 1."""
@@ -170,10 +178,16 @@ class Runs:
 
     def assembles(self, system: BaseSystem) -> bool:
         """Whether starts are made consistent, as parameters have changed what that means."""
-        return bool(self.may_assemble and self.parameters and system.m)
+        finds_start = isinstance(system, MechanismSystem) and not self.states
+        return bool(self.may_assemble and self.parameters and system.m and not finds_start)
 
-    def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray, np.ndarray]:
-        """P (k, nq) and v (k, nv) of the runs first ... last - 1, before they are made consistent; NaN of those refused."""
+    def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray | None, np.ndarray | None]:
+        """P (k, nq) and v (k, nv) of the runs first ... last - 1, before they are made consistent; NaN of those refused.
+
+        None: the core finds them.
+        """
+        if tables.family is not None and not self.states:
+            return None, None
         sizes = {"p0": tables.core.nq, "v0": tables.core.nv}
         own = {"p0": tables.p0, "v0": np.zeros(sizes["v0"]) if tables.v0 is None else tables.v0}
         found = []

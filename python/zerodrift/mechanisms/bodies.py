@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from . import columns
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 from .plane import Pose
@@ -226,7 +227,7 @@ class _End(Point):
 
     def drawn_with(self, numbers: Numbers) -> np.ndarray:
         changed = self.body.length_with(numbers) != self.body.length
-        return self.body.pose.point(self.local_with(numbers)) if changed else self.body.drawn_end
+        return columns.chosen(changed, self.body.pose.point(self.local_with(numbers)), self.body.drawn_end)
 
 
 class _Center(Point):

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import columns
 from .bodies import Body, Particle, Point
 from .numbers import Numbers
 
@@ -92,4 +93,5 @@ def _together(mass: float, inertia: float, com: np.ndarray,
         return mass, inertia, com
     centre = (mass * com + sum(other * place for other, place in others)) / total
     shifted = [(mass, com), *others]
-    return total, inertia + sum(part * float((place - centre) @ (place - centre)) for part, place in shifted), centre
+    apart = [(part, place - centre) for part, place in shifted]
+    return total, inertia + sum(part * columns.plain((way * way).sum()) for part, way in apart), centre

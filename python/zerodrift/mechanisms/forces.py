@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from . import columns
 from .bodies import Body, Point
 from .joints import Joint
 from .laws import Law
@@ -123,7 +124,7 @@ class Spring:
     def free_length_with(self, numbers: Numbers) -> float:
         """The length at which it is slack; where none was given, the distance in the drawing."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
-        drawn = float(np.hypot(*apart) if len(apart) == 2 else np.linalg.norm(apart))
+        drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
         return numbers(self, "length", drawn if self.free_length is None else self.free_length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from .._gateway.mechanisms import JointKind, joint_kinds
+from . import columns
 from .bodies import Point
 from .laws import Law
 from .measures import Measure, scalar, vector
@@ -89,7 +90,7 @@ class Joint:
         """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
         if not self.row.takes_length:
             return 0.0
-        drawn = float(np.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))))
+        drawn = columns.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers)))
         return numbers(self, "length", drawn if self.length is None else self.length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
@@ -104,7 +105,8 @@ class Joint:
     def offset_as_drawn(self, numbers: Numbers) -> float:
         """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
-        return float(apart @ self.axis_as_drawn())
+        axis = self.axis_as_drawn()
+        return columns.plain(apart[0] * axis[0] + apart[1] * axis[1])
 
     def axis_as_drawn(self) -> np.ndarray:
         """The axis (2,) in the drawing, of length one."""

@@ -7,6 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from .._gateway.mechanisms import ElementKind, element_kinds
+from . import columns
 from .bodies import Point
 from .laws import Law
 from .measures import scalar
@@ -70,9 +71,10 @@ class MadeForce:
         """What is taken from the reading of a gauge: its reading as drawn, or the length that was given."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         if which in ("along", "across"):
-            return float(self.first.body.pose.local_direction(apart) @ (self.axis if which == "along" else _turned(self.axis)))
+            (x, y), axis = self.first.body.pose.local_direction(apart), self.axis if which == "along" else _turned(self.axis)
+            return columns.plain(x * axis[0] + y * axis[1])
         if which == "length":
-            return numbers(self, "length", self.values.get("length", float(np.hypot(*apart))))
+            return numbers(self, "length", self.values.get("length", columns.hypot(*apart)))
         return self.second.body.pose.angle - self.first.body.pose.angle if which == "angle" else 0.0
 
     def __repr__(self) -> str:

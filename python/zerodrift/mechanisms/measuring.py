@@ -33,6 +33,11 @@ class Position(NamedTuple):
 
 def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
     """The core's system with all measures; or with those of positions and velocities that `only` names, or components of."""
+    return tables.core(*read(tables, only))
+
+
+def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gauge], list[Observed]]:
+    """The gauges of the tables and those that such measures read, and these measures."""
     gauges, observed = list(tables.gauges), []
     wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
     for position in _positions(tables):
@@ -48,7 +53,7 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
         gauges += reads
     if wanted is None:
         observed += [*_of_joints(tables), *tables.observed]
-    return tables.core(gauges, observed)
+    return gauges, observed
 
 
 def _positions(tables: Tables) -> Iterator[Position]:

@@ -11,6 +11,7 @@ import numpy as np
 from .._gateway.mechanisms import MechanismCore
 from .._rotations import quaternion_of
 from ..errors import CorrectionFailed, InconsistentStart, SingularSystem
+from . import columns
 from .assembly import Assembly, Target
 from .bodies import Body, Point
 from .drawing import Drawing
@@ -219,7 +220,7 @@ def _component(name: str, i: int, shape: tuple[int, ...]) -> str:
 def size_of(drawing: Drawing, numbers: Numbers) -> float:
     """How large a drawing is, in m: the longest side of the box around its points; 1 where there is nothing."""
     places = [point.drawn_with(numbers) for point in drawing.joined_points()] + [body.pose.origin for body in drawing.parts()]
-    size = float(np.ptp(places, axis=0).max()) if places else 0.0
+    size = columns.longest_side(places) if places else 0.0
     return size or 1.0
 
 

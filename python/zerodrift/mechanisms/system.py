@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,13 @@ from ..errors import ZerodriftError
 from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
+from ..systems.tables import NumberTables, refusals
 from . import advice, cost
 from .arrows import acting, chosen
 from .compiled import Written
 from .describing import described
 from .drawing import Drawing
+from .many import are_plain, varied
 from .measuring import measuring
 from .numbers import Numbers
 from .outline import outline
@@ -196,6 +198,22 @@ class MechanismSystem(BaseSystem):
             return self.start_at(t)
         return super()._state_or_start(p, v, p_name, v_name)
 
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, direct: tuple[str, bool] | None = None, *,
+                       starts_are_known: bool = True) -> NumberTables | None:
+        if not parameters or self._is_written_out or not are_plain(self._drawing, self._tables, self._start):
+            return super()._number_tables(parameters, count, direct) if starts_are_known else None
+        wrong = np.zeros(count, dtype=bool)
+        for name, each in parameters.items():
+            if each.ndim != 1 or name not in self._drawing.numbers(self._numbers):
+                return None
+            wrong |= [not _is_right(name, value) for value in each.tolist()]
+        family = varied(self._drawing, self._changed, parameters, self.layout, self._measuring, wrong=wrong,
+                        starts_are_known=starts_are_known)
+        if family is None:
+            return None
+        refused = refusals(self.with_parameters, parameters, wrong) if starts_are_known else {}
+        return NumberTables(self._measuring, None, 0, None, None, refused, family)
+
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: _checked(name, value) for name, value in changed.items()}
         direct = self._direct if self._is_written_out else None
@@ -297,6 +315,14 @@ def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
         unit = "rad" if gauge == "angle" else "m"
         named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{gauge}", unit))
     return tuple(named)
+
+
+def _is_right(path: str, value: float) -> bool:
+    try:
+        _checked(path, value)
+    except ValueError:
+        return False
+    return True
 
 
 RULES = {"mass": 0, "inertia": 0, "stiffness": 0, "damping": 0, "torsion": 0, "torsion_damping": 0}

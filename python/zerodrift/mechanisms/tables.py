@@ -11,7 +11,7 @@ import numpy as np
 from .._gateway import mechanisms as rows
 from .._gateway.mechanisms import Gauge, MechanismCore
 from .._gateway.uses import Observed
-from . import law_rows, transmission
+from . import columns, law_rows, transmission
 from .bodies import Body, Particle, Point
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
@@ -66,11 +66,15 @@ class Tables:
 
     def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> MechanismCore:
         """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
+        laws = self.laws if self.laws.rows else None
+        return MechanismCore(self.written(gauges, observed), laws, laws_know_time=self.laws.know_time)
+
+    def written(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> rows.Tables:
+        """What the core is told of it."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True)]
-        tables = rows.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.efforts,
-                             observed, self._gravity())
-        return MechanismCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+        return rows.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.efforts,
+                           observed, self._gravity())
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 3) of the mass centres as drawn."""
@@ -91,7 +95,7 @@ class Tables:
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
 
     def _gravity(self) -> Any:
-        return tuple(float(self.numbers.changed.get(f"gravity.{axis}", value))
+        return tuple(columns.plain(self.numbers.changed.get(f"gravity.{axis}", value))
                      for axis, value in zip("xyz", self.drawing.gravity, strict=False))
 
     # ---- bodies and joints ----
@@ -296,7 +300,8 @@ class Tables:
         (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
         frame = bushing.first.body.pose
         apart = frame.local_direction(bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
-        zero = {"along": float(apart[0]), "across": float(apart[1]), "angle": bushing.second.body.pose.angle - frame.angle}
+        zero = {"along": columns.plain(apart[0]), "across": columns.plain(apart[1]),
+                "angle": bushing.second.body.pose.angle - frame.angle}
         paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"),
                  "angle": ("torsion", "torsion_damping")}
         self.observed.append(Observed(f"{bushing.name}.force", "N", "effort force", len(self.efforts), 2))

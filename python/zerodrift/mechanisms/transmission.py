@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._gateway.mechanisms import Gauge
+from . import columns
 from .bodies import Body, Point
 from .joints import Joint, is_hinge
 from .numbers import AS_GIVEN, Numbers
@@ -75,7 +76,7 @@ def gauge(joint: Joint, elements: Mapping[str, Any], numbers: Numbers, number: M
 def _turned(first: Line, second: Line) -> float:
     """From the first line to the second as drawn, in (-pi, pi]."""
     angle = second.body.pose.angle + second.angle - first.body.pose.angle - first.angle
-    return float(np.pi - (np.pi - angle) % (2 * np.pi))
+    return columns.plain(np.pi - (np.pi - angle) % (2 * np.pi))
 
 
 def _line(joint: Joint, point: Point, others: Iterable[Joint], numbers: Numbers) -> Line:
@@ -89,8 +90,8 @@ def _line(joint: Joint, point: Point, others: Iterable[Joint], numbers: Numbers)
                 body = point.body if other.row.coordinate and point.body.turns else other.bodies[0]
                 normal = other.axis_as_drawn()
                 found.append((other, opposite.body, Line(body, _direction(body, np.array([-normal[1], normal[0]])))))
-            elif side.body is point.body and np.hypot(*(apart := side.local_with(numbers) - here)) > SAME:
-                found.append((other, opposite.body, Line(point.body, float(np.arctan2(apart[1], apart[0])))))
+            elif side.body is point.body and columns.hypot(*(apart := side.local_with(numbers) - here)) > SAME:
+                found.append((other, opposite.body, Line(point.body, columns.arctan2(apart[1], apart[0]))))
     return _only(joint, point.body, found)
 
 

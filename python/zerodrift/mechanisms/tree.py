@@ -28,12 +28,12 @@ def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, 
         around[edge.first].append(edge)
         around[edge.second].append(edge)
     carrier, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), []
-    roots = [0, *sorted(range(1, bodies + 1), key=lambda body: weights[body - 1], reverse=True)]
-    for root in roots:
-        if not reached[root]:
-            reached[root] = True
-            _offer(frontier, around[root], root, 0)
-            _grow(frontier, around, carrier, reached)
+    for roots in (lambda: [0], lambda: sorted(range(1, bodies + 1), key=lambda body: weights[body - 1], reverse=True)):
+        for root in roots() if not all(reached) else []:
+            if not reached[root]:
+                reached[root] = True
+                _offer(frontier, around[root], root, 0)
+                _grow(frontier, around, carrier, reached)
     return carrier[1:]
 
 

@@ -19,6 +19,7 @@ class NumberTables(NamedTuple):
     p0: np.ndarray | None           # (k, nq) or (nq,): their starts; None: they have none
     v0: np.ndarray | None           # (k, nv) or (nv,)
     refused: dict[int, str]         # why some of them cannot be
+    family: Any = None              # the core's own way to make each, and to find its start where p0 is None; None: there is none
 
 
 def refusals(make: Callable[..., Any], parameters: Mapping[str, np.ndarray], wrong: np.ndarray) -> dict[int, str]:

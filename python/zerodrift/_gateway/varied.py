@@ -1,0 +1,134 @@
+"""Mechanisms that differ in their numbers: the core makes each from its own entries of these tables, and assembles it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import doubles
+from .mechanisms import Tables, written_tables
+
+
+class Held(NamedTuple):
+    """A component of a measure that the start holds: a row of `zd_target`."""
+
+    measure: int
+    component: int
+    is_rate: bool
+    value: float
+
+
+class Varied:
+    """So many mechanisms.
+
+    Parameters
+    ----------
+    moving, drawn : Tables
+        In the coordinates that they move in, with all measures; and in absolute ones, with those that the start holds. Numbers
+        that vary have `values` (count,).
+    count : int
+    poses : ndarray (count, bodies, 3)
+        Of mass centres as drawn. A mechanism where one is no number is left to whoever looks more closely.
+    length : ndarray (count,)
+        How large each is, in m.
+    held : sequence of Held
+    starts_are_known : bool
+        Whether nothing is to be assembled.
+    """
+
+    def __init__(self, moving: Tables, drawn: Tables, count: int, poses: np.ndarray, length: np.ndarray, held: Sequence[Held],
+                 starts_are_known: bool) -> None:
+        self._keep: list[Any] = []
+        self.numbers = sum(array.nbytes for array in (poses, length)) // (8 * count)       # that each has, about
+        gravity = np.stack([_spread(each, count) for each in moving.gravity], axis=1)
+        members = {
+            "moving": self._tables(moving, count), "drawn": self._tables(drawn, count), "gravity": self._doubles(gravity),
+            "length": self._doubles(length), "targets": len(held),
+            "target": self._kept(ffi.new("zd_target[]", [tuple(each) for each in held])),
+            **({} if starts_are_known else {"poses": self._doubles(poses)})}
+        of = self._kept(ffi.new("zd_varied *", members))
+        self.c = ffi.new("zd_family *", {"of": of, "make": ffi.addressof(lib, "zd_varied_make"),
+                                         "free": ffi.addressof(lib, "zd_varied_free")})
+
+    def start(self, run: int, nq: int, nv: int) -> tuple[np.ndarray, np.ndarray] | None:
+        """Where one of them starts, p (nq,) and v (nv,); None: it has to be looked at more closely."""
+        p, v, made = np.zeros(nq), np.zeros(nv), ffi.new("void **")
+        found = self.c.make(self.c.of, run, doubles(p, nq, writable=True), doubles(v, nv, writable=True), made)
+        self.c.free(made[0])
+        return (p, v) if found else None
+
+    def _kept(self, what: Any) -> Any:
+        self._keep.append(what)
+        return what
+
+    def _doubles(self, array: np.ndarray) -> Any:
+        array = self._kept(np.ascontiguousarray(array, dtype=float))
+        return doubles(array, array.size)
+
+    def _tables(self, tables: Tables, count: int) -> dict[str, Any]:
+        """What a `zd_tables` is filled with: entries of all of them, one behind the other."""
+        written, words = written_tables(_first(tables), False, False)
+        self._kept((written, words))
+        changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "gauge": _fields(tables.gauges),
+                   "term": _coefficients(tables), "relation": _fields(tables.relations), "effort": _fields(tables.efforts)}
+        for name, found in changes.items():
+            place = written if name in written else written["uses"]
+            place[name] = self._repeated(place[name], count, list(found))
+        return written
+
+    def _repeated(self, array: Any, count: int, changes: list[tuple[int, str, int, Any]]) -> Any:
+        """An array of C so many times, with columns of numbers in the place of some of its fields."""
+        size, kind = ffi.sizeof(array), ffi.typeof(array).item
+        if not size:
+            return array
+        self.numbers += size // 8
+        many = self._kept(np.tile(np.frombuffer(ffi.buffer(array), np.uint8), (count, 1)))
+        for row, field, component, column in changes:
+            begin = row * ffi.sizeof(kind) + ffi.offsetof(kind, field) + 8 * component
+            many[:, begin:begin + 8] = np.ascontiguousarray(column.values, dtype=float).view(np.uint8).reshape(count, 8)
+        return self._kept(ffi.from_buffer(f"{kind.cname}[]", many))
+
+
+def _spread(number: Any, count: int) -> np.ndarray:
+    return np.broadcast_to(getattr(number, "values", number), count)
+
+
+def _is_column(number: Any) -> bool:
+    return hasattr(number, "values")
+
+
+def _single(number: Any) -> Any:
+    """The first of a column; else what it is."""
+    if isinstance(number, tuple) and not hasattr(number, "_fields"):
+        return tuple(map(_single, number))
+    return float(number.values[0]) if _is_column(number) else number
+
+
+def _first(tables: Tables) -> Tables:
+    """The first of them."""
+    def one(row: Any) -> Any:
+        return type(row)(*([_single(each) for each in field] if isinstance(field, list) else _single(field) for field in row))
+    return tables._replace(gravity=_single(tuple(tables.gravity)), **{
+        name: [one(row) for row in getattr(tables, name)] for name in ("bodies", "joints", "gauges", "relations", "efforts")})
+
+
+def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:
+    """Where rows have columns: which row, which field, which component of that, and the column."""
+    for i, row in enumerate(rows):
+        for field, value in zip(row._fields, row, strict=True):
+            for component, each in enumerate(value if isinstance(value, tuple) else (value,)):
+                if _is_column(each):
+                    yield i, field, component, each
+
+
+def _coefficients(tables: Tables) -> Iterator[tuple[int, str, int, Any]]:
+    """The same of the coefficients of relations, which are terms."""
+    first = 0
+    for row in tables.relations:
+        for i, each in enumerate(row.coefficients or ()):
+            if _is_column(each):
+                yield first + i, "coefficient", 0, each
+        first += len(row.gauges)

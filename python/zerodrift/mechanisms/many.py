@@ -1,0 +1,70 @@
+"""Mechanisms that differ in their numbers, from one drawing: their tables, in columns, and where they start."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from .._gateway.mechanisms import MechanismCore
+from .._gateway.varied import Held, Varied
+from .columns import Column, Varies, spread
+from .drawing import Drawing
+from .measuring import read
+from .numbers import Numbers
+from .plane import turned
+from .readings import reading
+from .starting import Starting, size_of
+from .tables import Tables
+
+
+def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
+    """Whether there is nothing that Python has to do for each: no laws, wishes, nor drives of constant speed."""
+    return drawing.dimension == 2 and not tables.laws.rows and not drawing.wished and not start.has_speeds
+
+
+def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[str, np.ndarray], layout: str, core: MechanismCore,
+           *, wrong: np.ndarray, starts_are_known: bool) -> Varied | None:
+    """Mechanisms whose numbers are those of the drawing but for what has changed, and for parameters (count,) by their paths.
+
+    None where they differ in more than numbers. Those that are wrong (count,) are not assembled.
+    """
+    count = len(wrong)
+    numbers = Numbers({**changed, **{name: Column(np.asarray(each, dtype=float)) for name, each in parameters.items()}})
+    try:
+        tables = Tables(drawing, numbers, in_tree=layout != "absolute")
+        absolute = tables.absolute()
+        if not all(tables.inertias.is_massive(body) for body in tables.parts):
+            return None
+        gauges, observed = read(absolute, list(drawing.held))
+        held = _held(drawing, {row.name: i for i, row in enumerate(observed)})
+        poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
+        moving, drawn = tables.written(*read(tables)), absolute.written(gauges, observed)
+    except Varies:
+        return None
+    if [row[1:] for row in moving.measures] != [row[1:] for row in core.measures]:
+        return None
+    poses[wrong] = np.nan
+    return Varied(moving, drawn, count, poses, length, held, starts_are_known)
+
+
+def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
+    """What the start holds, component by component."""
+    held = []
+    for name, value in drawing.held.items():
+        is_rate, (base, _, axis) = reading(name, drawing.elements).is_rate, name.rpartition(".")
+        if name in index:
+            held += [Held(index[name], i, is_rate, float(each)) for i, each in enumerate(np.atleast_1d(value))]
+        else:
+            held.append(Held(index[base], "xy".index(axis), is_rate, float(value)))
+    return held
+
+
+def _drawn(tables: Tables, count: int) -> np.ndarray:
+    """Poses (count, bodies, 3) of the mass centres as drawn."""
+    poses = np.empty((count, len(tables.parts), 3))
+    for i, body in enumerate(tables.parts):
+        place = body.pose.origin + turned(body.pose.angle, tables.inertias.of[body.name][2])
+        for j, each in enumerate((*place, body.pose.angle)):
+            poses[:, i, j] = spread(each, count)
+    return poses
