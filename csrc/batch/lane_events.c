@@ -163,7 +163,7 @@ static void begin(zd_lane_group *self, int lane)
     for (int i = 0; i < lanes->events; i++) search->bracket[i].b = INFINITY;
     search->stage = ZD_LOCATES;
     search->end = INFINITY;
-    if (!self->lanes.leaves[lane]) locate_from(self, lane, 0);
+    if (self->lanes.leaves[lane] == 0) locate_from(self, lane, 0);
 }
 
 static double time_to_look_at(const zd_lane_search *search)
