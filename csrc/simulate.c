@@ -50,7 +50,7 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
     if (!status) status = begin(run, record);
     while (!status && !is_over(run)) {
         const int64_t step = run->course.step;
-        if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() > deadline) return ZD_PAUSED;
+        if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() >= deadline) return ZD_PAUSED;
         status = take_step(run);
         if (!status) status = save(run, record);
     }

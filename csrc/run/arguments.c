@@ -3,8 +3,8 @@
  */
 #include "arguments.h"
 
-#include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "../output/reading.h"
@@ -144,7 +144,7 @@ static const char *wrong_course(const zd_settings *settings)
     };
     const char *wrong = FIRST_BROKEN(times);
     if (wrong) return wrong;
-    return zd_count_steps(settings->t0, settings->t1, step) < (double)LONG_MAX ? NULL : "there are more steps than can be counted";
+    return zd_count_steps(settings->t0, settings->t1, step) < (double)INT64_MAX ? NULL : "there are more steps than can be counted";
 }
 
 int zd_check_system(const zd_system *system, char *message, int size)
