@@ -17,7 +17,7 @@ void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 
 const void *zd_lane_group_data(const zd_lane_group *self, int lane)
 {
-    return zd_single_system(self->batch, self->run_of[lane].number).data;
+    return zd_single_data(self->batch, self->run_of[lane].number);
 }
 
 /* C (mh, nv) in natural units at y; returns whether that is known. */

@@ -92,15 +92,22 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
 
 /* ---- runs ---- */
 
+/* Systems are copied for those alone whose starts have to be made consistent. */
+static int start_of(const zd_batch *batch, const zd_single *own, int64_t number)
+{
+    if (!batch->assembly) return zd_single_start(batch, batch->system, own, number);
+    const zd_system system = zd_single_system(batch, number);
+    return zd_single_start(batch, &system, own, number);
+}
+
 /* The next run that begins in a lane; those that cannot are made by themselves. Returns whether there is one. */
 static int find_next(zd_lane_group *self)
 {
     const zd_batch *batch = self->batch;
     while (self->next < batch->runs && !zd_batch_is_stopped(batch)) {
         const int64_t number = self->next++;
-        const zd_system system = zd_single_system(batch, number);
-        int status = zd_single_start(batch, &system, self->own, number);
-        if (!status) status = zd_run_start_elsewhere(self->run, self->start, system.data, self->own->p, self->own->v);
+        int status = start_of(batch, self->own, number);
+        if (!status) status = zd_run_start_elsewhere(self->run, self->start, zd_single_data(batch, number), self->own->p, self->own->v);
         if (!status) return 1;
         zd_single_run(batch, self->own, number);
     }
@@ -110,9 +117,9 @@ static int find_next(zd_lane_group *self)
 static void begin(zd_lane_group *self, int lane)
 {
     const int64_t number = self->next - 1;
-    const zd_system system = zd_single_system(self->batch, number);
-    const int64_t numbers = self->lanes.pins ? zd_lane_pins_numbers(system.pinned) : self->batch->doubles;
-    zd_lanes_load(&self->lanes, lane, self->run, self->lanes.pins ? system.pinned->numbers : system.data, numbers);
+    const zd_pinned *pinned = self->lanes.pins ? self->batch->system->pinned : NULL;
+    const int64_t numbers = pinned ? zd_lane_pins_numbers(pinned) : self->batch->doubles;
+    zd_lanes_load(&self->lanes, lane, self->run, pinned ? pinned->numbers : zd_single_data(self->batch, number), numbers);
     self->run_of[lane].number = number;
     self->run_of[lane].rows = self->run_of[lane].next = 0;
     zd_found_forget(self->batch, number);

@@ -102,7 +102,7 @@ static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64
 zd_system zd_single_system(const zd_batch *batch, int64_t number)
 {
     zd_system system = *batch->system;
-    if (batch->data) system.data = batch->data + number * batch->doubles;
+    system.data = zd_single_data(batch, number);
     return system;
 }
 

@@ -13,9 +13,14 @@ typedef struct zd_single {  /* memory of one run after the other */
 zd_single zd_single_take(zd_arena *arena, const zd_batch *batch);
 char *zd_message_of(const zd_batch *batch, int64_t run);
 int zd_batch_is_stopped(const zd_batch *batch);
+static inline const void *zd_single_data(const zd_batch *batch, int64_t number)
+{
+    return batch->data ? batch->data + number * batch->doubles : batch->system->data;
+}
+
 /* The system of a run, with its own data. */
 zd_system zd_single_system(const zd_batch *batch, int64_t number);
-/* p and v of the memory <- where the run begins, which may be made consistent. */
+/* p and v of the memory <- where the run of a system begins, which may be made consistent. */
 int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_single *own, int64_t number);
 void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number);
 

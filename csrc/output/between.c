@@ -49,23 +49,24 @@ static int is_wanted_before(const zd_output *self, double t)
     return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
 }
 
-/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step. */
-static int move_to_next(zd_output *self)
+/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step. A step that an event has cut
+ * short has made such steps already. */
+static int move_to_next(zd_output *self, int is_end)
 {
     const double t = self->t_eval[self->next++];
-    if (!self->is_away) self->is_spread = self->has_polynomial && zd_stepper_spread(self->stepper, self->before.t);
+    if (!self->is_away) self->is_spread = self->has_polynomial && !is_end && zd_stepper_spread(self->stepper, self->before.t);
     self->is_away = 1;
     self->is_spread = self->is_spread && !zd_stepper_land_between(self->stepper, t);
     return self->is_spread ? ZD_DONE : zd_output_move(self, t);
 }
 
 /* Saves those times that lie within the step. */
-static int save_within(zd_output *self, zd_record *record)
+static int save_within(zd_output *self, zd_record *record, int is_end)
 {
     int status = ZD_DONE;
     while (!status && is_wanted_before(self, self->after.t)) {
         if (!zd_record_has_room(record)) return ZD_FULL;
-        status = move_to_next(self);
+        status = move_to_next(self, is_end);
         if (!status) status = zd_recorder_add(self->recorder, record);
     }
     return status;
@@ -88,7 +89,7 @@ int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     if (!self->is_open && !is_wanted(self, self->stepper->t)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
     if (!self->is_open) zd_output_keep_end(self);
-    int status = save_within(self, record);
+    int status = save_within(self, record, is_end);
     if (!status) status = save_end(self, record, is_end);
     self->is_open = status == ZD_FULL;
     return status;

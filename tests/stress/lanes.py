@@ -2,9 +2,11 @@
 
 Run it with ``python tests/stress/lanes.py 1000 [seed]``; it prints what was made, and fails where something differs.
 
-Speeds go up to 450 times those of the systems' own starts, so that some runs fail, and others cannot be made in lanes. Each run
-has the bits of ``ens[i]``. It succeeds, or fails, as by `simulate`, and ends at the same row; where it is further from that than
-1e-9 of the largest value, a change of the start by 2^-50 of it changes the motion by a thousandth of that at least.
+Speeds go up to 450 times those of the systems' own starts, so that some runs fail, and others cannot be made in lanes. Half of
+the ensembles have events, some of which end their runs; a third have their energy corrected. Each run has the bits of
+``ens[i]``, its events, too. It succeeds, or fails, as by `simulate`, and ends at the same row, with the same events; where it is
+further from that than 1e-9 of the largest value, a change of the start by 2^-50 of it changes the motion by a thousandth of that
+at least.
 """
 
 import sys
@@ -12,6 +14,7 @@ import warnings
 from collections import Counter
 
 import numpy as np
+import sympy as sp
 
 import zerodrift as zd
 from zerodrift.ensembles.part import ROADS
@@ -33,7 +36,30 @@ def options_of(chance, end):
         options["save_every"] = int(chance.integers(1, 5))
     if chance.random() < 0.2:
         options["stabilization"] = None
+    if chance.random() < 1 / 3:
+        options["energy"] = zd.EnergyCorrection(every=int(chance.integers(1, 4)))
     return options | {"vector": str(chance.choice(zd.runs.settings.VECTOR_UNITS[:zd._gateway.PROCESSOR_UNIT + 1]))}
+
+
+def events_of(system, chance, end):
+    """Coordinates and velocities that reach what they are near, time, and expressions; some end the run."""
+    names = [variable.name for variable in (*system.coordinates, *system.velocities)]
+    found = []
+    for _ in range(int(chance.integers(1, 4))):
+        name, shift = str(chance.choice(names)), float(chance.normal())
+        what, value = {0: (name, shift), 1: (sp.sin(sp.Symbol(name)), shift / 4), 2: (name, 0.0),
+                       3: (sp.Symbol("t"), float(chance.uniform(0, end)))}[int(chance.integers(4))]
+        direction, terminal = int(chance.integers(-1, 2)), int(chance.choice([0, 0, 1, 2]))
+        found.append(zd.Event(what, value=value, direction=direction, terminal=terminal))
+    return found
+
+
+def distance(one, other, name):
+    """How far apart two runs are, in their rows and their events; infinite where they have others."""
+    pairs = [(one.t, other.t), (one[name], other[name]), *zip(one.t_events or (), other.t_events or (), strict=True)]
+    if one.message.rpartition(": ")[2] != other.message.rpartition(": ")[2] or any(len(a) != len(b) for a, b in pairs):
+        return np.inf
+    return max(np.abs(a - b).max(initial=0) for a, b in pairs)
 
 
 def compare(system, name, start, end, options, again):
@@ -43,12 +69,9 @@ def compare(system, name, start, end, options, again):
 
     sol = by_itself(0)
     assert sol.success, (system, start, options, sol.message)
-    assert np.array_equal(sol.t, again.t), (system, start, options)
-    apart, size = np.abs(sol[name] - again[name]).max(), max(1.0, np.abs(sol[name]).max())
+    apart, size = distance(sol, again, name), max(1.0, np.abs(sol[name]).max())
     if apart > ALIKE * size:
-        other = by_itself(CHANGE)
-        changed = np.abs(other[name] - sol[name]).max() if len(other.t) == len(sol.t) else np.inf
-        assert apart <= SENSITIVE * changed, (system, start, options, apart)
+        assert apart <= SENSITIVE * distance(by_itself(CHANGE), sol, name), (system, start, options, apart)
     return apart / size
 
 
@@ -60,6 +83,10 @@ def study(chance):
     if system.name == "driven_four_bar":        # its start is what drives it
         shares[:] = 1
     starts, name, options = shares[:, None] * system.v0, system.coordinates[0].name, options_of(chance, end)
+    if chance.integers(2):
+        options["events"] = events_of(system, chance, end)
+    if "energy" in options and not system._core.has_energy:
+        del options["energy"]
     ens = zd.ensemble(system, end, v0=starts, outputs=[name], threads=1, **options)
     made, worst = Counter(ROADS[road] for road in ens._part.roads), 0.0
     for run in range(count):
@@ -68,8 +95,13 @@ def study(chance):
             if ens._part.rows[run]:     # else it could not begin
                 assert not zd.simulate(system, end, v0=starts[run], on_failure="return", **options).success
             continue
-        again = ens[run]
-        assert np.array_equal(again[name], ens[name][run][:len(again.t)])
+        again, rows = ens[run], ens._part.rows[run]
+        assert np.array_equal(again[name][:rows], ens[name][run][:rows])
+        for mine, its in zip(again.t_events or (), ens.t_events[run] or (), strict=True):
+            assert np.array_equal(mine, its)
+            made["events"] += len(mine)
+        made["ended by events"] += again.status > 0
+        made["energy corrections"] += again.stats["energy_corrections"]
         worst = max(worst, compare(system, name, starts[run], end, options, again))
     return made, worst
 
