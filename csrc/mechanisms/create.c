@@ -42,6 +42,18 @@ static size_t most_rows(const zd_tables *tables)
     return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->uses.relations;
 }
 
+/* Gauges of rows that are of no pin, of which a joint has x and y of the same points. */
+static size_t most_lines(const zd_tables *tables)
+{
+    size_t lines = (size_t)tables->uses.terms;
+    for (int j = 0; j < tables->joints; j++) {
+        const zd_joint_kind *kind = zd_joint_kind_of(tables->joint[j].kind);
+        for (const zd_joint_row *row = kind->row; row < kind->row + kind->rows; row++)
+            lines += (size_t)((row->gauge != ZD_GAUGE_X && row->gauge != ZD_GAUGE_Y) + (row->rolls != 0));
+    }
+    return has_tree(tables) ? 0 : lines;
+}
+
 static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
 {
     size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints;
@@ -60,7 +72,8 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
     zd_packing none = {.weight = NULL};
     zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
-    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->uses.relations, (size_t)tables->uses.terms + extra);
+    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->uses.relations, (size_t)tables->uses.terms + extra,
+                    most_lines(tables));
 }
 
 /* ---- the tree ---- */
@@ -264,6 +277,7 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     self->measures.count = tables->uses.measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
     self->pins = self->packing ? self->packing->pins.count : 0;
+    self->lines = self->packing ? self->packing->lines.count : 0;
     zd_hinged_plan(&all->hinged, &self->tree, &self->uses, self->gauge);
     self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);

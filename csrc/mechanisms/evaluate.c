@@ -46,7 +46,7 @@ static void write_packed_mass(const zd_tree *tree, double *M)
 static int terms_of_bodies(const zd_mechanism *self, int want)
 {
     if (self->packing) {
-        const int known = ZD_M | (self->packing->pins.are_all ? ROWS : 0) | (self->uses.efforts ? 0 : ZD_FORCE);
+        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->uses.efforts ? 0 : ZD_FORCE);
         return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
@@ -75,12 +75,14 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
 }
 
 /* What is known of packed terms without the bodies' poses. */
-static void write_packed(const zd_mechanism *self, const zd_frame *frame, int want, const double *p, const double *v, const zd_terms *out)
+static void write_packed(const zd_mechanism *self, const zd_frame *frame, int want, double t, const double *p, const double *v,
+                         const zd_terms *out)
 {
     if (want & ZD_MOVED) zd_pins_turn(&self->packing->pins, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
     if ((want & ZD_FORCE) && !self->uses.efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
     zd_pins_write(&self->packing->pins, self, frame, want, p, v, out);
+    zd_lines_write(&self->packing->lines, &self->packing->pins, self, frame, want, t, p, v, out);
 }
 
 int zd_mechanism_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
@@ -93,7 +95,7 @@ int zd_mechanism_evaluate(const void *data, int want, double t, const double *p,
         zd_tree_turn(&self->tree, p, frame.sines);
         *frame.is_placed = 0;
     }
-    if (self->packing) write_packed(self, &frame, want, p, v, out);
+    if (self->packing) write_packed(self, &frame, want, t, p, v, out);
     if (left) place(self, &frame, left, p, v);
     if (self->hinged.is_whole) write_hinged(self, &frame, want, v, out);
     if (left & ZD_M) zd_tree_mass(&self->tree, frame.pose, frame.composite, out->M);

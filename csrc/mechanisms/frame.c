@@ -15,6 +15,8 @@ static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
     int used = 0, bodies = self->tree.bodies + 1, longest = self->uses.longest;
     to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
     to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
+    to->pull = (zd_pull *)next(scratch, &used, self->lines, sizeof(zd_pull));
+    to->place = next(scratch, &used, self->lines ? 3 * bodies : 0, sizeof(double));
     to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
     to->pose = (zd_pose *)next(scratch, &used, bodies, sizeof(zd_pose));
     to->twist = (zd_twist *)next(scratch, &used, bodies, sizeof(zd_twist));

@@ -31,10 +31,16 @@ struct zd_mechanism {
     const zd_coordinate_owner *coordinate;      /* (nq,) */
     zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
-    int pins;                       /* in absolute coordinates, how many rows are in pairs of these: see pins.h */
+    int pins, lines;                /* in absolute coordinates, how many of these rows come down to: see pins.h, lines.h */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
+
+/* What a row of C does to two bodies by one of its gauges, in the drawing's axes. */
+typedef struct zd_pull {
+    zd_vector along;                /* to the second body, and the opposite to the first */
+    double near, far;               /* torque on the first, and on the second */
+} zd_pull;
 
 /* What a mechanism keeps in a system's scratch while (t, p) stays; then what is made anew for each call. */
 typedef struct zd_frame {
@@ -45,6 +51,8 @@ typedef struct zd_frame {
     zd_spin *spin;                  /* of measures alone */
     zd_vector *axis, *arm;          /* (bodies + 1,), (2 pins,): of each body its x, and of each pin the ways to it, see pins.c */
     double *spread;                 /* (3 bodies + 3,): a vector over the coordinates */
+    zd_pull *pull;                  /* (lines,): see lines.c */
+    double *place;                  /* (3 bodies + 3,) where there are lines: the coordinates */
     double *sines;                  /* 3 for each body, see zd_tree_turn() */
     double *is_placed;              /* whether the poses are those of this (t, p), 0 or 1 */
     double *row;                    /* (nv,) of measures alone */

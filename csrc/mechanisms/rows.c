@@ -61,7 +61,7 @@ int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, dou
     const zd_readings readings = zd_frame_readings(self, frame);
     int nv = self->tree.nv;
     for (int i = 0; i < self->uses.m; i++) {
-        if (self->packing && self->packing->is_of_pin[i]) continue;
+        if (self->packing && self->packing->is_known[i]) continue;
         const zd_relation *row = self->uses.row + i;
         if (self->hinged.is_whole && self->hinged.is_closure[i]) continue;
         zd_combined all;

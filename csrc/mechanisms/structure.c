@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
+void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines)
 {
     zd_packed_take(&self->packed, arena, bodies, rows, terms);
 #define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
@@ -11,7 +11,8 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     TAKE(pins.pin, rows / 2);
     TAKE(pins.end_at, bodies + 2);
     TAKE(pins.end, rows);
-    TAKE(is_of_pin, rows);
+    TAKE(lines.line, lines);
+    TAKE(is_known, rows);
     TAKE(at, bodies + 1);
     TAKE(pin_first, rows / 2);
     TAKE(pin_second, rows / 2);
@@ -34,12 +35,28 @@ static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
             x->first, x->second, {x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}, {x->zero, y->zero},
             row, packed->at[row], packed->at[row + 1] - packed->at[row], packed->near[term], packed->far[term],
             has_angle(mechanism, x->first), has_angle(mechanism, x->second)};
-        self->is_of_pin[row] = self->is_of_pin[row + 1] = 1;
+        self->is_known[row] = self->is_known[row + 1] = 1;
         row++;
     }
     zd_pins_list(pins, mechanism->tree.bodies);
     pins->are_all = 2 * pins->count == mechanism->uses.m && pins->count == packed->structure.groups;
     pins->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
+}
+
+/* The lines of rows that are not of pins, but for those whose law somebody else computes. */
+static void plan_lines(zd_packing *self, const zd_mechanism *mechanism)
+{
+    const zd_packed *packed = &self->packed;
+    zd_lines *lines = &self->lines;
+    self->is_whole = 1;
+    for (int row = 0; row < mechanism->uses.m; row++) {
+        const zd_relation *one = mechanism->uses.row + row;
+        if (self->is_known[row]) continue;
+        self->is_known[row] = one->law < 0;
+        self->is_whole &= one->law < 0;
+        for (int i = one->first; one->law < 0 && i < one->first + one->terms; i++)
+            lines->line[lines->count++] = zd_line_of(mechanism, row, i, packed->at[row], packed->near[i], packed->far[i]);
+    }
 }
 
 static void plan_weight(zd_packing *self, const zd_mechanism *mechanism)
@@ -98,6 +115,7 @@ int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
         self->packed.coordinates[b] = self->packed.velocities[b] = mechanism->tree.link[b + 1].hang == ZD_HANGS_FREE ? 3 : 2;
     if (zd_packed_plan(&self->packed, &mechanism->uses, bodies, write_bodies_of, mechanism->gauge) >= 0) return 0;
     plan_pins(self, mechanism);
+    plan_lines(self, mechanism);
     plan_weight(self, mechanism);
     plan_pinned(self, mechanism);
     return 1;

@@ -230,6 +230,7 @@ class MechanismCore(CoreSystem):
         """
         mine = self._with_data(ffi.NULL, doubles(numbers, numbers.size))
         mine.c.evaluate, mine.c.scratch = ffi.cast("zd_evaluate *", address), scratch
+        mine.c.operations = ffi.NULL        # these read what the interpreted terms leave in the scratch
         mine.c.provides = sum(TERMS[name].bit for name in terms) | (lib.ZD_TIMELESS if timeless else 0)
         mine.provides, mine.timeless = mine.c.provides & ~lib.ZD_TIMELESS, timeless
         if direct is not None:
