@@ -106,5 +106,5 @@ void zd_lane_group_look_closely(zd_lane_group *self, int lane)
     lanes->look_soon[lane] = 0;
     lanes->fastest[lane] = fmax(lanes->fastest[lane], lanes->speed[lane]);
     pause(self, lane, lanes->is_fixed ? look_at_parts(self, lane) : 1);
-    if (lanes->number[lane] >= LOOK_EVERY) look->is_off |= !zd_lane_group_keeps_energy(self, lane);
+    if (lanes->number[lane] >= (double)LOOK_EVERY) look->is_off |= !zd_lane_group_keeps_energy(self, lane);
 }

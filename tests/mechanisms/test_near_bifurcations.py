@@ -40,7 +40,7 @@ def swung(count, doubled=0):
 
 
 def test_long_chains_that_lose_digits_say_so():
-    """Of 200 in a row, beside the one angle that all cranks have: until they first pass the line nothing is told, later both change."""
+    """Of 200 in a row, beside the one angle of all cranks: until they first pass the line nothing is told, later both change."""
     count = 200
     weight, inertia = (count + 1) / 2 + count, (count + 1) / 3 + count      # of uniform cranks and couplers, 1 m, 1 kg
     angle = zd.System(1, mass=np.eye(1), force=lambda p: -9.81 * weight / inertia * np.cos(p), p0=[np.pi / 2], v0=[SPEED])

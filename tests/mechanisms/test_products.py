@@ -1,4 +1,4 @@
-"""Equations of bodies that are free, against their terms written out: chains of each kind of joint, and rows of several gauges."""
+"""Equations of free bodies against their terms written out: chains of each kind of joint, and rows of several gauges."""
 
 import numpy as np
 import pytest
