@@ -59,7 +59,6 @@ typedef struct radau {
     double *seen;           /* (size,): the differences' scale */
     double t0, h;           /* of the step last made, from its beginning */
     double before_h;        /* 0: there was no step before */
-    int is_new_J;           /* whether it was made at the start of this step */
     double contraction;     /* what the last iteration left of the change before */
     double bound;           /* s: of steps, from one that was too long for the iteration, and growing since; 0: there was none */
     int steps_since;        /* that */
@@ -252,8 +251,8 @@ static void remember(radau *self, double t, double h, int size)
 static int solve_step(radau *self, double *y, int with_new_J, zd_statistics *statistics)
 {
     zd_radau_matrices *matrices = &self->matrices;
-    self->is_new_J = with_new_J;
     int status = with_new_J ? zd_radau_make_J(matrices, self->rate, self->t0, self->h, y, self->f0) : ZD_DONE;
+    if (with_new_J) self->contraction = 1;
     if (!status && matrices->h != self->h) status = zd_radau_factor(matrices, self->h);
     if (status) return status;
     start(self);
@@ -270,11 +269,9 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     if (status) return status;
     self->matrices.differences.least_size = LEAST * zd_max_abs(rate->size, y);
     for (int i = 0; i < rate->size; i++) self->seen[i] = fmax(self->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
-    status = solve_step(self, y, !self->matrices.has_J, statistics);
-    if (status && status != ZD_CALLBACK && !self->is_new_J) {
-        self->contraction = 1;
-        status = solve_step(self, y, 1, statistics);
-    }
+    const int had_J = self->matrices.has_J;
+    status = solve_step(self, y, !had_J, statistics);
+    if (status && status != ZD_CALLBACK && had_J) status = solve_step(self, y, 1, statistics);
     self->has_scale = 0;
     self->matrices.has_J = !status && (self->contraction <= SLOW || self->iterations <= 2);
     if (status) {
@@ -362,7 +359,8 @@ const zd_integrator zd_radau = {
         .order = 5, .error_order = 3,
         .description = "Order five, stable for steps of any size, and parts that are too fast for a step are damped: for stiff systems, "
                        "at steps chosen by an error estimate of order three. Its equations are solved by Newton's iteration with a "
-                       "Jacobian from differences, which is kept while it serves.",
+                       "Jacobian from differences, which is kept while it serves; near bifurcations, where rates change abruptly, "
+                       "a step of fixed size may not be solved, and stops the run.",
         .reference = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II: Stiff and Differential-Algebraic Problems, "
                      "2nd edition, Springer, 1996, section IV.8",
     },

@@ -63,7 +63,7 @@ def test_small_pivots_are_watched_where_rows_follow_from_others():
     """As much is left there as without the pins that are there twice, and the motion is the same."""
     (plain, off), (doubled, off_too) = swung(14), swung(14, doubled=2)
     assert doubled.stats["rank"] == plain.stats["rank"] == 86
-    assert doubled.stats["smallest_pivot"] == pytest.approx(plain.stats["smallest_pivot"], rel=1)   # orders of elimination differ
+    assert 0.2 < doubled.stats["smallest_pivot"] / plain.stats["smallest_pivot"] < 5        # orders of elimination differ
     assert max(off, off_too) < 1e-10
 
 
