@@ -14,6 +14,7 @@
 
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
+#include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "radau_matrices.h"
 
@@ -170,6 +171,14 @@ static int evaluate_stages(radau *self)
     return ZD_DONE;
 }
 
+/* x^n, without pow, which ties a program to newer C libraries */
+static double power(double x, int n)
+{
+    double product = 1;
+    while (n-- > 0) product *= x;
+    return product;
+}
+
 /* `size` is what w will miss once the change has been added, as the iteration contracts. */
 static int residual(void *context, double *size)
 {
@@ -185,7 +194,7 @@ static int residual(void *context, double *size)
     self->norm_before = norm;
     *size = norm == 0 ? 0 : share < 1 ? share / (1 - share) * norm : norm;
     if (before > 0 && share > STALLED && is_rounding(self)) *size = 0;
-    else if (self->has_scale && before > 0 && !(share < 1 && *size * pow(share, left) <= 1)) return ZD_NO_CONVERGENCE;
+    else if (self->has_scale && before > 0 && !(share < 1 && *size * power(share, left) <= 1)) return ZD_NO_CONVERGENCE;
     return *size <= 1 ? add_change(self) : ZD_DONE;
 }
 
@@ -197,7 +206,7 @@ static int iterate(radau *self, zd_statistics *statistics)
     transform(self->size, T_inverse, self->z, self->w);
     self->norm_before = 0;
     self->iterations = 0;
-    self->contraction = pow(fmax(self->contraction, 0x1p-52), 0.8);
+    self->contraction = power(zd_root(fmax(self->contraction, 0x1p-52), 5), 4);     /* it may have changed since */
     int status = zd_newton_solve(&newton, self, &iterations, &left);
     statistics->implicit_iterations += self->iterations;
     return status;
