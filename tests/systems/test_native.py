@@ -24,6 +24,7 @@ from native_systems import (
     run_elsewhere,
 )
 from support import assert_close, assert_same_bits
+from zerodrift._gateway import TERMS
 from zerodrift.compiled import BIT, SLOT
 
 pytestmark = needs_compiler
@@ -134,9 +135,8 @@ def test_names(library):
 
 def test_bits_and_slots_are_those_of_the_header(tmp_path):
     """Which the compiler knows."""
-    names = ["A", "M", "BIAS", "FORCE", "PHI", "C", "PHI_T", "XI", "POTENTIAL", "POWER", "COMPLEMENT", "GAMMA"]
-    lines = "".join(f'printf("%d %d ", ZD_{bit}, (int)(offsetof(zd_terms, {slot}) / sizeof(double *)));\n'
-                    for bit, slot in zip(names, SLOT._fields, strict=True))
+    lines = "".join(f'printf("%d %d ", {term.symbol}, (int)(offsetof(zd_terms, {name}) / sizeof(double *)));\n'
+                    for name, term in TERMS.items())
     (tmp_path / "main.c").write_text("#include <stddef.h>\n#include <stdio.h>\n#include <zerodrift/system.h>\n"
                                      f"int main(void) {{ {lines} return 0; }}")
     subprocess.run([COMPILER, "-I", zd.get_include(), "-o", tmp_path / "main", tmp_path / "main.c"], check=True)
