@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 #include "../mechanisms/varied.h"
-#include "../space/tables.h"
+#include "../space_tree/tree.h"
 #include "../zerodrift.h"
 
 #define ZD_WRITTEN_IN_PYTHON static

@@ -1,8 +1,7 @@
 /* The attitude of a body is a unit quaternion q = (w, x, y, z), whose rate is half of q times its angular velocity in its own axes. */
 #include "bodies.h"
 
-/* Its columns are the body's axes; within a step, whose stages leave the length of q, that of q / |q|. */
-static zd_rotation rotation_of(const double *q)
+zd_rotation zd_rotation_of(const double *q)
 {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
     const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, size = 1 / (ww + xx + yy + zz), twice = 2 * size;
@@ -24,7 +23,7 @@ void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3
         pose[i].at = zd_vector3_of(own);
         pose[i].turned = AS_DRAWN;
         if (!body[i].turns) continue;
-        pose[i].turned = rotation_of(own + 3);
+        pose[i].turned = zd_rotation_of(own + 3);
         for (int k = 0; k < 4; k++) quaternion[4 * i + k] = own[3 + k];
     }
 }
@@ -40,12 +39,11 @@ void zd_bodies_move(int bodies, const zd_body3 *body, const zd_pose3 *pose, cons
     }
 }
 
-/* Half of q times (0, omega): the columns are those of omega. */
-static void write_turns(const double *q, double *A)
+void zd_write_turns(const double *q, int columns, double *A)
 {
     const double w = q[0] / 2, x = q[1] / 2, y = q[2] / 2, z = q[3] / 2;
     const double rows[4][3] = {{-x, -y, -z}, {w, -z, y}, {z, w, -x}, {-y, x, w}};
-    for (int i = 0; i < 4; i++, A += ZD_BODY_VELOCITIES)
+    for (int i = 0; i < 4; i++, A += columns)
         for (int j = 0; j < 3; j++) A[j] = rows[i][j];
 }
 
@@ -56,7 +54,7 @@ void zd_bodies_write_A(int bodies, const zd_body3 *body, const double *p, double
         const int turns = body[i].turns, width = turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
         memset(own, 0, (size_t)((turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * width) * sizeof *own);
         for (int k = 0; k < 3; k++) own[k * width + k] = 1;
-        if (turns) write_turns(p + body[i].p + 3, own + 3 * width + 3);
+        if (turns) zd_write_turns(p + body[i].p + 3, width, own + 3 * width + 3);
     }
 }
 

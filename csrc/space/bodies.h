@@ -23,6 +23,11 @@ typedef struct zd_twist3 {
 
 enum { ZD_BODY_COORDINATES = 7, ZD_BODY_VELOCITIES = 6, ZD_POINT_COORDINATES = 3 };
 
+/* The axes of a body with the attitude q (4,); within a step, whose stages leave the length of q, that of q / |q|. */
+zd_rotation zd_rotation_of(const double *q);
+/* Half of q times (0, omega), (4, 3) with the columns of omega, in a matrix of so many columns. */
+void zd_write_turns(const double *q, int columns, double *A);
+
 /* Arrays (bodies + 1,) begin with the ground. */
 void zd_bodies_place(int bodies, const zd_body3 *body, const double *p, zd_pose3 *pose, double *quaternion);
 void zd_bodies_move(int bodies, const zd_body3 *body, const zd_pose3 *pose, const double *v, zd_twist3 *twist);

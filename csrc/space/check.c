@@ -5,6 +5,31 @@
 
 #include "../gauges/check.h"
 
+static int is_particle(const zd_space_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
+
+/* Whether a joint leaves a particle, which has no axes, its orientation. */
+static int swings(const zd_space_joint_kind *kind, int freedom)
+{
+    return kind->freedoms && kind->freedom[freedom].kind == ZD_SPACE_SWINGS;
+}
+
+static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint to)
+{
+    const int carrier = tables->body[i].carrier, body = i + 1;
+    if (carrier == -1) return 1;
+    if (!zd_is_in(carrier, tables->joints)) return zd_complain(to, "body %d: there is no joint %d to carry it", body, carrier);
+    const zd_space_joint *joint = tables->joint + carrier;
+    const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
+    if (body != joint->first && body != joint->second)
+        return zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
+    if (!kind->carries) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier, kind->card.name);
+    if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, kind->freedoms - 1)))
+        return zd_complain(to, "body %d: joint %d is a %s, and a particle has no axes", body, carrier, kind->card.name);
+    for (int other = 0; other < i; other++)
+        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1, body);
+    return 1;
+}
+
 static int body_is_right(const zd_space_tables *tables, int i, zd_complaint to)
 {
     const zd_space_body *body = tables->body + i;
@@ -14,7 +39,7 @@ static int body_is_right(const zd_space_tables *tables, int i, zd_complaint to)
         if (!(I[k] >= 0)) return zd_complain(to, "body %d: its inertia must not be negative, and is %g", i + 1, I[k]);
         if (body->is_particle && I[k] > 0) return zd_complain(to, "body %d: a particle has no inertia", i + 1);
     }
-    return 1;
+    return carrier_is_right(tables, i, to);
 }
 
 static int are_bodies(const zd_space_tables *tables, int first, int second)
@@ -55,7 +80,8 @@ int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int 
     const struct {
         int count;
         int (*is_right)(const zd_space_tables *, int, zd_complaint);
-    } all[] = {{tables->bodies, body_is_right}, {tables->joints, joint_is_right}, {tables->gauges, gauge_is_right}};
+    } all[] = {     /* joints before the bodies that they carry */
+        {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->gauges, gauge_is_right}};
     if (tables->bodies < 1) return zd_complain(to, "a mechanism needs at least one body");
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)

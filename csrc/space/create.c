@@ -69,6 +69,12 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
 static void copy(const zd_space_tables *tables, parts *to)
 {
     for (int i = 0; i < tables->joints; i++) to->joint[i] = tables->joint[i];
+    for (int body = 1; body <= tables->bodies; body++) {
+        const int carrier = tables->body[body - 1].carrier;
+        if (carrier < 0) continue;
+        to->planned[carrier].carried = body;
+        to->planned[carrier].sign = tables->joint[carrier].second == body ? 1 : -1;
+    }
     for (int i = 0; i < tables->gauges; i++) to->gauge[i] = tables->gauge[i];
     zd_uses_copy(&tables->uses, &to->uses);
     to->gauges = tables->gauges;
@@ -147,11 +153,12 @@ static void add_joint_row(parts *to, int j, int component)
     zd_uses_add_joint_row(&to->uses, first, row->nonholonomic, j, component);
 }
 
-/* Rows of all joints, and of relations, if they are nonholonomic or not. */
+/* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
 static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to)
 {
     for (int j = 0; j < tables->joints; j++) {
         const zd_space_joint_kind *kind = zd_space_joint_kind_of(to->joint[j].kind);
+        if (to->planned[j].carried) continue;
         for (int i = 0; i < kind->rows; i++)
             if (kind->row[i].nonholonomic == nonholonomic) add_joint_row(to, j, i);
     }
@@ -250,7 +257,11 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
     return NULL;
 }
 
-void zd_space_free(zd_space *space) { zd_release(space); }
+void zd_space_free(zd_space *space)
+{
+    if (space) zd_release(space->carrying.tree);
+    zd_release(space);
+}
 
 const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
 

@@ -25,13 +25,28 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     frame.x = scratch;
     frame.xdot = frame.x + space->uses.longest;
     frame.out = frame.xdot + space->uses.longest;
+    if (!space->carrying.place) return frame;
+    frame.bias = (zd_twist3 *)(frame.out + space->uses.longest + 3);
+    frame.carried = (double *)(frame.bias + all);
     return frame;
 }
 
 int zd_frame3_size(const zd_space *space)
 {
     return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * SIGHTED
-         + space->sockets.turns + 3 * space->uses.longest + 3;
+         + space->sockets.turns + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+}
+
+void zd_frame3_place(const zd_space *space, const zd_frame3 *frame, const double *p)
+{
+    if (space->carrying.place) space->carrying.place(space, frame, p);
+    else zd_bodies_place(space->bodies, space->body, p, frame->pose, frame->quaternion);
+}
+
+void zd_frame3_move(const zd_space *space, const zd_frame3 *frame, const double *v)
+{
+    if (space->carrying.move) space->carrying.move(space, frame, v);
+    else zd_bodies_move(space->bodies, space->body, frame->pose, v, frame->twist);
 }
 
 static double value_of(const void *mechanism, const void *frame, int gauge)

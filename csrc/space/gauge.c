@@ -158,6 +158,8 @@ zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pos
     return to;
 }
 
+int zd_space_gauge_is_mutual(const zd_space_gauge *gauge) { return gauge->kind != ZD_SPACE_GLIDE && gauge->kind != ZD_SPACE_SPIN; }
+
 /* ---- rates and biases ---- */
 
 static double work(zd_wrench3 what, const zd_twist3 *twist)
@@ -238,4 +240,10 @@ double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_pose3 *pose, co
 #undef TURNING_B
 #undef POINT_Q
 #undef APART
+}
+
+double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, const zd_twist3 *bias)
+{
+    const double own = zd_space_gauge_bias(gauge, pose, twist);
+    return bias ? own + zd_space_gauge_rate(gauge, pose, bias) : own;
 }

@@ -12,8 +12,12 @@ typedef struct zd_reading3 {
 
 zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose);
 double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);
-/* What the derivative of the rate by time has besides the accelerations of coordinates. */
+/* What the derivative of the rate by time has besides the accelerations of bodies. */
 double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);
+/* The same besides those of coordinates, where bodies have the accelerations `bias` if coordinates have none; NULL: they have none either. */
+double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist, const zd_twist3 *bias);
+/* Whether a force along it does the opposite to the first body of what it does to the second. */
+int zd_space_gauge_is_mutual(const zd_space_gauge *gauge);
 /* C of enum zd_space_gauge_kind. */
 zd_vector3 zd_space_contact(const zd_space_gauge *gauge, const zd_pose3 *pose);
 /* A point of a body, from the drawing's origin. */

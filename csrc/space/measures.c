@@ -16,6 +16,10 @@ static void write_row(const zd_space *self, const zd_frame3 *frame, const zd_spa
 {
     const zd_reading3 reading = zd_space_gauge_read(gauge, frame->pose);
     memset(row, 0, (size_t)self->system.nv * sizeof *row);
+    if (self->carrying.act) {
+        self->carrying.act(self, frame, gauge, scale, &reading, row);
+        return;
+    }
     const struct {
         int body;
         zd_wrench3 wrench;
@@ -33,7 +37,7 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
     const zd_space_gauge *gauge = self->gauge + measure->index + i;
     const int nv = self->system.nv;
     const double rate = zd_space_gauge_rate(gauge, frame->pose, frame->twist), s = measure->scale;
-    const double bias = zd_space_gauge_bias(gauge, frame->pose, frame->twist);
+    const double bias = zd_space_gauge_bias_with(gauge, frame->pose, frame->twist, frame->bias);
     if (measure->quantity == ZD_ACCELERATIONS) {
         write_row(self, frame, gauge, s, frame->row);
         if (out->value) out->value[i] = s * bias + zd_dot(nv, frame->row, at->vdot);
@@ -49,7 +53,7 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
 static int measure_tension(const zd_space *self, const zd_frame3 *frame, int joint, const state *at, double *value)
 {
     zd_wrench3 reaction;
-    const int status = zd_space_joint_reaction(self, frame, joint, at->t, at->lambda, &reaction);
+    const int status = zd_space_joint_reaction(self, frame, joint, at->t, at->vdot, at->lambda, &reaction);
     const zd_space_joint *ends = self->joint + joint;
     const zd_vector3 apart = zd_minus3(zd_point3_of(frame->pose + ends->second, ends->point2), zd_point3_of(frame->pose + ends->first, ends->point1));
     *value = -zd_inner3(reaction.force, apart) / sqrt(zd_inner3(apart, apart));
@@ -89,7 +93,7 @@ static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, con
     case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
     default: break;
     }
-    const int status = zd_space_joint_reaction(self, frame, measure->index, at->t, at->lambda, &reaction);
+    const int status = zd_space_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
     write_vector(measure->quantity == ZD_JOINT_TORQUE ? reaction.torque : reaction.force, value);
     return status;
 }
@@ -102,8 +106,8 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    zd_bodies_place(self->bodies, self->body, p, frame.pose, frame.quaternion);
-    zd_bodies_move(self->bodies, self->body, frame.pose, v, frame.twist);
+    zd_frame3_place(self, &frame, p);
+    zd_frame3_move(self, &frame, v);
     if (observed->quantity <= ZD_ACCELERATIONS) {
         for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
         return ZD_DONE;

@@ -4,13 +4,32 @@
 
 #include "../gauges/packed.h"
 #include "../gauges/readings.h"
+#include "gauge.h"
 #include "socket.h"
 #include "tables.h"
 
 typedef struct zd_planned_joint3 {
     int rows[ZD_SPACE_ROWS];    /* which rows of C are its own */
     int row_count;
+    int carried;                    /* the body that it carries, and then it has no rows; 0: none */
+    int sign;                       /* 1: that is its second body, -1: its first */
 } zd_planned_joint3;
+
+struct zd_frame3;
+
+/* How bodies move that joints carry, in the place of free ones. */
+typedef struct zd_carrying {
+    void (*place)(const zd_space *self, const struct zd_frame3 *frame, const double *p);
+    void (*move)(const zd_space *self, const struct zd_frame3 *frame, const double *v);     /* and frame->bias */
+    /* row += what `scale` times a unit force along a gauge does to the velocities */
+    void (*act)(const zd_space *self, const struct zd_frame3 *frame, const zd_space_gauge *gauge, double scale, const zd_reading3 *reading,
+                double *row);
+    /* reaction += what a joint that carries a body does to its second one, about a point. Returns ZD_DONE or ZD_CALLBACK. */
+    int (*transmit)(const zd_space *self, const struct zd_frame3 *frame, int joint, zd_vector3 point, double t, const double *vdot,
+                    const double *lambda, zd_wrench3 *reaction);
+    int scratch;                    /* doubles that it keeps behind all else of the frame */
+    void *tree;                     /* what it knows; released with the mechanism */
+} zd_carrying;
 
 struct zd_space {
     zd_vector3 gravity;
@@ -24,6 +43,7 @@ struct zd_space {
     zd_packed packed;
     const double *weight;           /* (nv,) of the bodies, as generalized force */
     zd_sockets sockets;
+    zd_carrying carrying;           /* its functions are NULL where all bodies are free */
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -38,10 +58,15 @@ typedef struct zd_frame3 {
     double *turns;                  /* of the sockets' rows, see sockets.h */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
+    zd_twist3 *bias;                /* of carried bodies: their accelerations where vdot is zero; NULL: all are free, and have none */
+    double *carried;                /* (carrying.scratch,) */
 } zd_frame3;
 
 zd_frame3 zd_frame3_of(const zd_space *space, double *scratch);
 int zd_frame3_size(const zd_space *space);      /* doubles */
+/* From coordinates to poses, and from velocities to twists. */
+void zd_frame3_place(const zd_space *space, const zd_frame3 *frame, const double *p);
+void zd_frame3_move(const zd_space *space, const zd_frame3 *frame, const double *v);
 /* The gauges of a frame that is placed, and moving where their rates are asked for. */
 zd_readings zd_frame3_readings(const zd_space *space, const zd_frame3 *frame);
 

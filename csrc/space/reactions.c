@@ -1,4 +1,5 @@
-/* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches. */
+/* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches;
+ * what goes through a joint of the tree is asked of the tree. */
 #include "reactions.h"
 
 #include "../gauges/observed.h"
@@ -13,9 +14,10 @@ typedef struct place {
 static place place_of(const zd_space *self, const zd_frame3 *frame, int joint)
 {
     const zd_space_joint *of = self->joint + joint;
-    const zd_relation *row = self->uses.row + self->planned[joint].rows[0];
-    if (zd_space_joint_kind_of(of->kind)->rolls)
+    if (zd_space_joint_kind_of(of->kind)->rolls) {
+        const zd_relation *row = self->uses.row + self->planned[joint].rows[0];
         return (place){of->second, zd_space_contact(self->gauge + self->uses.term[row->first].gauge, frame->pose)};
+    }
     return (place){of->second, zd_point3_of(frame->pose + of->second, of->point2)};
 }
 
@@ -58,10 +60,13 @@ static int of_drives(const zd_space *self, const zd_frame3 *frame, int joint, pl
     return ZD_DONE;
 }
 
-int zd_space_joint_reaction(const zd_space *self, const zd_frame3 *frame, int joint, double t, const double *lambda, zd_wrench3 *reaction)
+int zd_space_joint_reaction(const zd_space *self, const zd_frame3 *frame, int joint, double t, const double *vdot, const double *lambda,
+                            zd_wrench3 *reaction)
 {
     const place at = place_of(self, frame, joint);
+    int status = ZD_DONE;
     *reaction = (zd_wrench3){{0, 0, 0}, {0, 0, 0}};
-    of_rows(self, frame, joint, at, lambda, reaction);
-    return of_drives(self, frame, joint, at, t, lambda, reaction);
+    if (self->planned[joint].carried) status = self->carrying.transmit(self, frame, joint, at.point, t, vdot, lambda, reaction);
+    else of_rows(self, frame, joint, at, lambda, reaction);
+    return status ? status : of_drives(self, frame, joint, at, t, lambda, reaction);
 }

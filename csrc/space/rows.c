@@ -13,6 +13,10 @@ static void add_to_row(const zd_space *self, const zd_frame3 *frame, int term, d
 {
     const zd_space_gauge *gauge = self->gauge + self->uses.term[term].gauge;
     const int first = gauge->first, second = gauge->second;
+    if (self->carrying.act) {
+        self->carrying.act(self, frame, gauge, scale, reading, to);
+        return;
+    }
     if (first) zd_body_act(self->body + first, frame->pose + first, scale, reading->first, to + self->packed.near[term]);
     if (second) zd_body_act(self->body + second, frame->pose + second, scale, reading->second, to + self->packed.far[term]);
 }
@@ -32,7 +36,8 @@ static double add_readings(const zd_space *self, const zd_frame3 *frame, const z
 static double sum_of_biases(const zd_space *self, const zd_frame3 *frame, const zd_relation *row, const double *factors)
 {
     double sum = 0;
-    for (int i = 0; i < row->terms; i++) sum += factors[i] * zd_space_gauge_bias(gauge_of(self, row, i), frame->pose, frame->twist);
+    for (int i = 0; i < row->terms; i++)
+        sum += factors[i] * zd_space_gauge_bias_with(gauge_of(self, row, i), frame->pose, frame->twist, frame->bias);
     return sum;
 }
 
@@ -49,7 +54,8 @@ int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, 
         const int status = zd_combine(&self->uses, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->uses.mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
-            const double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + self->packed.at[i] : NULL);      /* (5) */
+            const int at = self->carrying.act ? i * self->system.nv : self->packed.at[i];
+            const double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + at : NULL);      /* (5) */
             if (wants_Phi) out->Phi[i] = modulo(row->law < 0 ? sum + all.value : all.value, self->period[i]);               /* (3) */
         }
         if (want & ZD_PHI_T) out->Phi_t[i] = all.explicit_rate;

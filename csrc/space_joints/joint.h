@@ -35,7 +35,7 @@ enum zd_space_zero { ZD_SPACE_ZERO_NONE, ZD_SPACE_ZERO_ALONG, ZD_SPACE_ZERO_LENG
 /* Directions of a joint's frame. Each body has one, and where the joint says zero they coincide. */
 enum { ZD_SPACE_AXIS, ZD_SPACE_NORMAL, ZD_SPACE_THIRD, ZD_SPACE_AXES };     /* right-handed, of length 1 */
 
-enum { ZD_SPACE_ROWS = 6, ZD_SPACE_COORDINATES = 2 };
+enum { ZD_SPACE_ROWS = 6, ZD_SPACE_COORDINATES = 2, ZD_SPACE_FREEDOMS = 3 };
 
 typedef struct zd_space_pick {
     enum zd_space_gauge_kind gauge;
@@ -56,6 +56,21 @@ typedef struct zd_space_coordinate {
     zd_space_pick pick;
 } zd_space_coordinate;
 
+/* What a joint leaves free, one after another from the first body's frame to the second's: a joint that says it can carry a body in a tree. */
+enum zd_space_freedom_kind {
+    ZD_SPACE_SLIDES,        /* along a direction of the frame */
+    ZD_SPACE_TURNS,         /* about it, through the point where the frame is by then */
+    ZD_SPACE_ADVANCES,      /* about it, and along by `length` for each rad */
+    ZD_SPACE_SWINGS         /* about the point, by a unit quaternion */
+};
+
+typedef struct zd_space_freedom {
+    enum zd_space_freedom_kind kind;
+    int direction;              /* of the frame */
+    const char *name;           /* of its coordinate, such as "angle" */
+    enum zd_space_zero zero;    /* what the distance along the direction is where the coordinate is zero */
+} zd_space_freedom;
+
 /* A kind of joint: a row of the table of joints in space. */
 typedef struct zd_space_joint_kind {
     zd_card card;
@@ -66,6 +81,9 @@ typedef struct zd_space_joint_kind {
     int rolls;                  /* whether it touches at C, where its force acts: o of its gauges is the axis */
     int takes_length;           /* whether the user gives `length`: of a rod, or of a screw m for each rad */
     const char *tension;        /* name of the scalar that its first row's force is, positive where it pulls; or NULL */
+    int carries;                /* whether it can carry a body in a tree; else it is rows in all coordinates */
+    int freedoms;
+    zd_space_freedom freedom[ZD_SPACE_FREEDOMS];
 } zd_space_joint_kind;
 
 int zd_space_joint_kinds(void);

@@ -2,6 +2,8 @@
 #ifndef ZD_SPACE_PRIMITIVES_H
 #define ZD_SPACE_PRIMITIVES_H
 
+#include <stddef.h>
+
 #include "joint.h"
 
 #define A ZD_SPACE_AXIS
@@ -20,5 +22,12 @@
 /* How far the second body has turned about the axis, and how far its point has moved along it. */
 #define ANGLE_ABOUT_AXIS {"angle", {.gauge = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}}
 #define DISPLACEMENT_ALONG_AXIS {"displacement", {.gauge = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}}
+
+/* What a joint leaves free of these. */
+#define TURNS_ABOUT(which, called) {ZD_SPACE_TURNS, which, called, ZD_SPACE_ZERO_NONE}
+#define SLIDES_ALONG_AXIS {ZD_SPACE_SLIDES, A, "displacement", ZD_SPACE_ZERO_ALONG}
+#define SLIDES_ALONG(which, called) {ZD_SPACE_SLIDES, which, called, ZD_SPACE_ZERO_NONE}
+#define SWINGS {ZD_SPACE_SWINGS, A, NULL, ZD_SPACE_ZERO_NONE}
+#define ADVANCES_ALONG_AXIS {ZD_SPACE_ADVANCES, A, "angle", ZD_SPACE_ZERO_ALONG}
 
 #endif

@@ -8,4 +8,5 @@ const zd_space_joint_kind zd_space_screw = {
             {.pick = {.gauge = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}, .advances = 1}},
     .coordinate = {ANGLE_ABOUT_AXIS, DISPLACEMENT_ALONG_AXIS},
     .axes = 1, .takes_length = 1,
+    .carries = 1, .freedoms = 1, .freedom = {ADVANCES_ALONG_AXIS},
 };

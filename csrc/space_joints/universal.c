@@ -11,4 +11,5 @@ const zd_space_joint_kind zd_space_universal = {
         {"angle2", {.gauge = ZD_SPACE_ANGLE, .of_first = A, .of_second = A, .is_swapped = 1}},
     },
     .axes = 2,
+    .carries = 1, .freedoms = 2, .freedom = {TURNS_ABOUT(A, "angle1"), TURNS_ABOUT(N, "angle2")},
 };

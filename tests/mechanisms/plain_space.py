@@ -19,7 +19,7 @@ ON_GROUND = {"ball": (0.3, 0.3, 0.3), "disc": (0.0, 0.4, 0.4), "egg": (0.3, 0.5,
 class Plain:
     """A mechanism with what is needed to write its equations again."""
 
-    def __init__(self, rng, bodies, loops, on_ground=None):
+    def __init__(self, rng, bodies, loops, on_ground=None, coordinates=None):
         self.m = zd.Mechanism("random", dimension=3, gravity=rng.normal(size=3))
         self.bodies, self.held, self.on_ground, self.joints = [self.m.ground], [], [], {}
         self.pose = {"ground": (np.zeros(3), Rotation.identity())}
@@ -34,7 +34,7 @@ class Plain:
         if on_ground:
             self._put_on_ground(rng, on_ground)
         self._add_forces(rng)
-        self.system = self.m.system()
+        self.system = self.m.system(coordinates)
 
     def _add_body(self, rng, name):
         at, R, com = rng.normal(size=3), Rotation.random(random_state=rng), 0.3 * rng.normal(size=3)
@@ -193,9 +193,9 @@ def _held(first, second, kind, local1, local2, axes):
 class Compared:
     """One random mechanism, and how far the core is off in accelerations, the balance of reactions, and the end of a motion."""
 
-    def __init__(self, seed, on_ground=None, loops=2):
+    def __init__(self, seed, on_ground=None, loops=2, coordinates=None):
         rng = np.random.default_rng(seed)
-        self.plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, loops + 1)), on_ground)
+        self.plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, loops + 1)), on_ground, coordinates)
         _, s, vt = np.linalg.svd(self.plain.jacobian(self.plain.pose))
         rank = int((s > 1e-6 * s[0]).sum())
         # with nothing free there is nothing to see, and nearly dependent rows would need more digits than differences have
@@ -204,9 +204,10 @@ class Compared:
 
     def _run(self, formulation, span, step):
         system, own = self.plain.system, self.v.reshape(-1, 6).copy()
-        turned = system._core.poses(system.p0)[0][:, 3:]
-        own[:, 3:] = [Rotation.from_quat(q, scalar_first=True).inv().apply(w) for q, w in zip(turned, own[:, 3:], strict=True)]
-        start = system._core.state(np.zeros((len(own), 7)), own)[1]
+        poses = system._core.poses(system.p0)[0]
+        own[:, 3:] = [Rotation.from_quat(pose[3:], scalar_first=True).inv().apply(w)
+                      for pose, w in zip(poses, own[:, 3:], strict=True)]
+        start = system._core.state(poses, own)[1]
         p, v = zd.assemble(system, system.p0, start)        # the model's rows are as exact as differences are
         return zd.simulate(system, span, p, v, step=step, formulation=formulation)
 

@@ -22,11 +22,12 @@ def heavy_top():
     return m
 
 
-def test_the_heavy_top_of_its_reference(formulation):
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_heavy_top_of_its_reference(formulation, coordinates):
     reference = table("heavy_top")
     end = 101 if formulation == "schur" else 11
     t = reference["t"][:end]
-    sol = zd.simulate(heavy_top(), t[-1], t_eval=t, formulation=formulation, **EXACT)
+    sol = zd.simulate(heavy_top().system(coordinates), t[-1], t_eval=t, formulation=formulation, **EXACT)
     expected = {name: reference[name][:end] for name in reference}
     for i, axis in enumerate("xyz"):
         assert_close(sol[f"top.center.position.{axis}"], expected[axis], 1e-10, scale=1.0)

@@ -22,12 +22,21 @@ GAUGES = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along"
           "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
           "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
 NAMES = {value: name for name, value in GAUGES.items()}
+FREEDOMS = {lib.ZD_SPACE_SLIDES: "slides", lib.ZD_SPACE_TURNS: "turns", lib.ZD_SPACE_ADVANCES: "advances",
+            lib.ZD_SPACE_SWINGS: "swings"}
 BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
 
 Vector = tuple[float, float, float]
 Frame = tuple[Vector, Vector, Vector]
 NONE: Vector = (0.0, 0.0, 0.0)
 AS_DRAWN: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class Freedom(NamedTuple):
+    """What a joint leaves free: a distance, an angle, or where `name` is None a unit quaternion."""
+
+    kind: str                   # "slides", "turns", "advances", "swings"
+    name: str | None
 
 
 class JointKind(NamedTuple):
@@ -42,6 +51,7 @@ class JointKind(NamedTuple):
     axes: int
     takes_length: bool
     tension: str | None
+    freedoms: tuple[Freedom, ...] | None    # None: it carries no body in a tree
 
 
 class Body(NamedTuple):
@@ -50,6 +60,7 @@ class Body(NamedTuple):
     mass: float
     inertia: Vector = NONE      # about its principal axes, which are those of the core
     is_particle: bool = False
+    carrier: int = -1           # the joint of the tree that carries it; -1: it is free
 
 
 class Joint(NamedTuple):
@@ -100,7 +111,10 @@ def _joint_kind(number: int) -> JointKind:
     rows = tuple((NAMES[row.pick.gauge], row.pick.of_first, row.pick.of_second) for row in (c.row[i] for i in range(c.rows)))
     coordinates = tuple((text(each.name), NAMES[each.pick.gauge]) for each in c.coordinate if each.name)
     tension = text(c.tension) if c.tension else None
-    return JointKind(number, card_of(c.card), rows, coordinates, c.axes, bool(c.takes_length), tension)
+    freedoms = tuple(Freedom(FREEDOMS[each.kind], text(each.name) if each.name else None)
+                     for each in (c.freedom[i] for i in range(c.freedoms)))
+    return JointKind(number, card_of(c.card), rows, coordinates, c.axes, bool(c.takes_length), tension,
+                     freedoms if c.carries else None)
 
 
 def joint_kinds() -> dict[str, JointKind]:
@@ -136,10 +150,12 @@ class SpaceCore(CoreSystem):
         If the tables contradict themselves; the sentence says where.
     """
 
+    _made_by = lib.zd_space_create
+
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
-        self._mechanism, self._words = _create(tables, law is not None, laws_know_time)
+        self._mechanism, self._words = _create(tables, law is not None, laws_know_time, self._made_by)
         super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
         sizes = np.array([PARTICLE if body.is_particle else BODY for body in tables.bodies])
@@ -216,7 +232,7 @@ class SpaceCore(CoreSystem):
         return p, np.concatenate([rate if turns else rate[:3] for rate, turns in zip(rates, self._turning, strict=True)])
 
 
-def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
+def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) -> tuple[Any, Any]:
     """The core's mechanism, and words that have to live as long."""
     bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
     gauges = ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
@@ -226,7 +242,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
         "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
         "body": bodies, "joint": joints, "gauge": gauges, "uses": uses, "period": period})
     message = ffi.new("char[]", MESSAGE_SIZE)
-    mechanism = lib.zd_space_create(c, message, MESSAGE_SIZE)
+    mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
     return ffi.gc(mechanism, lib.zd_space_free), words

@@ -34,7 +34,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         For tables and plots.
     dimension : int
         2, the plane, or 3, space: then points and directions have three components, and hinges and sliders an ``axis=``. In
-        space there are absolute coordinates, and not yet all elements: what is not there says so.
+        space there are not yet all elements: what is not there says so.
     gravity : array_like (dimension,), optional
         In m/s^2, in the drawing's axes; left out: none.
     parameters : dict of str to float, optional
@@ -90,6 +90,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             where joint coordinates cost up to its third power. None: those that cost less, by a count of what a step does: joint
             ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
             body has no mass, and for `compiled`. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
+            In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
+            and quaternion; angles count turns. "absolute" are seven coordinates and six velocities a body; None takes these.
         compiled : bool
             Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
@@ -115,9 +117,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         >>> m.system("absolute")
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
-        if self.dimension == 3 and (compiled or coordinates == "joint"):
-            raise ValueError(f"{self.name!r} is in space, where there are absolute coordinates, and nothing is written out yet: "
-                             "coordinates must be None or 'absolute', and compiled False")
+        if self.dimension == 3 and compiled:
+            raise ValueError(f"{self.name!r} is in space, where nothing is written out yet: compiled must be False")
         layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
         return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
 

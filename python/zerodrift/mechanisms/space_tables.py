@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -11,7 +11,9 @@ import numpy as np
 from .._gateway import Variable, space
 from .._gateway import mechanisms as rows
 from .._gateway.space import AS_DRAWN, Gauge, SpaceCore
+from .._gateway.space_tree import SpaceTreeCore
 from .._rotations import AXES, quaternion_of
+from . import space_tree
 from .bodies import Body, Particle, Point
 from .drawing import Drawing
 from .forces import Actuator, Force, Spring, Torque
@@ -20,8 +22,8 @@ from .space import triple
 from .space_bodies import SpaceInertias
 from .space_joints import SpaceJoint
 from .tables import Tables
+from .tree import carriers
 
-QUATERNION = ("e0", "e1", "e2", "e3")
 TURN = 2 * np.pi
 MOST_TEETH = 10000      # of a gear's ratio as a fraction: what counts as one
 SAME = 1e-12
@@ -37,22 +39,32 @@ class SpaceTables(Tables):
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
                  starts: Mapping[str, float] | None = None) -> None:
         self.periods: list[float] = []
-        super().__init__(drawing, numbers, in_tree=False, starts=starts)
+        super().__init__(drawing, numbers, in_tree=in_tree, starts=starts)
 
     def _masses(self) -> Any:
         return SpaceInertias(self.drawing, self.numbers)
 
     def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[rows.Observed] = ()) -> SpaceCore:     # type: ignore[override]
         """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
-        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns)
-                  for body in self.parts for mass in [self.inertias.of[body.name]]]
+        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, carrier)
+                  for body, carrier in zip(self.parts, self.carrier, strict=True) for mass in [self.inertias.of[body.name]]]
         tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.periods,
                               self.efforts, observed, self._gravity())
-        return SpaceCore(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+        made = SpaceCore if max(self.carrier, default=-1) < 0 else SpaceTreeCore
+        return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
 
-    def absolute(self) -> SpaceTables:
-        """These."""
-        return self
+    def joint_coordinates(self) -> int:
+        """How many velocities the bodies have along the tree."""
+        return len(self.velocities())
+
+    def _tree(self) -> list[int]:
+        weights = [(float(body.turns), self.inertias.of[body.name].mass) for body in self.parts]
+        return carriers(len(self.parts), space_tree.edges(self.joints, self.number), weights)
+
+    def _carried(self) -> Iterator[tuple[Body, SpaceJoint | None]]:
+        """The bodies, each with the joint that carries it."""
+        for body, carrier in zip(self.parts, self.carrier, strict=True):
+            yield body, self.joints[carrier] if carrier >= 0 else None
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 7) of the mass centres as drawn, with the principal axes."""
@@ -63,15 +75,14 @@ class SpaceTables(Tables):
         return np.array(poses, dtype=float).reshape(-1, 7)
 
     def coordinates(self) -> tuple[Variable, ...]:
-        """The entries of p: places of mass centres, and the quaternions that turn principal axes into the drawing's."""
-        return tuple(Variable(f"{body.name}.{word}", unit) for body in self.parts
-                     for words, unit in ((AXES, "m"), (QUATERNION if body.turns else (), "")) for word in words)
+        """The entries of p: of free bodies the places of mass centres, and the quaternions that turn principal axes into the
+        drawing's; of others the coordinates of their joints.
+        """
+        return tuple(each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
 
     def velocities(self) -> tuple[Variable, ...]:
-        """The entries of v: velocities of mass centres, and angular velocities about the body's own principal axes."""
-        return tuple(Variable(f"{body.name}.{word}{end}", unit) for body in self.parts
-                     for words, end, unit in ((AXES, "_dot", "m/s"), (AXES if body.turns else (), "_spin", "rad/s"))
-                     for word in words)
+        """The entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
+        return tuple(each for body, carrier in self._carried() for each in space_tree.rates(body, carrier))
 
     # ---- joints ----
 

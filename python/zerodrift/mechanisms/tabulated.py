@@ -11,5 +11,5 @@ from .tables import Tables
 
 
 def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:
-    """The tables; in space no body hangs on a tree."""
+    """The tables."""
     return (SpaceTables if drawing.dimension == 3 else Tables)(drawing, numbers, in_tree=in_tree, starts=starts)

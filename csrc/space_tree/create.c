@@ -1,0 +1,177 @@
+/* From tables to a tree: how each body hangs on another, and where its coordinates are. */
+#include "tree.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../workspace.h"
+#include "evaluate.h"
+#include "inward.h"
+#include "motion.h"
+#include "reactions.h"
+
+typedef struct parts {
+    zd_tree3 *tree;
+    zd_link3 *link;
+    int *order, *lengths, *quaternion;
+    int quaternions;
+} parts;
+
+static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
+{
+    const size_t bodies = (size_t)tables->bodies;
+#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+    TAKE(tree, 1);
+    TAKE(link, bodies + 1);
+    TAKE(order, bodies);
+    TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies);
+    TAKE(quaternion, bodies);
+#undef TAKE
+}
+
+/* ---- links ---- */
+
+static zd_axes3 axes_of(const double frame[3][3])
+{
+    return (zd_axes3){{zd_vector3_of(frame[0]), zd_vector3_of(frame[1]), zd_vector3_of(frame[2])}};
+}
+
+static int coordinates_of(enum zd_space_freedom_kind kind) { return kind == ZD_SPACE_SWINGS ? 4 : 1; }
+static int velocities_of(enum zd_space_freedom_kind kind) { return kind == ZD_SPACE_SWINGS ? 3 : 1; }
+
+/* How a body hangs on the other one of the joint that carries it; a particle has no orientation that could swing. */
+static zd_link3 hang_on(const zd_space_joint *joint, int is_second, int turns)
+{
+    const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
+    zd_link3 link = {
+        .inner = is_second ? joint->first : joint->second,
+        .turns = turns,
+        .near = zd_vector3_of(is_second ? joint->point1 : joint->point2), .far = zd_vector3_of(is_second ? joint->point2 : joint->point1),
+        .near_axes = axes_of(is_second ? joint->frame1 : joint->frame2), .far_axes = axes_of(is_second ? joint->frame2 : joint->frame1),
+    };
+    for (int i = 0; i < kind->freedoms; i++) {
+        const zd_space_freedom *freedom = kind->freedom + (is_second ? i : kind->freedoms - 1 - i);
+        if (freedom->kind == ZD_SPACE_SWINGS && !turns) continue;
+        link.step[link.steps++] = (zd_step3){.kind = freedom->kind, .direction = freedom->direction, .sign = is_second ? 1 : -1,
+                                             .zero = freedom->zero == ZD_SPACE_ZERO_ALONG ? joint->along : 0, .length = joint->length};
+    }
+    return link;
+}
+
+/* Coordinates of a body are numbered in the order of its joint's table, whichever way it is taken. */
+static void number_steps(zd_link3 *link, parts *to)
+{
+    const int is_backwards = link->steps && link->step[0].sign < 0;
+    for (int i = 0; i < link->steps; i++) {
+        zd_step3 *step = link->step + (is_backwards ? link->steps - 1 - i : i);
+        step->p = link->p + link->nq;
+        step->v = link->v + link->nv;
+        if (step->kind == ZD_SPACE_SWINGS) to->quaternion[to->quaternions++] = step->p;
+        link->nq += coordinates_of(step->kind);
+        link->nv += velocities_of(step->kind);
+    }
+}
+
+static void number_free(zd_link3 *link, parts *to)
+{
+    link->nq = link->turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES;
+    link->nv = link->turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
+    if (link->turns) to->quaternion[to->quaternions++] = link->p + ZD_POINT_COORDINATES;
+}
+
+static void plan_links(const zd_space_tables *tables, parts *to)
+{
+    int p = 0, v = 0;
+    for (int body = 1; body <= tables->bodies; body++) {
+        const zd_space_body *given = tables->body + body - 1;
+        zd_link3 *link = to->link + body;
+        *link = (zd_link3){.is_free = 1, .turns = !given->is_particle};
+        if (given->carrier >= 0)
+            *link = hang_on(tables->joint + given->carrier, tables->joint[given->carrier].second == body, !given->is_particle);
+        link->p = p;
+        link->v = v;
+        if (link->is_free) number_free(link, to);
+        else number_steps(link, to);
+        p += link->nq;
+        v += link->nv;
+    }
+    *to->tree = (zd_tree3){tables->bodies, p, v, to->link, to->order};
+}
+
+/* Bodies in an order in which the one that each hangs on comes first, and their depths; returns whether there is such an order. */
+static int order_bodies(const zd_tree3 *tree, zd_link3 *link, int *order)
+{
+    int count = 0, before = -1;
+    while (count > before) {
+        before = count;
+        for (int body = 1; body <= tree->bodies; body++) {
+            int is_known = 0, inner_is_known = tree->link[body].inner == 0;
+            for (int i = 0; i < count; i++) {
+                is_known |= order[i] == body;
+                inner_is_known |= order[i] == tree->link[body].inner;
+            }
+            if (is_known || !inner_is_known) continue;
+            link[body].depth = link[link[body].inner].depth + 1;
+            order[count++] = body;
+        }
+    }
+    return count == tree->bodies;
+}
+
+/* Which entries of p are lengths, and of v lengths by time. */
+static void write_lengths(const zd_tree3 *tree, int *lengths)
+{
+    for (const zd_link3 *link = tree->link + 1; link <= tree->link + tree->bodies; link++) {
+        for (int k = 0; link->is_free && k < ZD_POINT_COORDINATES; k++) lengths[link->p + k] = lengths[tree->nq + link->v + k] = 1;
+        for (int i = 0; i < link->steps; i++)
+            if (link->step[i].kind == ZD_SPACE_SLIDES) lengths[link->step[i].p] = lengths[tree->nq + link->step[i].v] = 1;
+    }
+}
+
+/* ---- the system ---- */
+
+/* The mechanism with its system in the coordinates of the tree: matrices are dense. */
+static void carry_bodies(zd_space *self, const parts *from)
+{
+    const zd_tree3 *tree = from->tree;
+    memset(self->sockets.has_row, 0, (size_t)self->uses.m * sizeof *self->sockets.has_row);
+    self->sockets.count = self->sockets.turns = self->sockets.are_all = 0;
+    self->carrying = (zd_carrying){zd_tree3_place, zd_tree3_move, zd_tree3_act, zd_tree3_reaction, zd_tree_frame3_size(tree->bodies, tree->nv),
+                                   from->tree};
+    zd_system *system = &self->system;
+    system->nq = tree->nq;
+    system->nv = tree->nv;
+    if (!from->quaternions) system->provides &= ~ZD_A;
+    system->scratch = self->measures.scratch = zd_frame3_size(self);
+    system->evaluate = zd_space_tree_evaluate;
+    system->lengths = from->lengths;
+    system->structure = NULL;
+    system->operations = NULL;
+    system->quaternions = from->quaternions;
+    system->quaternion = from->quaternion;
+}
+
+static zd_space *refuse(zd_space *space, void *memory, const char *why, char *message, int message_size)
+{
+    snprintf(message, (size_t)message_size, "%s", why);
+    zd_release(memory);
+    zd_space_free(space);
+    return NULL;
+}
+
+zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int message_size)
+{
+    zd_space *self = zd_space_create(tables, message, message_size);
+    if (!self) return NULL;
+    zd_arena arena = {NULL, 0};
+    parts all = {.quaternions = 0};
+    take_parts(tables, &arena, &all);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
+    take_parts(tables, &arena, &all);
+    plan_links(tables, &all);
+    if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other", message, message_size);
+    write_lengths(all.tree, all.lengths);
+    carry_bodies(self, &all);
+    return self;
+}

@@ -1,0 +1,62 @@
+/* How each body hangs on another: what joints of the tree come down to. */
+#ifndef ZD_SPACE_LINKS_H
+#define ZD_SPACE_LINKS_H
+
+#include "../space/plan.h"
+
+/* Three directions: those of a joint's frame, or of a body, and in whose axes is said where they stand. */
+typedef struct zd_axes3 {
+    zd_vector3 d[ZD_SPACE_AXES];
+} zd_axes3;
+
+typedef struct zd_step3 {
+    enum zd_space_freedom_kind kind;
+    int direction;          /* of the frame that comes along */
+    double sign;            /* -1 where the joint is taken backwards */
+    double zero;            /* m: the distance along the direction where the coordinate is zero */
+    double length;          /* m for each rad of what advances */
+    int p, v;               /* its coordinates and velocities, from the first of all */
+} zd_step3;
+
+typedef struct zd_link3 {
+    int inner;              /* the body that it hangs on; of a free one the ground, whatever that is */
+    int is_free, turns;     /* turns: it has an orientation */
+    int depth;              /* how many bodies there are from it down to the ground, itself included */
+    int p, v, nq, nv;       /* its own coordinates and velocities */
+    int steps;
+    zd_step3 step[ZD_SPACE_FREEDOMS];
+    zd_vector3 near, far;   /* the joint's point in the inner body's axes, and in its own */
+    zd_axes3 near_axes, far_axes;   /* the joint's frame, in the same */
+} zd_link3;
+
+/* Where a step begins, and at the end of all where these lead. */
+typedef struct zd_way3 {
+    zd_vector3 at[ZD_SPACE_FREEDOMS + 1];
+} zd_way3;
+
+typedef struct zd_composite3 {  /* a body with all that hangs on it, as if its joints were fixed */
+    double mass;
+    zd_vector3 first;           /* kg m: its mass times the way from the body's mass centre to its own */
+    double second[6];           /* kg m^2: inertia about the body's mass centre, xx, yy, zz, xy, xz, yz, in the drawing's axes */
+} zd_composite3;
+
+typedef struct zd_tree3 {
+    int bodies, nq, nv;
+    const zd_link3 *link;       /* (bodies + 1,), the first one unused */
+    const int *order;           /* (bodies,) so that each one comes after the one that it hangs on */
+} zd_tree3;
+
+/* What the tree keeps of a frame, in its scratch. */
+typedef struct zd_tree_frame3 {
+    zd_twist3 *column;          /* (nv,) the twist of the body's mass centre where it moves by this velocity alone */
+    zd_way3 *way;               /* (bodies + 1,) */
+    zd_twist3 *change;          /* (bodies + 1,) accelerations */
+    zd_composite3 *composite;   /* (bodies + 1,) */
+} zd_tree_frame3;
+
+int zd_tree_frame3_size(int bodies, int nv);
+zd_tree_frame3 zd_tree_frame3_of(const zd_tree3 *tree, const zd_frame3 *frame);
+
+static inline const zd_tree3 *zd_tree3_of(const zd_space *space) { return space->carrying.tree; }
+
+#endif

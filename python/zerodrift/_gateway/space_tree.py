@@ -1,0 +1,44 @@
+"""Mechanisms in space in joint coordinates."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._core import lib
+from .._rotations import quaternion_of, rotation_of
+from .base import doubles
+from .measures import given
+from .space import SpaceCore
+
+POSE, TWIST = 12, 6     # doubles of a body as the core tells it
+
+
+class SpaceTreeCore(SpaceCore):
+    """The core's system of a mechanism in space whose bodies are carried by joints; as `SpaceCore`."""
+
+    _made_by = lib.zd_space_tree_create
+
+    def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
+        """Poses (bodies, 7) of the mass centres, place and unit quaternion, and where v is given their rates (bodies, 6): the
+        velocity in the drawing's axes, and the angular velocity in the body's own.
+        """
+        count, scratch = len(self.tables.bodies), np.zeros(max(1, lib.zd_space_system(self._mechanism).scratch))
+        told, twists = np.zeros((count, POSE)), None if v is None else np.zeros((count, TWIST))
+        lib.zd_space_tree_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(told, told.size),
+                                given(twists, count * TWIST), doubles(scratch, scratch.size, writable=True))
+        R = told[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1)        # axes were told one after another, and are columns
+        poses = np.array([[*each[:3], *quaternion_of(turned)] for each, turned in zip(told, R, strict=True)]).reshape(-1, 7)
+        if twists is not None:
+            twists[:, 3:] = np.einsum("kji,kj->ki", R, twists[:, 3:])
+        return poses, twists
+
+    def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
+        R, p, v = rotation_of(poses[:, 3:]), np.zeros(self.nq), np.zeros(self.nv)
+        told = np.ascontiguousarray(np.hstack([poses[:, :3], R.transpose(0, 2, 1).reshape(-1, 9)]))
+        twists = None
+        if rates is not None:
+            twists = np.hstack([rates[:, :3], np.einsum("kij,kj->ki", R, rates[:, 3:])])
+        lib.zd_space_tree_state(self._mechanism, doubles(told, told.size), given(twists, len(told) * TWIST),
+                                doubles(p, p.size, writable=True), doubles(v, v.size, writable=True))
+        return p, v
