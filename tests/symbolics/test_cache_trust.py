@@ -3,7 +3,6 @@
 import errno
 import math
 import os
-import resource
 import stat
 import subprocess
 import sys
@@ -330,6 +329,7 @@ def test_a_folder_without_permissions(cache_folder, permissions):
 
 
 def test_a_full_disk_leaves_nothing(cache_folder, compiler):
+    resource = pytest.importorskip("resource")
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)
     kept.put("before", b"1")
     resource.setrlimit(resource.RLIMIT_FSIZE, (10, limit[1]))

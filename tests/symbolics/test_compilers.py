@@ -11,6 +11,7 @@ import pytest
 
 import zerodrift as zd
 from cached_system import made
+from core_objects import CC, needs_compiler
 from zerodrift.symbolics import compilers
 
 PATH = os.environ["PATH"]
@@ -173,6 +174,21 @@ def test_options_of_msvc(name):
     assert {"/O2", "/std:c11", "/fp:precise", "/LD", "/DZD_SETS=1", "/Iheaders", "/Fe:system.dll", "system.c"} < set(line)
     assert not [option for option in line[1:] if option.startswith("-")]
     assert ("/clang:-ffp-contract=off" in line) == ("clang" in name)        # whose /fp:precise contracts
+
+
+@needs_compiler
+@pytest.mark.parametrize(("macros", "sets"), [
+    (("__GNUC__=12", "__x86_64__"), 63), (("__GNUC__=4", "__x86_64__", "__clang__"), 63), (("__GNUC__=12", "__aarch64__"), 3),
+    (("__GNUC__=12", "__x86_64__", "_WIN32"), 3),       # which misaligns longer vectors where it spills them
+    (("__GNUC__=4", "__x86_64__", "_WIN32", "__clang__"), 63), (("_MSC_VER=1940", "_WIN32"), 1),
+    (("__GNUC__=12", "__x86_64__", "_WIN32", "ZD_SETS=12"), 1), (("__GNUC__=12", "__x86_64__", "ZD_SETS=12"), 12),
+], ids=lambda each: "-".join(word.strip("_") for word in each) if isinstance(each, tuple) else None)
+def test_vector_units_that_a_compiler_writes_for(macros, sets):
+    known = ("__GNUC__", "__clang__", "__x86_64__", "__aarch64__", "_WIN32")
+    macros = [*(f"-U{name}" for name in known), *(f"-D{macro}" for macro in macros)]
+    command = [CC, *macros, f"-I{zd.get_include()}", "-E", "-P", "-"]
+    said = subprocess.run(command, input='#include "zerodrift/units.h"\nZD_SETS\n', capture_output=True, text=True, check=True)
+    assert int(said.stdout) == sets
 
 
 def test_symbols_are_exported_where_nothing_is_without_being_asked(tmp_path):
