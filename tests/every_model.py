@@ -2,6 +2,7 @@
 
 import zerodrift as zd
 
-MECHANISMS = {name: getattr(zd.models, name) for name in zd.models.__all__}
+IN_SPACE = {name: getattr(zd.models, name) for name in zd.models.space.__all__}
+MECHANISMS = {name: getattr(zd.models, name) for name in zd.models.__all__ if name not in IN_SPACE}     # those in the plane
 MODELS = {name: getattr(zd.models.symbolic, name) for name in zd.models.symbolic.__all__} | {
     "closed_pendulum of 7": lambda: zd.models.symbolic.closed_pendulum(7)}

@@ -158,15 +158,19 @@ TABLE = [
 
 
 def exhibits() -> list[Exhibit]:
-    """Every model that `zerodrift.models` has, in its order.
+    """Every model of the plane that `zerodrift.models` has, in its order.
 
     Examples
     --------
     >>> from zerodrift import gallery, models
-    >>> [each.name for each in gallery.exhibits()] == models.__all__
+    >>> [each.name for each in gallery.exhibits()] == [name for name in models.__all__ if name not in models.space.__all__]
     True
     """
-    return [exhibit(name) for name in models.__all__]
+    return [exhibit(name) for name in _in_the_plane()]
+
+
+def _in_the_plane() -> list[str]:
+    return [name for name in models.__all__ if name not in models.space.__all__]
 
 
 def exhibit(name: str) -> Exhibit:
@@ -175,7 +179,7 @@ def exhibit(name: str) -> Exhibit:
     Parameters
     ----------
     name : str
-        As in `zerodrift.models`.
+        As in `zerodrift.models`, of those in the plane.
 
     Returns
     -------
@@ -192,7 +196,7 @@ def exhibit(name: str) -> Exhibit:
     >>> gallery.exhibit("watt").path
     ('P',)
     """
-    _check.choice("name", name, models.__all__)
+    _check.choice("name", name, _in_the_plane())
     listed = next((each for each in TABLE if each.name == name), None)
     return listed or by_itself(name, getattr(models, name))
 

@@ -1,7 +1,8 @@
 """Worked models, each one short file whose function takes the parameters as keywords.
 
-All are mechanisms, from bodies and joints or, linkages, from a sketch; `zerodrift.models.symbolic` has four of them from their
-energies. Those whose drives swing, or follow a cam, need SymPy, the extra `symbolic`.
+All are mechanisms, from bodies and joints or, linkages, from a sketch: in the plane, and in space those of
+`zerodrift.models.space`. `zerodrift.models.symbolic` has four of them from their energies. Those whose drives swing, or follow a
+cam, need SymPy, the extra `symbolic`.
 
 >>> import zerodrift as zd
 >>> sol = zd.simulate(zd.models.closed_pendulum(links=5), 1.0, step=0.01)
@@ -30,13 +31,33 @@ from .quick_return import quick_return
 from .scissor_lift import scissor_lift
 from .slider_crank import slider_crank
 from .snakeboard import snakeboard
+from .space import (
+    bennett,
+    chain,
+    coin,
+    delta_robot,
+    double_cardan,
+    double_wishbone,
+    flyball_governor,
+    gyroscope,
+    heavy_top,
+    hookes_joint,
+    rattleback,
+    rolling_disc,
+    spatial_slider_crank,
+    stewart_platform,
+    whipple_bicycle,
+)
 from .stephenson import stephenson
 from .toggle_press import toggle_press
 from .watt import watt
 
-__all__ = ["andrews", "bicycle", "cam_follower", "chebyshev_lambda", "closed_pendulum", "four_bar", "four_bars",
-           "hoecken", "jansen", "klann", "pantograph", "peaucellier", "planetary_gear", "quarter_car",
-           "quick_return", "scissor_lift", "slider_crank", "snakeboard", "stephenson", "toggle_press", "watt"]
+__all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_lambda", "closed_pendulum", "coin",
+           "delta_robot", "double_cardan", "double_wishbone", "flyball_governor", "four_bar", "four_bars",
+           "gyroscope", "heavy_top", "hoecken", "hookes_joint", "jansen", "klann", "pantograph", "peaucellier",
+           "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
+           "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "toggle_press",
+           "watt", "whipple_bicycle"]
 
 
 def __getattr__(name: str) -> Any:

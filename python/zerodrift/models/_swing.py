@@ -25,3 +25,9 @@ def symbol(name: str) -> Any:
 def swing(amplitude: Any, rate: Any) -> Any:
     """The expression amplitude sin(rate t)."""
     return _check.number("amplitude", amplitude) * sympy().sin(_check.number("rate", rate) * symbol("t"))
+
+
+def swing_from(amplitude: Any, rate: Any, phase: float) -> Any:
+    """The expression amplitude (sin(rate t + phase) - sin(phase)), which is zero at t = 0."""
+    turned = sympy().sin(_check.number("rate", rate) * symbol("t") + phase) - sympy().sin(sympy().Float(phase))
+    return _check.number("amplitude", amplitude) * turned
