@@ -12,6 +12,7 @@ from .. import _check
 from ..systems.base import Makes, Terms
 from .describing import described, text
 from .drawing import Drawing
+from .lifting import lift
 from .making_bodies import BodyVerbs
 from .making_couplings import CouplingVerbs
 from .making_forces import ForceVerbs
@@ -152,6 +153,41 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         2.0
         """
         return self.system().with_parameters(changes, **changed)
+
+    def lifted(self) -> Mechanism:
+        """The same mechanism in space, in the plane z = 0 and free to be added to there.
+
+        Axes of hinges are along z. A revolute that holds a particle becomes a ball. Where no joint keeps a body in the plane, one
+        is added, ``"wheel in its plane"``, a `planar` or, for a particle, a `coupler`. Moments of inertia are those of the plane
+        about z, and half as much about x and y, so that motions in the plane are the same. They are given: a link's inertia does
+        not change with its length.
+
+        Returns
+        -------
+        Mechanism
+            With the same names. What is told of bodies has three components: ``"crank.angular_velocity.z"``,
+            ``"crank.rotation"`` in place of an angle.
+
+        Raises
+        ------
+        ValueError
+            In space; and where something is not there in space, or depends on the angle of a body, which is named.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> bar = zd.models.four_bar().lifted()
+        >>> print(bar)      # doctest: +ELLIPSIS
+        <Mechanism four_bar: space, 3 bodies, 4 joints; ...>
+         freedom 1 (Gruebler -2); ...
+        >>> zd.simulate(bar, 0.1, step=0.01)["A.force"].shape
+        (11, 3)
+        """
+        if self.dimension == 3:
+            raise ValueError(f"{self.name!r} is in space already: lifted() is for mechanisms in the plane")
+        made = Mechanism(self.name, dimension=3, gravity=(*self.gravity, 0.0), parameters=self.parameters)
+        lift(self._drawing(), made)
+        return made
 
     @property
     def p0(self) -> np.ndarray:

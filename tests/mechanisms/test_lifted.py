@@ -1,0 +1,111 @@
+"""Mechanisms of the plane in space: the same motions, and the same reactions where they are determined."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import zerodrift as zd
+from every_model import MECHANISMS
+from support import assert_close
+
+ROUGH = {"jansen", "klann", "stephenson"}       # sketches: the two assemblies stop within 1e-6 of each other
+WAITING = {"bicycle", "cam_follower"}       # for springs about joints, and laws of angles, in space
+
+
+def both(name):
+    """A model and itself in space, with one angle held where its drawing is a sketch; in absolute coordinates."""
+    m = MECHANISMS[name]()
+    space = m.lifted()
+    if name in ROUGH:
+        body = m[next(motor.joint.name for motor in m.motors)].second.body
+        angle = float(zd.simulate(m, 1e-6, step=1e-6)[f"{body.name}.angle"][0])
+        m.start({f"{body.name}.angle": angle})
+        space = m.lifted()
+    return m.system("absolute"), space
+
+
+@pytest.mark.parametrize("name", [name for name in MECHANISMS if name not in WAITING])
+def test_a_model_in_space_is_that_of_the_plane(name):
+    step = 1e-4 if name == "andrews" else 2e-3
+    plane, space = (zd.simulate(m, 5 * step, step=step, formulation="augmented", integrator="dop853") for m in both(name))
+    m = MECHANISMS[name]()
+    for body in m.bodies:
+        for what in ("position", "velocity"):
+            assert_close(space[f"{body.name}.{what}"][:, :2], plane[f"{body.name}.{what}"], 1e-9, scale=1.0)
+        if body.turns:
+            R, angle = space[f"{body.name}.rotation"], plane[f"{body.name}.angle"]
+            assert_close(R[:, 0, 0] + 1j * R[:, 1, 0], np.exp(1j * angle), 1e-9, scale=1.0)
+    compared = 0
+    for joint in m.joints:
+        force, known = plane[f"{joint.name}.force"], plane.unique(f"{joint.name}.force")
+        assert_close(space[f"{joint.name}.force"][:, :2][:, known], force[:, known], 1e-8, scale=1.0 + np.abs(force).max())
+        compared += int(known.sum())
+        if hasattr(joint, "torque") and plane.unique(f"{joint.name}.torque") and f"{joint.name}.torque" in space.system.measures:
+            torque = plane[f"{joint.name}.torque"]
+            assert_close(space[f"{joint.name}.torque"][:, 2], torque, 1e-8, scale=1.0 + np.abs(torque).max())
+    assert compared > 0
+    for motor in m.motors:
+        effort = "torque" if motor.coordinate == "angle" else "force"
+        assert_close(space[f"{motor.name}.{effort}"], plane[f"{motor.name}.{effort}"], 1e-7)
+
+
+def everything():
+    """What no model has: particles and bodies that are free, an actuator, forces that turn, constraints of one's own."""
+    m = zd.Mechanism("all", gravity=(1.0, -9.81), parameters={"k": 3.0})
+    arm = m.link("arm", (0, 0), (1, 0.5), mass=1.0)
+    m.revolute("pin", m.ground, arm.start, damping=0.2)
+    m.point("P", arm, (0.5, 0.1))
+    puck = m.body("puck", 2.0, 0.3, at=(2, 1), angle=0.4, com=(0.1, 0))
+    bob, bead = m.particle("bob", 1.0, at=(3, 0)), m.particle("bead", 0.5, at=(1.5, -1))
+    m.particle("load", 0.4, at="P")
+    m.spring("spring", arm.end, puck.center, stiffness=20.0, damping=0.1)
+    m.rod("rod", puck.point((0, 0)), bob)
+    m.slot("wire", m.ground, bead, axis=(1, 0.2))
+    m.actuator("cylinder", "P", bead, force=sp.Symbol("k") * sp.cos(sp.Symbol("t")))
+    m.force("push", puck.point((0.3, 0)), along=(0, 1), value=lambda w, k: k - w, of={"w": puck.angular_velocity}, frame=puck)
+    m.torque("twist", puck, against=arm, value=sp.Symbol("arm.angular_velocity") * -0.3 + sp.Symbol("bob.position.x"))
+    m.constraint("height", lambda y, t: y - 0.1 * t, of={"y": bob.position.y})
+    m.start({puck.angular_velocity: 0.5, bead.velocity.x: 0.3, "arm.velocity": (0, 0)}, wish={"arm.angle": 0.5})
+    return m
+
+
+def test_what_is_free_in_the_plane_stays_there():
+    m = everything()
+    space = m.lifted()
+    assert [joint.name for joint in space.joints] == ["pin", "rod", "wire", "puck in its plane"]
+    assert space["bob in its plane"].of == ("bob.position.z",)
+    plane, sol = (zd.simulate(each, 1.0, step=1e-2, integrator="dop853") for each in (m.system("absolute"), space))
+    for name in ("puck.position", "bob.velocity", "bead.position", "load.position", "P.velocity", "rod.force", "wire.force"):
+        assert_close(sol[name][:, :2], plane[name], 1e-9, scale=1.0)
+        assert_close(sol[name][:, 2], np.zeros(101), 1e-12, scale=1.0)
+    assert_close(sol["puck.angular_velocity.z"], plane["puck.angular_velocity"], 1e-10)
+
+
+def test_a_wheel_and_a_belt():
+    """A wheel that rolls on a line is a disc in space, which stays in its plane."""
+    m = zd.Mechanism("wheels", gravity=(0, -9.81))
+    wheel, rack = m.body("wheel", 1.0, 0.1, at=(0, 0.5)), m.body("rack", 1.0, 0.1, at=(0, 2))
+    m.rolling("road", m.ground, wheel, radius=0.5, normal=(0, 1))
+    m.prismatic("rail", m.ground, rack, axis=(1, 0))
+    m.coupler("belt", {"rack.position.x": 1.0, "wheel.position.x": -2.0})
+    m.torque("drive", wheel, value=0.3)
+    plane, space = (zd.simulate(each, 0.5, step=1e-2) for each in (m.system("absolute"), m.lifted()))
+    assert_close(space["wheel.position"][:, :2], plane["wheel.position"], 1e-10)
+    assert_close(space["road.force"][:, :2], plane["road.force"], 1e-9)
+    assert_close(space["rack.velocity.x"], plane["rack.velocity.x"], 1e-10)
+    assert plane["rack.velocity.x"][-1] < -0.1
+
+
+def test_what_cannot_be_lifted_is_named():
+    m = zd.Mechanism("mount")
+    body = m.body("body", 1.0, 0.1)
+    m.bushing("mount", m.ground, body, at=(0, 0), stiffness=(10.0, 10.0))
+    with pytest.raises(ValueError, match="'mount' cannot be lifted: a bushing has no counterpart in space"):
+        m.lifted()
+    m = zd.Mechanism("sail")
+    body = m.body("body", 1.0, 0.1)
+    m.force("wind", body, along=(1, 0), value=lambda a: np.cos(a), of={"a": body.angle})
+    with pytest.raises(ValueError, match=r"'body.angle' cannot be lifted: 'body' has a rotation in space and no angle"):
+        m.lifted()
+    with pytest.raises(ValueError, match="'chain' is in space already"):
+        zd.models.chain(2).lifted()
