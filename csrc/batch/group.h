@@ -15,14 +15,6 @@ typedef struct zd_lane_energy {
     int skipped_since_row;
 } zd_lane_energy;
 
-/* What is looked at now and then, as safeguards.c does it. */
-typedef struct zd_lane_look {
-    zd_resolution resolution;   /* with numbers of the lane; where steps are of fixed size */
-    int64_t pause;          /* one of so many steps is looked at */
-    zd_statistics found;    /* what has been seen of parts that are not resolved */
-    int is_off;             /* whether the energy was off by more than nobody is told of */
-} zd_lane_look;
-
 /* What is looked for in the step that a lane has just made: where events happen, by steps to times within it. */
 typedef struct zd_lane_search {
     enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
@@ -49,7 +41,7 @@ typedef struct zd_lane_run {    /* in a lane */
     double number_of_C;     /* the step at whose end C was evaluated; -1: not yet */
     zd_lane_search search;  /* where there are events */
     zd_lane_energy of_energy;
-    zd_lane_look look;
+    int is_off;             /* whether the energy was off, where it was looked at, by more than nobody is told of */
 } zd_lane_run;
 
 typedef struct zd_lane_group {
@@ -64,8 +56,6 @@ typedef struct zd_lane_group {
     double *p, *v, *C;      /* (nq,), (nv,), (m, nv): of one lane */
     zd_terms terms;         /* of the system, for C alone */
     zd_reader reader;       /* of events */
-    zd_last last;           /* of the lane that is looked at: where its step began, */
-    double *vdot0;          /* (nv,): and how */
 } zd_lane_group;
 
 /* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice: the first time only counts the memory. */
@@ -94,12 +84,8 @@ void zd_lane_group_note_start(zd_lane_group *self, int lane);
 /* lane_energy.c: as zd_lanes has correct_rest */
 void zd_lane_group_correct_rest(void *group, const double *t, double *y, int forced);
 
-/* lane_looks.c: lays out what one lane has for that, */
-zd_lane_look zd_lane_look_take(zd_arena *arena, zd_lane_group *self);
-/* as it is where a run begins; */
-void zd_lane_group_begin_looks(zd_lane_group *self, int lane);
-/* and what the step just made shows: each part by itself, and the energy. */
-void zd_lane_group_look_closely(zd_lane_group *self, int lane);
+/* lane_looks.c: lanes whose turn it is look at the step just made: at each part by itself, and at the energy. */
+void zd_lane_group_look_closely(zd_lane_group *self);
 
 /* lane_events.c: where events happen in the steps just made */
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);
@@ -119,6 +105,11 @@ static inline double zd_lane_number(const zd_lanes *self, const double *numbers,
 static inline void zd_lane_set(const zd_lanes *self, double *numbers, int64_t i, int lane, double value)
 {
     numbers[i * self->lanes + lane] = value;
+}
+
+static inline int zd_lane_has_run(const zd_lane_group *self, int lane)
+{
+    return self->run_of[lane].number >= 0 && self->lanes.leaves[lane] == 0;
 }
 
 #endif

@@ -37,7 +37,9 @@ typedef struct zd_lanes {
     int is_fixed;
     double t0, end, step, steps;        /* steps: how many, where they are of fixed size */
     double rtol, atol, longest, tiny, most_steps, save_every, decay;
-    double astray, nearby, limit;       /* as the guard has them */
+    double astray, nearby, limit;       /* as the guard has them, */
+    double weight;                      /* and resolution.h, of a method of such an order */
+    int order_of_method;
     enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* for events: of numbers of y alone, or else every step */
     int events;
     /* Corrections besides the projection, of y at t in the lanes of which is_corrected says so; NULL: none. `forced`: whatever the step. */
@@ -48,6 +50,8 @@ typedef struct zd_lanes {
     double *first;          /* of all of them */
     int64_t count;          /* how many there are in all */
     double *data;           /* (doubles,) of the systems */
+    double *from_zero;      /* what is 0 where a run begins: so many numbers follow each other */
+    int64_t numbers_from_zero;
     double *is_active;      /* whether there is a run in the lane; else it makes steps of size 0 */
     double *t, *number;     /* where it has got to; how many steps it has made */
     double *h, *after_rejection;    /* the next step, where steps are chosen; whether the one before was too long */
@@ -69,6 +73,10 @@ typedef struct zd_lanes {
     double *is_long;        /* whether the last step was so long that rows of C may have turned in it */
     double *is_corrected;
     double *next_look, *look_soon;      /* the step after which somebody looks closely; whether that has to be sooner than it was */
+    double *look_pause, *looked_at;     /* one of so many steps is looked at; the last that was */
+    /* (nv,), where steps are of fixed size: of each part of the motion, what zd_resolution has; and what has been seen of those not resolved. */
+    double *error, *path, *place, *lowest, *highest;
+    double *unresolved, *unresolved_time, *part_error, *part;
     double *at_limit, *below_limit, *stiff;     /* steps that are as long as stability allows, and not; those that count */
     double *fastest;        /* the largest speed where somebody did */
     double *has_event;      /* whether an event may have happened in the last step, which was accepted */
@@ -97,6 +105,8 @@ typedef struct zd_lane_functions {
     void (*move_between)(zd_lanes *self, int multipliers);
     /* The same by a shorter step of the method whatever polynomial it has, as events are looked for. */
     void (*substep)(zd_lanes *self, int multipliers);
+    /* What lanes that are wanted see in the step they have just made, and when they look again. */
+    void (*look)(zd_lanes *self);
 } zd_lane_functions;
 
 extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* without functions where the compiler cannot */

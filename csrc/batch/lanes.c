@@ -59,14 +59,28 @@ static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
     return here;
 }
 
+static void take_zeros(zd_lanes *self, zd_arena *arena)
+{
+    double **const ones[] = {&self->number, &self->after_rejection, &self->streak, &self->iterations, &self->rejected, &self->most_iterations,
+                             &self->leaves, &self->is_long, &self->look_soon, &self->looked_at, &self->at_limit, &self->below_limit,
+                             &self->stiff, &self->fastest, &self->has_event, &self->is_wanted, &self->next_number, &self->unresolved,
+                             &self->unresolved_time, &self->part_error, &self->part, &self->power};
+    double **const parts[] = {&self->error, &self->path, &self->place, &self->lowest, &self->highest};
+    const int count = sizeof ones / sizeof ones[0], count_parts = sizeof parts / sizeof parts[0], nv = self->is_fixed ? self->nv : 0;
+    self->numbers_from_zero = count + count_parts * nv;
+    self->from_zero = take(self, arena, self->numbers_from_zero);
+    if (!self->from_zero) return;
+    for (int i = 0; i < count; i++) *ones[i] = self->from_zero + i * self->lanes;
+    for (int i = 0; i < count_parts; i++) *parts[i] = self->from_zero + (count + i * nv) * self->lanes;
+}
+
 static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
 {
     const int nq = self->nq, nv = self->nv, size = self->size;
-    double **ones[] = {&self->is_active, &self->t, &self->number, &self->h, &self->after_rejection, &self->next_t, &self->next_number,
-                       &self->t_before, &self->power, &self->order, &self->speed, &self->streak, &self->iterations, &self->rejected,
-                       &self->most_iterations, &self->leaves, &self->is_long, &self->is_corrected, &self->next_look, &self->look_soon,
-                       &self->at_limit, &self->below_limit, &self->stiff, &self->fastest, &self->has_event, &self->t_row, &self->is_wanted};
+    double **const ones[] = {&self->is_active, &self->t, &self->h, &self->next_t, &self->t_before, &self->order, &self->speed,
+                             &self->is_corrected, &self->next_look, &self->look_pause, &self->t_row};
     self->data = take(self, arena, doubles);
+    take_zeros(self, arena);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
     self->y = take(self, arena, size);
     self->y0 = take(self, arena, size);
@@ -141,6 +155,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
         .decay = run->stepper.integrator->decay,
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
+        .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };
     take_states(self, arena, doubles);
     take_workspace(self, arena);
@@ -158,7 +173,9 @@ void zd_lanes_copy(zd_lanes *self, int from, int to)
 
 static void load(const zd_lanes *self, int lane, int64_t count, const double *from, double *to)
 {
-    for (int64_t i = 0; i < count; i++) zd_lane_set(self, to, i, lane, from[i]);
+    const int stride = self->lanes;
+    to += lane;
+    for (int64_t i = 0; i < count; i++) to[i * stride] = from[i];
 }
 
 static void load_state(zd_lanes *self, int lane, const zd_run *run)
@@ -166,16 +183,17 @@ static void load_state(zd_lanes *self, int lane, const zd_run *run)
     const zd_point *point = run->motion.point;
     const zd_road *road = &run->motion.road;
     const double *rate = self->has_A ? road->pdot : point->v;
-    const int64_t stride = self->lanes;
+    const int64_t to_v = self->nq * self->lanes;
     double speed = 0;
     for (int i = 0; i < self->nq; i++) speed += (rate[i] * point->inverse_unit_p[i]) * (rate[i] * point->inverse_unit_p[i]);
     load(self, lane, self->nq, point->p, self->y);
-    load(self, lane, self->nv, point->v, self->y + self->nq * stride);
-    if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0);
+    load(self, lane, self->nq, point->p, self->y0);
+    load(self, lane, self->nv, point->v, self->y + to_v);
+    load(self, lane, self->nv, point->v, self->y0 + to_v);
+    if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0), zd_lane_set(self, self->y0, self->size - 1, lane, 0);
     load(self, lane, self->has_A ? self->nq : 0, road->pdot, self->pdot);
     load(self, lane, self->nv, point->vdot, self->vdot);
-    for (int64_t i = 0; i < self->size; i++) zd_lane_set(self, self->y0, i, lane, zd_lane_number(self, self->y, i, lane));
-    self->order[lane] = self->power[lane] = 0;
+    self->order[lane] = 0;
     self->speed[lane] = speed;
 }
 
@@ -200,12 +218,23 @@ static void load_units(zd_lanes *self, int lane, const zd_run *run)
     for (int k = 0; k < self->mh; k++) zd_lane_set(self, self->allowed, k, lane, run->motion.hold.tolerance * point->size[k]);
 }
 
+static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers)
+{
+    double *const end = numbers + count * self->lanes;
+    for (double *number = numbers + lane; number < end; number += self->lanes) *number = 0;
+}
+
+/* When it is first looked closely: see guard.c. */
+static void set_look(zd_lanes *self, int lane)
+{
+    enum { LOOK_EVERY = 8, LOOK_SELDOM = 64 };
+    self->next_look[lane] = self->is_fixed ? 1 : LOOK_SELDOM;
+    self->look_pause[lane] = self->is_fixed ? LOOK_EVERY : LOOK_SELDOM;
+}
+
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)
 {
-    double *const zeros[] = {self->number, self->after_rejection, self->streak, self->iterations, self->rejected, self->most_iterations,
-                             self->leaves, self->is_long, self->look_soon, self->at_limit, self->below_limit,
-                             self->stiff, self->fastest, self->has_event, self->is_wanted, self->next_number};
-    for (size_t i = 0; i < sizeof zeros / sizeof zeros[0]; i++) zeros[i][lane] = 0;
+    clear(self, lane, self->numbers_from_zero, self->from_zero);
     load(self, lane, doubles, data, self->data);
     load_state(self, lane, run);
     load_units(self, lane, run);
@@ -215,4 +244,5 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->course.control.h;
+    set_look(self, lane);
 }

@@ -1,5 +1,5 @@
 /* Steps one after the other, in all lanes at once, until somebody has to look at one of them; and what lies within a step. */
-#include "lanes_steps.h"
+#include "lanes_looks.h"
 
 /* y1 from y, by the method's stages */
 ZD_KERNEL void ZD_NAMED(integrate)(const zd_lanes *self, const double *from, zd_real t, zd_real h, double *to)

@@ -41,6 +41,7 @@ void zd_lane_group_set_next(zd_lane_group *self, int lane)
     zd_lanes *lanes = &self->lanes;
     const double every = lanes->save_every;
     const int by_time = self->batch->settings->t_eval != NULL;
+    if (lanes->t[lane] < lanes->next_t[lane] && lanes->number[lane] < lanes->next_number[lane]) return;     /* it was for something else */
     lanes->next_t[lane] = fmin(lanes->end, by_time ? next_time(self, &self->run_of[lane]) : INFINITY);
     lanes->next_number[lane] = by_time ? INFINITY : every * (floor(lanes->number[lane] / every) + 1);
 }

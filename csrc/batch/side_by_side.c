@@ -77,15 +77,11 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
     group.reader = zd_reader_take(arena, batch->settings->events, system);
-    group.last.p = zd_take_doubles(arena, (size_t)system->nq);
-    group.last.v = zd_take_doubles(arena, (size_t)system->nv);
-    group.vdot0 = zd_take_doubles(arena, (size_t)system->nv);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,
             .C = zd_take_doubles(arena, rows),
             .search = zd_lane_search_take(arena, &group.lanes),
-            .look = zd_lane_look_take(arena, &group),
         };
     return group;
 }
@@ -125,7 +121,6 @@ static void begin(zd_lane_group *self, int lane)
     zd_found_forget(self->batch, number);
     self->active++;
     zd_lane_group_note_start(self, lane);
-    zd_lane_group_begin_looks(self, lane);
 }
 
 /* Gives the lane a run; where there is none it stands still, with numbers of a lane that has one. */
@@ -171,8 +166,8 @@ static void end(zd_lane_group *self, int lane)
         .stiff = (int64_t)lanes->stiff[lane],
         .energy_corrections = run->of_energy.corrections, .energy_skipped = run->of_energy.skipped,
         .energy_corrected = run->of_energy.corrected,
-        .unresolved = run->look.found.unresolved, .unresolved_time = run->look.found.unresolved_time,
-        .part_error = run->look.found.part_error, .part = run->look.found.part,
+        .unresolved = (int64_t)lanes->unresolved[lane], .unresolved_time = lanes->unresolved_time[lane],
+        .part_error = lanes->part_error[lane], .part = (int)lanes->part[lane],
         .rank = lanes->m,
     };
 }
@@ -190,7 +185,7 @@ static int is_over(zd_lane_group *self, int lane)
     }
     const int is_complete = run->is_complete || (settings->t_eval && !settings->events && run->next == settings->t_evals);
     if (!is_complete && lanes->t[lane] != lanes->end) return 0;
-    if (zd_lane_group_keeps_energy(self, lane) && !run->look.is_off) end(self, lane);
+    if (zd_lane_group_keeps_energy(self, lane) && !run->is_off) end(self, lane);
     else zd_single_run(self->batch, self->own, run->number);
     return 1;
 }
@@ -214,12 +209,11 @@ static void look(zd_lane_group *self)
 {
     zd_lanes *lanes = &self->lanes;
     for (int lane = 0; lane < lanes->lanes; lane++) {
-        if (self->run_of[lane].number < 0 || lanes->is_long[lane] == 0 || lanes->leaves[lane] != 0) continue;
+        if (lanes->is_long[lane] == 0 || !zd_lane_has_run(self, lane)) continue;
         if (zd_lane_group_is_turned(self, lane)) lanes->leaves[lane] = 1;
         lanes->is_long[lane] = 0;
     }
-    for (int lane = 0; lane < lanes->lanes; lane++)
-        if (self->run_of[lane].number >= 0 && lanes->leaves[lane] == 0) zd_lane_group_look_closely(self, lane);
+    zd_lane_group_look_closely(self);
     if (lanes->watches) zd_lane_group_locate(self);
     do zd_lane_group_save(self);
     while (replace(self));

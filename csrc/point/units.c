@@ -68,7 +68,10 @@ int zd_point_measure(zd_point *point)
     for (int k = 0; k < zd_constraints(system); k++) {
         zd_row_of_C row = zd_point_row(point, k);
         double size = 0;
-        for (int j = 0; j < row.count; j++) size = fmax(size, fabs(row.x[j]) * point->unit[zd_column(&row, j)]);
+        for (int j = 0; j < row.count; j++) {
+            const double share = fabs(row.x[j]) * point->unit[zd_column(&row, j)];
+            if (share > size) size = share;
+        }
         point->size[k] = size;
     }
     settle_sizes(zd_constraints(system), point->size, point->inverse_size);

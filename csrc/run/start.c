@@ -296,8 +296,11 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
 {
     zd_arena arena = {memory, 0};
     const workspace work = lay_out(&arena, &run->motion);
+    zd_point *point = run->motion.point;
     forget(run, data);
-    int status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
+    zd_point_move(point, run->settings.t0, p0, v0);
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T | ZD_M | ZD_POTENTIAL);      /* what will be asked for, in one call */
+    if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
     return status ? status : check_elsewhere(run, &work, p0, v0);
 }
 

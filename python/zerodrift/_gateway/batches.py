@@ -88,7 +88,7 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name in COUNTS else float)
                for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
-    messages = np.zeros((k, MESSAGE_SIZE), np.int8)
+    messages = np.empty((k, MESSAGE_SIZE), np.int8)
     options.given_jacobian = core.given_jacobian
     happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
     options.events = events.c if events is not None else ffi.NULL
@@ -116,9 +116,10 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
         members["stop"] = stop.c
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
         raise MemoryError(f"there is no memory for the {capacity} rows of a run")
-    said = zip(messages, of_runs["status"].tolist(), strict=True)
-    said_of_runs = [each.tobytes().partition(b"\0")[0].decode() if status else "" for each, status in said]
-    return BatchResults(columns, **of_runs, events=happened, messages=said_of_runs)
+    said = [""] * k
+    for run in np.flatnonzero(of_runs["status"]).tolist():
+        said[run] = messages[run].tobytes().partition(b"\0")[0].decode()
+    return BatchResults(columns, **of_runs, events=happened, messages=said)
 
 
 def _room_for(events: Watcher, core: CoreSystem, k: int, room: int, *, with_states: bool) -> Happened:

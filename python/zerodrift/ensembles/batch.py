@@ -198,11 +198,17 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
     is_shared = (np.where(kept[:, :len(longest)], t[:, :len(longest)], longest) == longest).all()
     none = [None] * count
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
-    ended = np.isin(made.status[:count], (_gateway.DONE, _gateway.EVENT))
+    status = made.status[:count]
+    ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
     roads = np.where(made.way[:count] == _gateway.IN_LANES, ROADS.index("vector lanes"), ROADS.index("the ordinary road"))
     return Part(rows, longest.copy() if is_shared else t[kept],
-                {name: made.columns[group][:count, :, column][kept] for name, (group, column) in batch.columns.items()},
+                {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()},
                 ~ended, messages[:count], roads.astype(np.uint8), doubtful, none, t_events, none)
+
+
+def _rows(column: np.ndarray, kept: np.ndarray) -> np.ndarray:
+    """Of a column (n, rows, ...) the rows that are kept, one run behind another; mostly all are."""
+    return column.reshape(-1, *column.shape[2:]) if kept.all() else column[kept]
 
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:

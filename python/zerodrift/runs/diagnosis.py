@@ -35,8 +35,8 @@ def is_beyond_doubt(results: _gateway.Results) -> bool:
 
 def are_beyond_doubt(counted: np.ndarray, kinetic: np.ndarray, energy_error: np.ndarray) -> np.ndarray:
     """The same of many runs (k,), from what the core counts of each, its largest kinetic energy and error of the balance in J."""
-    counts = [counted[name] for name in ("energy_skipped", "too_long", "stiff", "unresolved")]
-    return (~np.any(counts, axis=0) & ~((counted["smallest_pivot"] > 0) & (counted["smallest_pivot"] < SMALLEST_PIVOT))
+    any_count = counted["energy_skipped"] | counted["too_long"] | counted["stiff"] | counted["unresolved"]
+    return ((any_count == 0) & ~((counted["smallest_pivot"] > 0) & (counted["smallest_pivot"] < SMALLEST_PIVOT))
             & ((energy_error < LARGEST_ENERGY_ERROR * kinetic) | (energy_error == 0))
             & (counted["energy_corrected"] <= LARGEST_ENERGY_CORRECTION * kinetic))
 
