@@ -2,10 +2,12 @@
  *
  *     cc -O3 -std=gnu11 -march=native -mprefer-vector-width=512 -DLANES=8 -shared -fPIC -o floor.so four_bar_lanes_floor.c
  *
- * With the crank's angle independent, C x = r is x = x0 + D a with D = (1, d2, d3), and M-orthogonal corrections have D^T M x = 0. Nothing is
+ * With the crank's angle independent, C x = r is x = x0 + D a with D = (1, d2, d3), and M-orthogonal corrections have D^T M x = 0. With
+ * -DSCHUR, M and S = C M^-1 C^T are factored instead, as for a mechanism of which nothing is known but M and C. Nothing is
  * looked at: no pivots, no safeguards, no rows; all runs make as many steps.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef double real __attribute__((vector_size(8 * LANES)));
@@ -30,6 +32,69 @@ static inline void turn(real x, real *sine, real *cosine)
     *cosine = (real)(((word)c ^ change) ^ (((q + 1) & 2) << 62));
 }
 
+#ifdef SCHUR
+/* M = L D L^T with 1 / D in d, C in b and e, which become L^-1 C^T; z and w are these over D, S = K G K^T with 1 / G in g and K in k */
+typedef struct { real s[3], c[3], m12, m13, m23, l12, l13, l23, d[3], z[3], w[3], k, g[2]; } pose;
+
+static inline void look(const real *p, pose *a)
+{
+    for (int i = 0; i < 3; i++) turn(p[i], &a->s[i], &a->c[i]);
+}
+
+static double diagonal[3];      /* of M: nobody may know that it is constant */
+
+static inline void forward(const pose *a, real *x)
+{
+    x[1] -= a->l12 * x[0];
+    x[2] -= a->l13 * x[0] + a->l23 * x[1];
+}
+
+static inline void backward(const pose *a, real *x)
+{
+    x[1] -= a->l23 * x[2];
+    x[0] -= a->l12 * x[1] + a->l13 * x[2];
+}
+
+static inline real times(const real *x, const real *y)
+{
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+static inline void eliminate(pose *a)
+{
+    const real *s = a->s, *c = a->c, one = 1 + (s[0] - s[0]);
+    a->m12 = K12 * (c[0] * c[1] + s[0] * s[1]);
+    a->m13 = K13 * (c[0] * c[2] + s[0] * s[2]);
+    a->m23 = K23 * (c[1] * c[2] + s[1] * s[2]);
+    a->d[0] = one / diagonal[0];
+    a->l12 = a->m12 * a->d[0];
+    a->l13 = a->m13 * a->d[0];
+    a->d[1] = 1 / (diagonal[1] - a->l12 * a->m12);
+    const real rest = a->m23 - a->l13 * a->m12;
+    a->l23 = rest * a->d[1];
+    a->d[2] = 1 / (diagonal[2] - a->l13 * a->m13 - a->l23 * rest);
+    real b[3] = {-L1 * s[0], -L2 * s[1], -L3 * s[2]}, e[3] = {L1 * c[0], L2 * c[1], L3 * c[2]};
+    forward(a, b);
+    forward(a, e);
+    for (int i = 0; i < 3; i++) a->z[i] = a->d[i] * b[i], a->w[i] = a->d[i] * e[i];
+    const real both = times(b, a->w);
+    a->g[0] = 1 / times(b, a->z);
+    a->k = both * a->g[0];
+    a->g[1] = 1 / (times(e, a->w) - a->k * both);
+}
+
+/* x with C x = (r1, r2), and M x = f - C^T lambda; f NULL: 0 */
+static inline void solve(const pose *a, real r1, real r2, const real *f, real *x)
+{
+    real y[3];
+    for (int i = 0; f && i < 3; i++) y[i] = f[i];
+    if (f) forward(a, y);
+    const real q1 = f ? times(a->z, y) - r1 : -r1, q2 = f ? times(a->w, y) - r2 : -r2;
+    const real m2 = (q2 - a->k * q1) * a->g[1], m1 = q1 * a->g[0] - a->k * m2;
+    for (int i = 0; i < 3; i++) x[i] = f ? a->d[i] * y[i] - a->z[i] * m1 - a->w[i] * m2 : -a->z[i] * m1 - a->w[i] * m2;
+    backward(a, x);
+}
+#else
 typedef struct { real s[3], c[3], m12, m13, m23, d2, d3, inverse, y1, y2, y3, mass; } pose;     /* y = M D, mass = 1 / D^T M D */
 
 static inline void look(const real *p, pose *a)
@@ -52,14 +117,16 @@ static inline void eliminate(pose *a)
     a->y2 = z2 * a->inverse, a->y3 = z3 * a->inverse;
 }
 
-/* x with C x = (r1, r2), and D^T M x = force */
-static inline void solve(const pose *a, real r1, real r2, real force, real *x)
+/* x with C x = (r1, r2), and D^T M x = D^T f; f NULL: 0 */
+static inline void solve(const pose *a, real r1, real r2, const real *f, real *x)
 {
+    const real force = f ? f[0] + a->d2 * f[1] + a->d3 * f[2] : r1 - r1;
     const real x2 = L3 * (a->c[2] * r1 + a->s[2] * r2) * a->inverse, x3 = -L2 * (a->c[1] * r1 + a->s[1] * r2) * a->inverse;
     x[0] = (force - a->y2 * x2 - a->y3 * x3) * a->mass;
     x[1] = x2 + a->d2 * x[0];
     x[2] = x3 + a->d3 * x[0];
 }
+#endif
 
 static inline void accelerate(const real *p, const real *v, real *vdot)
 {
@@ -68,8 +135,8 @@ static inline void accelerate(const real *p, const real *v, real *vdot)
     eliminate(&a);
     const real *s = a.s, *c = a.c, w1 = v[0] * v[0], w2 = v[1] * v[1], w3 = v[2] * v[2];
     const real s12 = K12 * (s[1] * c[0] - c[1] * s[0]), s13 = K13 * (s[2] * c[0] - c[2] * s[0]), s23 = K23 * (s[2] * c[1] - c[2] * s[1]);
-    const real f1 = s12 * w2 + s13 * w3 - W1 * c[0], f2 = s23 * w3 - s12 * w1 - W2 * c[1], f3 = -s13 * w1 - s23 * w2 - W3 * c[2];
-    solve(&a, L1 * c[0] * w1 + L2 * c[1] * w2 + L3 * c[2] * w3, L1 * s[0] * w1 + L2 * s[1] * w2 + L3 * s[2] * w3, f1 + a.d2 * f2 + a.d3 * f3, vdot);
+    const real f[3] = {s12 * w2 + s13 * w3 - W1 * c[0], s23 * w3 - s12 * w1 - W2 * c[1], -s13 * w1 - s23 * w2 - W3 * c[2]};
+    solve(&a, L1 * c[0] * w1 + L2 * c[1] * w2 + L3 * c[2] * w3, L1 * s[0] * w1 + L2 * s[1] * w2 + L3 * s[2] * w3, f, vdot);
 }
 
 static inline int any(word open)
@@ -82,18 +149,18 @@ static inline int any(word open)
 static inline void correct(real *p, real *v)
 {
     pose a;
-    real x[3], zero = p[0] - p[0];
+    real x[3];
     for (int k = 0; k < 10; k++) {
         look(p, &a);
         const real r1 = L1 * a.c[0] + L2 * a.c[1] + L3 * a.c[2] - L4, r2 = L1 * a.s[0] + L2 * a.s[1] + L3 * a.s[2];
         const word open = (r1 > TOLERANCE) | (r1 < -TOLERANCE) | (r2 > TOLERANCE) | (r2 < -TOLERANCE);
         if (!any(open)) break;
         eliminate(&a);
-        solve(&a, r1, r2, zero, x);
+        solve(&a, r1, r2, NULL, x);
         for (int i = 0; i < 3; i++) p[i] -= (real)((word)x[i] & open);
     }
     eliminate(&a);
-    solve(&a, -(L1 * a.s[0] * v[0] + L2 * a.s[1] * v[1] + L3 * a.s[2] * v[2]), L1 * a.c[0] * v[0] + L2 * a.c[1] * v[1] + L3 * a.c[2] * v[2], zero, x);
+    solve(&a, -(L1 * a.s[0] * v[0] + L2 * a.s[1] * v[1] + L3 * a.s[2] * v[2]), L1 * a.c[0] * v[0] + L2 * a.c[1] * v[1] + L3 * a.c[2] * v[2], NULL, x);
     for (int i = 0; i < 3; i++) v[i] -= x[i];
 }
 
@@ -117,6 +184,9 @@ static inline void step(real *p, real *v, double h)
 /* So many groups of LANES runs, p and v (groups, 3, LANES) in place, each by so many steps */
 void floor_in_lanes(int groups, int steps, double h, double *all_p, double *all_v)
 {
+#ifdef SCHUR
+    diagonal[0] = M11, diagonal[1] = M22, diagonal[2] = M33;
+#endif
     for (int g = 0; g < groups; g++) {
         real p[3], v[3];
         for (int i = 0; i < 3; i++)
