@@ -1,5 +1,7 @@
 """What every system can do: to begin with, print what it is."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -20,6 +22,15 @@ def test_a_printed_system_says_what_it_is(kind):
         assert f"{name} = " in text
     assert f"freedom       {system.nv - system.m}\n" in text      # of the built-in ones, no row follows from others
     assert repr(system) != text
+
+
+def test_of_many_names_the_first_and_the_last_are_printed():
+    system = zd.models.chain(30).system("absolute")
+    text = str(system)
+    assert "link 0.x [m]" in text and "link 29.e3" in text and "link 15.x" not in text
+    shown = re.findall(r"([^,]*), \((\d+) more\), ", text)
+    assert [int(number) for _, number in shown] == [number - 24 for number in (system.nq, system.nv, system.m)]
+    assert len(text.splitlines()) < 40
 
 
 def test_printed_systems_of_all_kinds():

@@ -16,6 +16,8 @@ from .structure import Structure, of_core
 from .tables import NumberTables
 from .watching import Place, Watching
 
+FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
+
 
 class Terms:
     __doc__ = "\n".join([
@@ -188,8 +190,9 @@ class BaseSystem:
                 ("holonomic", _listed(self.constraints[:self.mh])), ("nonholonomic", _listed(self.constraints[self.mh:])),
                 ("freedom", self._freedom())]
         units = self._parameter_units()
-        rows += [("parameters" if not i else "", f"{name} = {_check.shown(value)} {units.get(name, '')}".rstrip())
-                 for i, (name, value) in enumerate(self.parameters.items())]
+        numbers = _shortened([f"{name} = {_check.shown(value)} {units.get(name, '')}".rstrip()
+                              for name, value in self.parameters.items()])
+        rows += [("parameters" if not i else "", number) for i, number in enumerate(numbers)]
         return "\n".join([self.name, *(f"  {title:14}{what}" for title, what in rows)])
 
     def _freedom(self) -> str:
@@ -339,7 +342,15 @@ def system_of(given: Any, *state: Any) -> Any:
 
 
 def _listed(variables: Sequence[Variable]) -> str:
-    return ", ".join(f"{name} [{unit}]" if unit else name for name, unit in variables) or "none"
+    return ", ".join(_shortened([f"{name} [{unit}]" if unit else name for name, unit in variables])) or "none"
+
+
+def _shortened(entries: Sequence[str]) -> list[str]:
+    """The entries if they are few; of many the first, the last, and how many are between."""
+    left_out = len(entries) - FIRST_PRINTED - LAST_PRINTED
+    if left_out <= LAST_PRINTED:
+        return list(entries)
+    return [*entries[:FIRST_PRINTED], f"({left_out} more)", *entries[-LAST_PRINTED:]]
 
 
 def core_of(system: Any) -> _gateway.CoreSystem:
