@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linalg/norms.h"
+#include "point/quaternions.h"
 #include "registry.h"
 #include "run/arguments.h"
 #include "run/create.h"
@@ -71,6 +72,7 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
     run->motion.drifts_from = ZD_PHI | ZD_C;
     run->motion.corrects = corrects;
     if (!status) status = zd_motion_correct(&run->motion, 0, 1);
+    zd_point_follow(run->motion.point);
     memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
     if (iterations) *iterations = (int)run->motion.statistics.position_iterations;

@@ -36,4 +36,4 @@ def exactly_moved(core, p, step):
     turned = Rotation.from_quat(poses[:, 3:], scalar_first=True) * Rotation.from_rotvec(rates[:, 3:])
     q = turned.as_quat(scalar_first=True)
     q *= np.where((q * poses[:, 3:]).sum(axis=1) < 0, -1.0, 1.0)[:, None]
-    return core.state(np.hstack([poses[:, :3] + rates[:, :3], q]))[0]
+    return core.state(np.hstack([poses[:, :3] + rates[:, :3], q]), angles=core.angles(p))[0]

@@ -17,8 +17,8 @@ typedef struct independent {
 
 extern const zd_formulation zd_independent;
 
-/* What ties surplus coordinates has to be known: a unit quaternion has one too many. */
-static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions; }
+/* What ties surplus coordinates has to be known: a unit quaternion has one too many, and what follows others is one. */
+static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions + system->followers; }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {

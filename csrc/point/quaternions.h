@@ -11,10 +11,17 @@ static inline int zd_quaternions_normalise(const zd_system *system, double *p)
     return system->quaternions ? zd_quaternions_bring_back(system, p) : 0;
 }
 
+/* Coordinates of the point that follow others are brought to these: what is known there stays. */
+static inline void zd_point_follow(zd_point *point)
+{
+    if (point->system->followers) point->system->follow(point->system->data, point->p);
+}
+
 /* The same for where the point is. */
 static inline void zd_point_normalise(zd_point *point)
 {
     if (zd_quaternions_normalise(point->system, point->p)) point->known = 0;
+    zd_point_follow(point);
 }
 
 /* The first quaternion in p whose length is none that a rotation can be given with, and that length; -1: there is none. With `any_length`

@@ -47,9 +47,9 @@ static int check_blocks(const zd_system *system, text message)
             return refuse(message, "structure: the mass of block %d is %d, which is no sum of ZD_CONSTANT and ZD_DIAGONAL", b, mass);
         nq += p, nv += v;
     }
-    if (nq == system->nq && nv == system->nv) return ZD_DONE;
-    return refuse(message, "structure: its blocks have %d coordinates and %d velocities, and the system has %d and %d", nq, nv, system->nq,
-                  system->nv);
+    if (nq == system->nq - system->followers && nv == system->nv) return ZD_DONE;
+    return refuse(message, "structure: its blocks have %d coordinates and %d velocities, and the system has %d and %d", nq, nv,
+                  system->nq - system->followers, system->nv);
 }
 
 static int check_touched(const zd_structure *structure, int g, text message)
@@ -258,10 +258,20 @@ static int check_quaternions(const zd_system *system, text message)
     return ZD_DONE;
 }
 
+static int check_followers(const zd_system *system, text message)
+{
+    const int may_be = system->quaternions ? system->nq - 1 : 0;
+    if (system->followers < 0 || system->followers > may_be || (system->followers && !system->follow))
+        return refuse(message, "followers: there are %d, and may be %d, behind unit quaternions, with follow()", system->followers, may_be);
+    if (system->followers && !(system->structure && system->operations && system->operations->times_A))
+        return refuse(message, "followers: no block has them, so that there are a structure and times_A");
+    return ZD_DONE;
+}
+
 int zd_check_interface(const zd_system *system, char *message, int size)
 {
     static int (*const checks[])(const zd_system *, text) = {
-        check_structure, check_operations, check_direct, check_measures, check_series, check_residuals, check_inputs, check_switched_groups,
+        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_residuals, check_inputs, check_switched_groups,
         check_quaternions,
     };
     int status = ZD_DONE;

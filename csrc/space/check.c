@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "../gauges/check.h"
+#include "turns.h"
 
 static int is_particle(const zd_space_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
@@ -64,12 +65,21 @@ static int joint_is_right(const zd_space_tables *tables, int i, zd_complaint to)
            zd_complain(to, "joint %d: a particle has no points but its own", i);
 }
 
+static int angles_of(const zd_space_tables *tables)
+{
+    int angles = 0;
+    for (int i = 0; i < tables->joints; i++) angles += zd_turns_of(tables->joint + i);
+    return angles;
+}
+
 static int gauge_is_right(const zd_space_tables *tables, int i, zd_complaint to)
 {
     const zd_space_gauge *gauge = tables->gauge + i;
     if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
     if (!are_bodies(tables, gauge->first, gauge->second))
         return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second, tables->bodies);
+    if (gauge->counted && (gauge->kind != ZD_SPACE_ANGLE || !zd_is_in(gauge->counted - 1, angles_of(tables))))
+        return zd_complain(to, "gauge %d: it counts the turns of angle %d of joints, which is not there", i, gauge->counted - 1);
     return (suits_particle(tables, gauge->first, gauge->point1) && suits_particle(tables, gauge->second, gauge->point2)) ||
            zd_complain(to, "gauge %d: a particle has no points but its own", i);
 }

@@ -4,8 +4,10 @@
 #include "check.h"
 #include "evaluate.h"
 #include "measures.h"
+#include "picked.h"
 #include "products.h"
 #include "sockets.h"
+#include "turns.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
@@ -14,11 +16,11 @@ typedef struct parts {
     zd_space_joint *joint;
     zd_planned_joint3 *planned;
     zd_space_gauge *gauge;
-    double *period;
     zd_use_parts uses;
     int *lengths, *quaternion;
     zd_packed packed;
     zd_sockets sockets;
+    zd_turns turns;
     double *weight;
     int gauges, quaternions, nq, nv;       /* so many are there by now */
 } parts;
@@ -33,11 +35,11 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(joint, joints);
     TAKE(planned, joints);
     TAKE(gauge, (size_t)tables->gauges + extra);
-    TAKE(period, rows + relations);
-    TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies);
+    TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies + ZD_SPACE_COORDINATES * joints);
     TAKE(quaternion, bodies);
     TAKE(weight, ZD_BODY_VELOCITIES * bodies);
 #undef TAKE
+    zd_turns_take(&to->turns, arena, joints);
     zd_sockets_take(&to->sockets, arena, bodies, joints, rows + relations);
     zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
     zd_packed_take(&to->packed, arena, bodies, rows + relations, terms + extra);
@@ -57,6 +59,8 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
         to->nv += nv;
         A += (turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * nv;
     }
+    zd_turns_plan(&to->turns, tables->joints, tables->joint, to->nq);
+    to->nq += to->turns.count;
     for (const zd_body3 *body = to->body + 1; body <= to->body + tables->bodies; body++)
         for (int k = 0; k < ZD_POINT_COORDINATES; k++) {
             to->lengths[body->p + k] = to->lengths[to->nq + body->v + k] = 1;
@@ -68,7 +72,10 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
 
 static void copy(const zd_space_tables *tables, parts *to)
 {
-    for (int i = 0; i < tables->joints; i++) to->joint[i] = tables->joint[i];
+    for (int i = 0, angles = 0; i < tables->joints; angles += zd_turns_of(tables->joint + i++)) {
+        to->joint[i] = tables->joint[i];
+        to->planned[i].angles = angles;
+    }
     for (int body = 1; body <= tables->bodies; body++) {
         const int carrier = tables->body[body - 1].carrier;
         if (carrier < 0) continue;
@@ -80,75 +87,20 @@ static void copy(const zd_space_tables *tables, parts *to)
     to->gauges = tables->gauges;
 }
 
-static void copy3(const double *from, double *to)
-{
-    for (int k = 0; k < 3; k++) to[k] = from[k];
-}
-
-/* The sum of the directions of the second's frame, each times itself and the square of its semiaxis. */
-static void write_shape(const zd_space_joint *joint, double shape[3][3])
-{
-    for (int d = 0; d < ZD_SPACE_AXES; d++)
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 3; k++)
-                shape[i][k] += joint->semiaxes[d] * joint->semiaxes[d] * joint->frame2[d][i] * joint->frame2[d][k];
-}
-
-/* A pick of the second body alone: the body then is both sides of its gauge. */
-static zd_space_joint of_second(const zd_space_joint *joint)
-{
-    zd_space_joint own = *joint;
-    own.first = joint->second;
-    copy3(joint->point2, own.point1);
-    memcpy(own.frame1, joint->frame2, sizeof own.frame1);
-    return own;
-}
-
-/* The gauge that a pick of a joint's kind is. */
-static zd_space_gauge gauge_of(const zd_space_joint *joint, const zd_space_pick *pick)
-{
-    if (pick->is_own) {
-        const zd_space_joint own = of_second(joint);
-        const zd_space_pick alone = {pick->gauge, pick->of_first, pick->of_second, pick->zero, 0, 0};
-        return gauge_of(&own, &alone);
-    }
-    const int rolls = zd_space_joint_kind_of(joint->kind)->rolls, swapped = pick->is_swapped;
-    const int o = rolls ? ZD_SPACE_AXIS : (pick->of_first + (swapped ? ZD_SPACE_AXES - 1 : 1)) % ZD_SPACE_AXES;
-    const double(*frame1)[3] = swapped ? joint->frame2 : joint->frame1, (*frame2)[3] = swapped ? joint->frame1 : joint->frame2;
-    zd_space_gauge gauge = {.kind = (int)pick->gauge, .first = swapped ? joint->second : joint->first,
-                            .second = swapped ? joint->first : joint->second};
-    copy3(swapped ? joint->point2 : joint->point1, gauge.point1);
-    copy3(swapped ? joint->point1 : joint->point2, gauge.point2);
-    copy3(frame1[pick->of_first], gauge.a);
-    copy3(frame1[o], gauge.o);
-    copy3(frame2[pick->of_second], gauge.b);
-    write_shape(joint, gauge.shape);
-    gauge.zero = pick->zero == ZD_SPACE_ZERO_ALONG ? joint->along : pick->zero == ZD_SPACE_ZERO_LENGTH ? joint->length : 0;
-    return gauge;
-}
-
-zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate)
-{
-    return gauge_of(joint, &zd_space_joint_kind_of(joint->kind)->coordinate[coordinate].pick);
-}
-
 static void add_term(parts *to, zd_space_gauge gauge, double coefficient)
 {
     to->gauge[to->gauges] = gauge;
     zd_uses_add_term(&to->uses, to->gauges++, coefficient);
 }
 
-static const double TURN = 6.283185307179586;
-
+/* A row that advances does so with the joint's angle, its first coordinate. */
 static void add_joint_row(parts *to, int j, int component)
 {
-    static const zd_space_pick angle = {.gauge = ZD_SPACE_ANGLE, .of_first = ZD_SPACE_NORMAL, .of_second = ZD_SPACE_NORMAL};
     const zd_space_joint *joint = to->joint + j;
     const zd_space_row *row = zd_space_joint_kind_of(joint->kind)->row + component;
-    const int first = to->uses.terms, advances = row->advances;
-    add_term(to, gauge_of(joint, &row->pick), 1);
-    if (advances) add_term(to, gauge_of(joint, &angle), -joint->length);
-    to->period[to->uses.rows] = advances ? TURN * fabs(joint->length) : 0;
+    const int first = to->uses.terms;
+    add_term(to, zd_space_picked_gauge(joint, &row->pick), 1);
+    if (row->advances) add_term(to, zd_space_coordinate_gauge(joint, 0, to->planned[j].angles), -joint->length);
     to->planned[j].rows[to->planned[j].row_count++] = to->uses.rows;
     zd_uses_add_joint_row(&to->uses, first, row->nonholonomic, j, component);
 }
@@ -163,8 +115,6 @@ static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to
             if (kind->row[i].nonholonomic == nonholonomic) add_joint_row(to, j, i);
     }
     zd_uses_add_relations(&tables->uses, nonholonomic, &to->uses);
-    for (int i = 0; i < tables->uses.relations; i++)
-        if (tables->uses.relation[i].nonholonomic == nonholonomic) to->period[to->uses.row_of_relation[i]] = tables->period[i];
 }
 
 /* ---- the system ---- */
@@ -198,6 +148,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .structure = &self->packed.structure,
         .operations = self->sockets.are_all && self->uses.m ? &zd_socket_products : &zd_space_products,
         .quaternions = from->quaternions, .quaternion = from->quaternion,
+        .followers = from->turns.count, .follow = from->turns.count ? zd_space_follow : NULL,
     };
     self->measures.count = tables->uses.measures;
     self->measures = zd_space_measures(self, from->uses.measure);
@@ -222,8 +173,8 @@ static int plan(const zd_space_tables *tables, parts *all)
     *self = (zd_space){
         .gravity = zd_vector3_of(tables->gravity),
         .bodies = tables->bodies, .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
-        .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge, .period = all->period,
-        .weight = all->weight,
+        .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
+        .weight = all->weight, .turns = all->turns,
     };
     for (int b = 0; b < tables->bodies; b++) {
         const int turns = all->body[b + 1].turns;
@@ -266,6 +217,12 @@ void zd_space_free(zd_space *space)
 const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
 
 const zd_row_owner *zd_space_rows(const zd_space *space) { return space->uses.owner_of_row; }
+
+int zd_space_angles(const zd_space *space, int *place)
+{
+    if (place) memcpy(place, space->turns.place, (size_t)space->turns.count * sizeof *place);
+    return space->turns.count;
+}
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 

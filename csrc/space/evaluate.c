@@ -30,7 +30,7 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     const int bodies = self->bodies;
     const zd_frame3 frame = zd_frame3_of(self, out->scratch);
     if (want & ZD_MOVED) {
-        zd_bodies_place(bodies, self->body, p, frame.pose, frame.quaternion);
+        zd_frame3_place(self, &frame, p);
         zd_sockets_turn(&self->sockets, &frame);
     }
     if (is_moving(self, want)) zd_bodies_move(bodies, self->body, frame.pose, v, frame.twist);

@@ -1,6 +1,7 @@
 /* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
 #include "gauge.h"
 #include "plan.h"
+#include "turns.h"
 
 enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double),
        QUATERNION = 4, SIGHTED = sizeof(zd_sighted) / sizeof(double) };
@@ -16,6 +17,8 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     scratch += all * WRENCH;
     frame.quaternion = scratch;
     scratch += all * QUATERNION;
+    frame.angle = scratch;
+    scratch += space->turns.count;
     frame.sighted = (zd_sighted *)scratch;
     scratch += space->sockets.count * SIGHTED;
     frame.turns = scratch;
@@ -34,13 +37,14 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 int zd_frame3_size(const zd_space *space)
 {
     return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * SIGHTED
-         + space->sockets.turns + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+         + space->turns.count + space->sockets.turns + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 
 void zd_frame3_place(const zd_space *space, const zd_frame3 *frame, const double *p)
 {
     if (space->carrying.place) space->carrying.place(space, frame, p);
     else zd_bodies_place(space->bodies, space->body, p, frame->pose, frame->quaternion);
+    zd_turns_read(space, frame, p);
 }
 
 void zd_frame3_move(const zd_space *space, const zd_frame3 *frame, const double *v)
@@ -53,7 +57,7 @@ static double value_of(const void *mechanism, const void *frame, int gauge)
 {
     const zd_space *self = mechanism;
     const zd_frame3 *at = frame;
-    return zd_space_gauge_read(self->gauge + gauge, at->pose).value;
+    return zd_space_gauge_value(self->gauge + gauge, at->pose, at->angle);
 }
 
 static double rate_of(const void *mechanism, const void *frame, int gauge)

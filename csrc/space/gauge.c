@@ -160,6 +160,24 @@ zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pos
 
 int zd_space_gauge_is_mutual(const zd_space_gauge *gauge) { return gauge->kind != ZD_SPACE_GLIDE && gauge->kind != ZD_SPACE_SPIN; }
 
+/* ---- turns ---- */
+
+double zd_with_turns(double angle, double near)
+{
+    static const double TURN = 6.283185307179586;
+    return angle + TURN * nearbyint((near - angle) / TURN);
+}
+
+double zd_space_gauge_counted(const zd_space_gauge *gauge, double value, const double *angle)
+{
+    return gauge->counted ? zd_with_turns(value, angle[gauge->counted - 1] - gauge->zero) : value;
+}
+
+double zd_space_gauge_value(const zd_space_gauge *gauge, const zd_pose3 *pose, const double *angle)
+{
+    return zd_space_gauge_counted(gauge, zd_space_gauge_read(gauge, pose).value, angle);
+}
+
 /* ---- rates and biases ---- */
 
 static double work(zd_wrench3 what, const zd_twist3 *twist)

@@ -11,6 +11,12 @@ typedef struct zd_reading3 {
 } zd_reading3;
 
 zd_reading3 zd_space_gauge_read(const zd_space_gauge *gauge, const zd_pose3 *pose);
+/* Its value, with the turns that it counts, of which angle (turns,) tells. */
+double zd_space_gauge_value(const zd_space_gauge *gauge, const zd_pose3 *pose, const double *angle);
+/* The same from what it reads without turns. */
+double zd_space_gauge_counted(const zd_space_gauge *gauge, double value, const double *angle);
+/* An angle with as many turns as bring it nearest to another. */
+double zd_with_turns(double angle, double near);
 double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);
 /* What the derivative of the rate by time has besides the accelerations of bodies. */
 double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_pose3 *pose, const zd_twist3 *twist);

@@ -43,7 +43,7 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
         if (out->value) out->value[i] = s * bias + zd_dot(nv, frame->row, at->vdot);
         return;
     }
-    if (out->value) out->value[i] = s * (measure->quantity == ZD_RATES ? rate : zd_space_gauge_read(gauge, frame->pose).value);
+    if (out->value) out->value[i] = s * (measure->quantity == ZD_RATES ? rate : zd_space_gauge_value(gauge, frame->pose, frame->angle));
     if (out->rate && measure->quantity == ZD_VALUES) out->rate[i] = s * rate;
     if (out->row) write_row(self, frame, gauge, s, out->row + i * nv);
     if (out->bias) out->bias[i] = s * bias;

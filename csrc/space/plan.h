@@ -13,6 +13,7 @@ typedef struct zd_planned_joint3 {
     int row_count;
     int carried;                    /* the body that it carries, and then it has no rows; 0: none */
     int sign;                       /* 1: that is its second body, -1: its first */
+    int angles;                     /* how many the joints before it have */
 } zd_planned_joint3;
 
 struct zd_frame3;
@@ -31,6 +32,14 @@ typedef struct zd_carrying {
     void *tree;                     /* what it knows; released with the mechanism */
 } zd_carrying;
 
+/* Angles of joints that count turns: see turns.h. */
+typedef struct zd_turns {
+    int count;
+    zd_space_gauge *angle;          /* (count,) what reads it */
+    zd_vector3 *axis;               /* (count,) in the axes of the gauge's first body */
+    int *joint, *place;             /* (count,) of which joint it is, and which entry of p has it; -1: none */
+} zd_turns;
+
 struct zd_space {
     zd_vector3 gravity;
     int bodies, joints;
@@ -39,11 +48,11 @@ struct zd_space {
     const zd_space_joint *joint;
     const zd_planned_joint3 *planned;   /* (joints,) */
     const zd_space_gauge *gauge;    /* those given, then those of the joints' rows */
-    const double *period;           /* (m,) */
     zd_packed packed;
     const double *weight;           /* (nv,) of the bodies, as generalized force */
     zd_sockets sockets;
     zd_carrying carrying;           /* its functions are NULL where all bodies are free */
+    zd_turns turns;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -54,6 +63,7 @@ typedef struct zd_frame3 {
     zd_twist3 *twist;
     zd_wrench3 *wrench;
     double *quaternion;             /* (bodies + 1, 4), of the ground and of particles unused */
+    double *angle;                  /* (turns,) of joints */
     zd_sighted *sighted;            /* (sockets,) */
     double *turns;                  /* of the sockets' rows, see sockets.h */
     double *row;                    /* (nv,) of measures alone */

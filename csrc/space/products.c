@@ -2,6 +2,8 @@
  * what is in the scratch, with its sign. So C W C^T has products of three entries in the place of six. */
 #include "products.h"
 
+#include "turns.h"
+
 /* ---- A ---- */
 
 /* Half of q times (0, omega) */
@@ -17,13 +19,15 @@ ZD_INLINE void turn(const double *q, const double *omega, double *rate)
 static void times_A(const void *data, const zd_terms *terms, const double *x, double *restrict y)
 {
     const zd_space *self = data;
-    const double *q = zd_frame3_of(self, terms->scratch).quaternion + 4;
+    const zd_frame3 frame = zd_frame3_of(self, terms->scratch);
+    const double *q = frame.quaternion + 4;
     for (const zd_body3 *body = self->body + 1; body <= self->body + self->bodies; body++, q += 4) {
         const double *own = x + body->v;
         double *rate = y + body->p;
         for (int i = 0; i < ZD_POINT_COORDINATES; i++) rate[i] = own[i];
         if (body->turns) turn(q, own + 3, rate + ZD_POINT_COORDINATES);                     /* (1) */
     }
+    if (self->turns.count) zd_turns_rate(self, &frame, x, y);
 }
 
 const zd_operations zd_space_products = {.times_A = times_A};

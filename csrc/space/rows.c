@@ -27,7 +27,7 @@ static double add_readings(const zd_space *self, const zd_frame3 *frame, const z
     double sum = 0;
     for (int i = 0; i < row->terms; i++) {
         const zd_reading3 reading = zd_space_gauge_read(gauge_of(self, row, i), frame->pose);
-        sum += factors[i] * reading.value;
+        sum += factors[i] * zd_space_gauge_counted(gauge_of(self, row, i), reading.value, frame->angle);
         if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
     }
     return sum;
@@ -41,9 +41,6 @@ static double sum_of_biases(const zd_space *self, const zd_frame3 *frame, const 
     return sum;
 }
 
-/* The value of a row, less what makes no difference to it. */
-static double modulo(double value, double period) { return period > 0 ? remainder(value, period) : value; }
-
 int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, double t, const zd_terms *out)
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
@@ -56,7 +53,7 @@ int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, 
         if (wants_Phi || want & ZD_C) {
             const int at = self->carrying.act ? i * self->system.nv : self->packed.at[i];
             const double sum = add_readings(self, frame, row, all.factors, want & ZD_C ? out->C + at : NULL);      /* (5) */
-            if (wants_Phi) out->Phi[i] = modulo(row->law < 0 ? sum + all.value : all.value, self->period[i]);               /* (3) */
+            if (wants_Phi) out->Phi[i] = row->law < 0 ? sum + all.value : all.value;               /* (3) */
         }
         if (want & ZD_PHI_T) out->Phi_t[i] = all.explicit_rate;
         if (want & ZD_XI) out->xi[i] = -all.second - sum_of_biases(self, frame, row, all.factors);                          /* (6) */

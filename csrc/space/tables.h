@@ -3,7 +3,7 @@
  * Coordinates are absolute, unless joints carry bodies (../space_tree/tree.h). Each body has the position of its mass centre and a unit quaternion, scalar first, which turns its own axes
  * into the drawing's; its velocities are that of its mass centre in the drawing's axes, and its angular velocity in its own. These are its
  * principal axes, so that M is constant and diagonal. A particle has a position and a velocity alone. Body 0 is the ground; bodies given
- * have the numbers from 1 on. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's axes, from its origin).
+ * have the numbers from 1 on. Behind the bodies are the angles of joints, in their order, which count turns: turns.h. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's axes, from its origin).
  * Relations, efforts, measures and laws are of gauges in space; forces and torques have three components.
  *
  * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
@@ -38,6 +38,7 @@ typedef struct zd_space_gauge {
     double a[3], o[3], b[3];    /* of length 1, in the axes of their body: see enum zd_space_gauge_kind */
     double shape[3][3];         /* m^2: of an ellipsoid x^T shape^-1 x = 1 about Q, in the second body's axes */
     double zero;                /* m or rad: taken from the reading */
+    int counted;                /* of an angle that counts turns: 1 + which one it is of all angles of joints; 0: it does not */
 } zd_space_gauge;
 
 typedef struct zd_space_tables {
@@ -47,7 +48,6 @@ typedef struct zd_space_tables {
     const zd_space_joint *joint;
     const zd_space_gauge *gauge;
     zd_uses uses;
-    const double *period;       /* (relations,) what makes no difference to a row, as a full turn does to an angle; 0: nothing */
 } zd_space_tables;
 
 typedef struct zd_space zd_space;
@@ -59,8 +59,10 @@ void zd_space_free(zd_space *space);
 /* The system; it refers to the mechanism. */
 const zd_system *zd_space_system(const zd_space *space);
 const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
-/* The gauge that reads a coordinate of a joint, which its kind has to have. */
-zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate);
+/* How many angles of joints there are; place (angles,) <- which entry of p each is, -1: none. NULL: not wanted. */
+int zd_space_angles(const zd_space *space, int *place);
+/* The gauge that reads a coordinate of a joint, which its kind has to have; the joints before it have so many angles. */
+zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);
 /* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own. */
 int zd_space_data_size(void);
 void zd_space_with(const zd_space *space, void *owner, void *data);

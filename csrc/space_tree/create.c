@@ -130,6 +130,28 @@ static void write_lengths(const zd_tree3 *tree, int *lengths)
 
 /* ---- the system ---- */
 
+/* Which coordinate of a link is its joint's angle of that number, in the order of the joint's table. */
+static int place_of_angle(const zd_link3 *link, int number)
+{
+    const int is_backwards = link->steps && link->step[0].sign < 0;
+    for (int i = 0; i < link->steps; i++) {
+        const zd_step3 *step = link->step + (is_backwards ? link->steps - 1 - i : i);
+        const int turns = step->kind == ZD_SPACE_TURNS || step->kind == ZD_SPACE_ADVANCES;
+        if (turns && number-- == 0) return step->p;
+    }
+    return -1;
+}
+
+static void place_angles(zd_space *self, const zd_link3 *link)
+{
+    for (int k = 0; k < self->turns.count; k++) {
+        const zd_planned_joint3 *joint = self->planned + self->turns.joint[k];
+        self->turns.place[k] = joint->carried ? place_of_angle(link + joint->carried, k - joint->angles) : -1;
+    }
+    self->system.followers = 0;
+    self->system.follow = NULL;
+}
+
 /* The mechanism with its system in the coordinates of the tree: matrices are dense. */
 static void carry_bodies(zd_space *self, const parts *from)
 {
@@ -173,5 +195,6 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other", message, message_size);
     write_lengths(all.tree, all.lengths);
     carry_bodies(self, &all);
+    place_angles(self, all.link);
     return self;
 }

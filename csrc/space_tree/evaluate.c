@@ -29,7 +29,7 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     const zd_space *self = data;
     const zd_tree3 *tree = zd_tree3_of(self);
     const zd_frame3 frame = zd_frame3_of(self, out->scratch);
-    if (want & ZD_MOVED) zd_tree3_place(self, &frame, p);
+    if (want & ZD_MOVED) zd_frame3_place(self, &frame, p);
     if (is_moving(self, want)) zd_tree3_move(self, &frame, v);
     if (want & ZD_A) {
         memset(out->A, 0, (size_t)(tree->nq * tree->nv) * sizeof *out->A);

@@ -87,6 +87,7 @@ int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
     if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
     if (!status) status = zd_motion_correct(motion, step, forced);
+    if (!status) zd_point_follow(motion->point);
     if (!status) status = formulation->leave(motion->solver, motion->point, self->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
     if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);

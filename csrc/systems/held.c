@@ -173,6 +173,13 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
 
 /* ---- systems ---- */
 
+/* What the inner system's products have of the rates of its followers is not there: they are brought to the rest at once. */
+static void follow(const void *data, double *p)
+{
+    const zd_system *inner = ((const zd_held *)data)->inner;
+    inner->follow(inner->data, p);
+}
+
 static void *take(zd_arena *arena, const void *of)
 {
     const holding *it = of;
@@ -184,6 +191,7 @@ static void *take(zd_arena *arena, const void *of)
     self->system.data = self->system.names = &self->held;
     self->system.name_row = name_row;
     self->system.operations = NULL;         /* these two are of the inner system alone */
+    self->system.follow = inner->follow ? follow : NULL;
     self->system.direct = NULL;
     self->system.directs = 0;
     if (!inner->structure) return here;
@@ -197,7 +205,7 @@ const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, cons
 {
     zd_system *system = zd_store_take(store, take, &(holding){inner, hold, p, 1});
     if (!system) return NULL;
-    system->mh += count(hold, inner->nq);
+    system->mh += count(hold, inner->nq - inner->followers);
     system->mn = 0;
     system->provides = ZD_M | (inner->provides & ZD_A) | (system->mh ? ZD_PHI | ZD_C : 0);
     system->scratch += zd_size_of_C(inner) + size_of_A(inner);

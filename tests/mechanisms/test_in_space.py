@@ -71,7 +71,7 @@ def test_a_mechanism_of_the_plane_in_space(wanted):
     space, plane = four_bar(R), four_bar()
     sol, other = (zd.simulate(m, 0.4, formulation=wanted, integrator="dop853", step=1e-2)
                   for m in (space, plane.system("absolute")))
-    assert_close(np.unwrap(sol["A.angle"]), other["A.angle"], 1e-9)
+    assert_close(sol["A.angle"], other["A.angle"], 1e-9)
     for name in ("A.speed", "A.acceleration", "spring.force", "spring.length"):
         assert_close(sol[name], other[name], 1e-8)
     for name in ("C.force", "coupler.end.position", "coupler.center.acceleration"):
@@ -79,7 +79,7 @@ def test_a_mechanism_of_the_plane_in_space(wanted):
     assert_close(sol["rocker.angular_velocity"] @ R[:, 2], other["rocker.angular_velocity"], 1e-9)
     assert_close(sol["A.torque"] @ R[:, 2], other["A.torque"], 1e-8)       # its damping
     assert np.abs(sol.energy_violation).max() < 1e-9
-    np.testing.assert_allclose((sol.p.reshape(-1, 3, 7)[:, :, 3:] ** 2).sum(axis=2), 1, rtol=0, atol=8 * 2.0**-52)
+    np.testing.assert_allclose((sol.p[:, :21].reshape(-1, 3, 7)[:, :, 3:] ** 2).sum(axis=2), 1, rtol=0, atol=8 * 2.0**-52)
 
 
 def test_three_rows_of_a_four_bar_follow_from_others():
@@ -178,17 +178,16 @@ def test_a_motor_through_half_a_turn_and_more(drive):
     m = turntable(**drive)
     m.start({"table.angular_velocity.z": 8.0})
     sol = zd.simulate(m, 2.0, step=1e-2, integrator="dop853")
-    assert_close(np.unwrap(sol["axle.angle"]), 4 * np.sin(2 * sol.t), 1e-9)
+    assert_close(sol["axle.angle"], 4 * np.sin(2 * sol.t), 1e-9)
     assert_close(sol["drive.torque"], -0.5 * 16 * np.sin(2 * sol.t), 1e-8)
     assert_close(sol["drive.power"], sol["drive.torque"] * sol["axle.speed"], 1e-12)
     assert_close(sol["axle.torque"][:, 2], sol["drive.torque"], 1e-10)
-    assert sol["axle.angle"].max() <= np.pi
 
 
 def test_a_motor_of_constant_speed_starts_where_it_is():
     m = turntable(speed=2.0)
     sol = zd.simulate(m, 4.0, step=1e-2)
-    assert_close(np.unwrap(sol["axle.angle"]), 2.0 * sol.t, 1e-12)
+    assert_close(sol["axle.angle"], 2.0 * sol.t, 1e-12)
 
 
 def test_torques_in_axes_of_the_drawing_and_of_bodies():
@@ -229,7 +228,7 @@ def test_gears_and_screws():
     m.screw("thread", wheels[1], nut, axis=(0, 0, 1), pitch=-0.01)
     m.motor("drive", pins[0], speed=20.0)
     sol = zd.simulate(m, 2.0, step=1e-2)
-    assert_close(np.unwrap(sol["pin1.angle"]), -30.0 * sol.t, 1e-11)
+    assert_close(sol["pin1.angle"], -30.0 * sol.t, 1e-11)
     assert_close(sol["guide.displacement"], 0.01 * -30.0 / (2 * np.pi) * sol.t, 1e-11)
     assert_close(sol["drive.torque"], np.full(len(sol.t), -1.5 * 5.0 * 9.81 * 0.01 / (2 * np.pi)), 1e-8)
 
@@ -245,7 +244,7 @@ def test_hookes_joint_turns_unevenly():
     m.universal("cross", one.end, other.start, axes=((0, 0, 1), (-np.sin(bend), np.cos(bend), 0)))
     m.motor("drive", "in", speed=3.0)
     sol = zd.simulate(m, 2.0, step=2e-3)
-    driven, turned = np.unwrap(sol["out.angle"]), 3.0 * sol.t
+    driven, turned = sol["out.angle"], 3.0 * sol.t
     assert_close(np.sin(driven) * np.cos(turned), np.sin(turned) * np.cos(driven) * np.cos(bend), 1e-9, scale=1.0)
 
 

@@ -36,7 +36,7 @@ def everything(rng):
                  Relation([place["turn"], place["glide"]], [1.0, 0.5], 0.3, nonholonomic=True)]
     measures = [Observed(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(GAUGES)
                 for quantity in ("values", "rates")]
-    return SpaceCore(Tables(bodies, joints, gauges(rng), relations, (), efforts, measures, (0.3, -0.2, -9.81)))
+    return SpaceCore(Tables(bodies, joints, gauges(rng), relations, efforts, measures, (0.3, -0.2, -9.81)))
 
 
 def derivative(function, core, p, v):
@@ -62,8 +62,29 @@ def test_rows_are_derivatives(case):
 
 def test_kinematics_are_those_of_quaternions(case):
     core, p, v = case
-    pdot = core.evaluate(0.0, p, v)["A"] @ v
-    assert_close(pdot, derivative(lambda p: p, core, p, v), NEAR)
+    pdot, bodies = core.evaluate(0.0, p, v)["A"] @ v, core.nq - len(core.angles(p))
+    assert_close(pdot[:bodies], derivative(lambda p: p, core, p, v)[:bodies], NEAR)
+
+
+def test_angles_of_joints_follow_their_bodies():
+    """By the rate that a hinge has which keeps its axis, whichever way both bodies turn, and to what their attitudes say."""
+    rng = np.random.default_rng(5)
+    frames = random_frame(rng), random_frame(rng)
+    joints = [Joint(KINDS[kind].number, *ends, frame1=frames[0], frame2=frames[1]) for kind, ends in
+              (("revolute", (0, 1)), ("cylindrical", (1, 2)), ("universal", (2, 1)))]
+    core = SpaceCore(Tables([Body(1.0, (1.0, 1.1, 1.2))] * 2, joints))
+    F1, F2 = (Rotation.from_matrix(np.transpose(frame)) for frame in frames)     # of each body's axes in the joint's frame
+
+    def turned(angle):
+        return F1 * Rotation.from_rotvec([angle, 0, 0]) * F2.inv()
+
+    one, other = turned(25.0), turned(25.0) * turned(-40.0)
+    poses = np.array([[0, 0, 0, *R.as_quat(scalar_first=True)] for R in (one, other)])
+    p = core.state(poses, angles=np.array([27.0, -42.0, 0, 0]))[0]
+    assert_close(core.angles(p)[:2], np.array([25.0, -40.0]), 1e-14)
+    axis = 0.3 * np.array(frames[1][0])
+    v = np.concatenate([np.zeros(3), axis, np.zeros(3), turned(-40.0).inv().apply(axis) - 1.1 * np.array(frames[1][0])])
+    assert_close((core.evaluate(0.0, p, v)["A"] @ v)[-4:-2], np.array([0.3, -1.1]), 1e-13)
 
 
 def test_forces_do_the_work_that_energy_says(case):
@@ -139,6 +160,7 @@ def test_particles_have_places_alone():
     ({"gauges": [Gauge("x", 0, 2)]}, "gauge 0: it is read off bodies 0 and 2, and the last one is 1"),
     ({"bodies": [Body(1.0, is_particle=True)], "gauges": [Gauge("x", 0, 1, point2=(1.0, 0, 0))]},
      "gauge 0: a particle has no points"),
+    ({"gauges": [Gauge("angle", 0, 1, counted=1)]}, "gauge 0: it counts the turns of angle 0 of joints, which is not there"),
     ({"gauges": [Gauge("x", 0, 0)], "relations": [Relation([0], [1.0])]}, "row 0: it is about the ground alone"),
 ])
 def test_tables_that_contradict_themselves(change, message):

@@ -56,14 +56,14 @@ def placed_anywhere(kind, ends, rng):
     return Joint(KINDS[kind].number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng))
 
 
-def placed(core, joint, first, rotation, way):
-    """Positions in which the first body is somewhere, and the frames of the joint are so to each other."""
+def placed(core, joint, first, rotation, way, angles=None):
+    """Positions in which the first body is somewhere, and the frames of the joint are so to each other, with such turns."""
     at, R = first
     F1, F2 = (np.array(frame).T for frame in (joint.frame1, joint.frame2))
     second = R * Rotation.from_matrix(F1) * rotation * Rotation.from_matrix(F2).inv()
     point = at + R.apply(np.array(joint.point1) + F1 @ way)
     poses = [[*at, *R.as_quat(scalar_first=True)], [*(point - second.apply(joint.point2)), *second.as_quat(scalar_first=True)]]
-    return core.state(np.array(poses))[0]
+    return core.state(np.array(poses), angles=angles)[0]
 
 
 @pytest.mark.parametrize("kind", MOTIONS)
@@ -73,7 +73,7 @@ def test_it_leaves_its_motions_free_and_no_others(kind):
     for _ in range(5):
         joint = drawn(kind, rng)
         names = [name for name, _ in KINDS[kind].coordinates]
-        read = [coordinate_gauge(joint, i) for i in range(len(names))]
+        read = [coordinate_gauge(joint, i, 0) for i in range(len(names))]
         core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint], read))
         first = rng.normal(size=3), Rotation.random(random_state=rng)
         for x in rng.uniform(-1.4, 1.4, size=(4, count)):
@@ -109,7 +109,8 @@ def test_a_screw_goes_on_through_all_turns(turns):
     rng = np.random.default_rng(9)
     joint = drawn("screw", rng)
     core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))
-    p = placed(core, joint, (rng.normal(size=3), Rotation.random(random_state=rng)), *MOTIONS["screw"][1]([2 * np.pi * turns]))
+    p = placed(core, joint, (rng.normal(size=3), Rotation.random(random_state=rng)), *MOTIONS["screw"][1]([2 * np.pi * turns]),
+               np.array([2 * np.pi * turns]))
     assert_close(core.evaluate(0.0, p, np.zeros(core.nv))["Phi"], np.zeros(5), 1e-14, scale=5.0)
 
 

@@ -34,7 +34,7 @@ def with_forces(rng, bodies, joints):
     gauges = [Gauge("distance", 0, last, **own), Gauge("glide", 0, last, **own), Gauge("distance", 1, last, **own)]
     efforts = [Effort("spring", 0, 3.0, 0.2), Effort("constant", 1, value=1.5)]
     relations = [Relation([0], [1.0], 0.3), Relation([1, 2], [1.0, 0.5], 0.3, nonholonomic=True)]
-    return Tables(bodies, joints, gauges, relations, (), efforts, (), (0.3, -0.2, -9.81))
+    return Tables(bodies, joints, gauges, relations, efforts, (), (0.3, -0.2, -9.81))
 
 
 def chain(rng, kind, is_second):

@@ -129,7 +129,7 @@ enum zd_mass { ZD_CONSTANT = 1, ZD_DIAGONAL = 2 };
 
 typedef struct zd_structure {
     int blocks;
-    const int *coordinates;     /* (blocks,) how many entries of p each has, in order, nq in all */
+    const int *coordinates;     /* (blocks,) how many entries of p each has, in order, nq in all but followers */
     const int *velocities;      /* (blocks,) how many entries of v, in order, nv in all; of both at least one */
     const int *mass;            /* (blocks,) bits of zd_mass; NULL: none anywhere */
     int groups;
@@ -299,6 +299,9 @@ typedef struct zd_system {
     int quaternions;
     const int *quaternion;          /* (quaternions,) where unit quaternions (w, x, y, z) begin in p: they are kept at length 1, and A is such
                                      * that it does not change by itself */
+    int followers;                  /* so many entries of p follow the others, as an angle that counts turns follows two attitudes: they are the last
+                                     * ones, of no block, and no row of A is stored for them, so that times_A has to be there */
+    void (*follow)(const void *data, double *p);    /* brings them to what they follow, with the turns that they have; no term differs by that */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

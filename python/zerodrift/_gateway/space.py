@@ -11,7 +11,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
-from .base import MESSAGE_SIZE, Card, card_of, text
+from .base import MESSAGE_SIZE, Card, card_of, doubles, text
 from .law_owner import Law, LawOwner
 from .mechanisms import Coordinate
 from .systems import CoreSystem
@@ -91,6 +91,7 @@ class Gauge(NamedTuple):
     b: Vector = AS_DRAWN[0]
     shape: Frame = (NONE, NONE, NONE)   # of an ellipsoid of the second body, x^T shape^-1 x = 1
     zero: float = 0.0
+    counted: int = 0            # of an angle that counts turns: 1 + which one it is of all angles of joints
 
 
 class Tables(NamedTuple):
@@ -100,7 +101,6 @@ class Tables(NamedTuple):
     joints: Sequence[Joint] = ()
     gauges: Sequence[Gauge] = ()
     relations: Sequence[Relation] = ()
-    periods: Sequence[float] = ()       # of the relations: what makes no difference to one; 0: nothing
     efforts: Sequence[Effort] = ()
     measures: Sequence[Observed] = ()
     gravity: Vector = NONE
@@ -122,11 +122,11 @@ def joint_kinds() -> dict[str, JointKind]:
     return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_space_joint_kinds()))}
 
 
-def coordinate_gauge(joint: Joint, coordinate: int) -> Gauge:
-    """The gauge that reads a coordinate of a joint."""
-    c = lib.zd_space_coordinate_gauge(ffi.new("zd_space_joint *", joint), coordinate)
+def coordinate_gauge(joint: Joint, coordinate: int, angles: int) -> Gauge:
+    """The gauge that reads a coordinate of a joint; the joints before it have so many angles."""
+    c = lib.zd_space_coordinate_gauge(ffi.new("zd_space_joint *", joint), coordinate, angles)
     vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
-    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero)
+    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
 class SpaceCore(CoreSystem):
@@ -161,6 +161,9 @@ class SpaceCore(CoreSystem):
         sizes = np.array([PARTICLE if body.is_particle else BODY for body in tables.bodies])
         self._at_p, self._at_v = (np.concatenate([[0], np.cumsum(column)[:-1]]) for column in sizes.T)
         self._turning = np.array([not body.is_particle for body in tables.bodies])
+        places = np.zeros(lib.zd_space_angles(self._mechanism, ffi.NULL), dtype=np.int32)
+        lib.zd_space_angles(self._mechanism, ffi.from_buffer("int[]", places, require_writable=True))
+        self._angle_at = places         # in p; -1: none
 
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
@@ -212,11 +215,11 @@ class SpaceCore(CoreSystem):
         return self.state(np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(self._at_p), 1)))[0]
 
     def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions (nq,) after a step (nv,): places go on, and bodies turn about an axis of their own."""
+        """Positions (nq,) after a step (nv,): places go on, bodies turn about an axis of their own, and angles count turns."""
         poses, rates = self.poses(p)[0], self._rates(step)
         turned = product(poses[:, 3:], turn(rates[:, 3:]))
         turned /= np.linalg.norm(turned, axis=1, keepdims=True)
-        return self.state(np.hstack([poses[:, :3] + rates[:, :3], turned]))[0]
+        return self.state(np.hstack([poses[:, :3] + rates[:, :3], turned]), angles=self.angles(p))[0]
 
     def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
         """The step (nv,) that leads to p from other positions, by the shorter turn of each body."""
@@ -224,9 +227,17 @@ class SpaceCore(CoreSystem):
         rates = np.hstack([to[:, :3] - start[:, :3], turn_between(start[:, 3:], to[:, 3:])])
         return self.state(start, rates)[1]
 
-    def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """(p, v) of such poses and rates."""
-        p = np.concatenate([pose if turns else pose[:3] for pose, turns in zip(poses, self._turning, strict=True)])
+    def angles(self, p: np.ndarray) -> np.ndarray:
+        """The angles of joints, (k,) in rad with their turns; 0 where one is no coordinate."""
+        return np.where(self._angle_at >= 0, np.asarray(p)[self._angle_at], 0.0)
+
+    def state(self, poses: np.ndarray, rates: np.ndarray | None = None,
+              angles: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(p, v) of such poses and rates, and with the angles of joints that are nearest to these; left out, to zero."""
+        p = np.concatenate([*(pose if turns else pose[:3] for pose, turns in zip(poses, self._turning, strict=True)),
+                            np.zeros(len(self._angle_at)) if angles is None else angles])
+        if len(self._angle_at):
+            self.c.follow(self.c.data, doubles(p, self.nq, writable=True))
         if rates is None:
             return p, np.zeros(self.nv)
         return p, np.concatenate([rate if turns else rate[:3] for rate, turns in zip(rates, self._turning, strict=True)])
@@ -236,11 +247,10 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) 
     """The core's mechanism, and words that have to live as long."""
     bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
     gauges = ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
-    period = ffi.new("double[]", list(tables.periods) or [0.0] * len(tables.relations))
     uses, words = written_uses(tables, has_laws, laws_know_time)
     c = ffi.new("zd_space_tables *", {
         "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses, "period": period})
+        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:

@@ -32,8 +32,11 @@ class SpaceTreeCore(SpaceCore):
             twists[:, 3:] = np.einsum("kji,kj->ki", R, twists[:, 3:])
         return poses, twists
 
-    def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
+    def state(self, poses: np.ndarray, rates: np.ndarray | None = None,
+              angles: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(p, v) of such poses and rates, and with the angles that are nearest to these, where they are given; what joints of the
+        tree forbid is not looked at.
+        """
         R, p, v = rotation_of(poses[:, 3:]), np.zeros(self.nq), np.zeros(self.nv)
         told = np.ascontiguousarray(np.hstack([poses[:, :3], R.transpose(0, 2, 1).reshape(-1, 9)]))
         twists = None
@@ -41,4 +44,7 @@ class SpaceTreeCore(SpaceCore):
             twists = np.hstack([rates[:, :3], np.einsum("kij,kj->ki", R, rates[:, 3:])])
         lib.zd_space_tree_state(self._mechanism, doubles(told, told.size), given(twists, len(told) * TWIST),
                                 doubles(p, p.size, writable=True), doubles(v, v.size, writable=True))
+        if angles is not None:
+            places = self._angle_at[self._angle_at >= 0]
+            p[places] += 2 * np.pi * np.round((angles[self._angle_at >= 0] - p[places]) / (2 * np.pi))
         return p, v

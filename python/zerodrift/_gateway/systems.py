@@ -119,7 +119,31 @@ class CoreSystem(Measuring):
                              "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
         arrays = self.evaluate_stored(t, p, v)
         packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}
+        if self.c.followers and "A" in packed:
+            packed["A"] = np.vstack([packed["A"], self.follower_rows(t, p, v)])
         return arrays | packed
+
+    def follower_rows(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """The rows of A (followers, nv) of coordinates that follow others, which are not stored: column by column."""
+        terms, scratch = ffi.new("zd_terms *"), ffi.new("double[]", max(1, self.c.scratch))
+        terms.scratch = scratch
+        self.c.evaluate(self.c.data, lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
+        columns = np.zeros((self.nv, self.nq))
+        for x, column in zip(np.eye(self.nv), columns, strict=True):
+            self.c.operations.times_A(self.c.data, terms, doubles(x, self.nv), doubles(column, self.nq, writable=True))
+        return np.ascontiguousarray(columns[:, self.nq - self.c.followers:].T)
+
+    def times(self, name: str, stored: np.ndarray, x: np.ndarray, t: float, p: np.ndarray, v: np.ndarray, *,
+              transposed: bool = False) -> np.ndarray:
+        """The product of a term, of which this is stored at (t, p, v), or of its transpose, and a vector."""
+        if not self.packing:
+            return (stored.T if transposed else stored) @ x
+        if name != "A" or not self.c.followers:
+            return self.packing.times(name, stored, x, transposed=transposed)
+        rows, others = self.follower_rows(t, p, v), self.nq - self.c.followers
+        if transposed:
+            return self.packing.times(name, stored, x[:others], transposed=True) + rows.T @ x[others:]
+        return np.concatenate([self.packing.times(name, stored, x), rows @ x])
 
     def evaluate_stored(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v), as they are stored."""

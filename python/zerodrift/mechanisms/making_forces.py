@@ -168,7 +168,7 @@ class ForceVerbs(Elements):
         ----------
         name : str
         joint : Joint or name
-            A revolute.
+            A revolute; in space any joint with one angle, too, such as a cylindrical one. Angles count turns.
         stiffness : float
             In N m/rad, at least 0.
         angle : float
@@ -189,7 +189,6 @@ class ForceVerbs(Elements):
         >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
         Measure('closer.torque')
         """
-        self._in_the_plane("torsion_spring")
         name = self._new_name(name, "torsion spring")
         joint = self._joint(f"joint of {name!r}", joint, ("angle",))
         stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)

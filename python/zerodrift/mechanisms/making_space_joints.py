@@ -69,7 +69,7 @@ class SpaceJointVerbs(Elements):
         -------
         SpaceJoint
             ``angle1`` is how far the cross has turned about the first arm, ``angle2`` how far the second body has about the
-            other, in (-pi, pi].
+            other, in rad; they count turns.
 
         Raises
         ------

@@ -34,11 +34,13 @@ class SpaceJoint(Joint):
 
     row: ClassVar[JointKind]    # type: ignore[assignment]
     coordinates: tuple[str, ...] = ()
+    angles: tuple[str, ...] = ()    # those of its coordinates that count turns
 
     def __init_subclass__(cls) -> None:
         """What the row says."""
         cls.row = JOINTS[cls.kind]
         cls.coordinates = tuple(name for name, _ in cls.row.coordinates)
+        cls.angles = tuple(name for name, gauge in cls.row.coordinates if gauge == "angle")
         cls.coordinate = cls.coordinates[0] if len(cls.coordinates) == 1 else None
         for name, doc in _measures(cls.row).items():
             setattr(cls, name, scalar(name, doc))
@@ -100,7 +102,7 @@ def _measures(row: JointKind) -> dict[str, str]:
     found = {}
     for name, gauge in row.coordinates:
         found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if gauge == "along" else
-                       "How far the second body has turned against the first since the drawing, in (-pi, pi] rad.")
+                       "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
     for speed, name in speeds(row).items():
         unit = "m" if dict(row.coordinates)[name] == "along" else "rad"
         found[speed] = f"The rate of `{name}`, in {unit}/s."

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -16,17 +15,13 @@ from .._rotations import AXES, quaternion_of
 from . import space_tree
 from .bodies import Body, Particle, Point
 from .drawing import Drawing
-from .forces import Actuator, Force, Spring, Torque
+from .forces import Actuator, Force, Spring, Torque, TorsionSpring
 from .numbers import Numbers
 from .space import triple
 from .space_bodies import SpaceInertias
 from .space_joints import SpaceJoint
 from .tables import Tables
 from .tree import carriers
-
-TURN = 2 * np.pi
-MOST_TEETH = 10000      # of a gear's ratio as a fraction: what counts as one
-SAME = 1e-12
 
 
 class SpaceTables(Tables):
@@ -38,7 +33,6 @@ class SpaceTables(Tables):
 
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
                  starts: Mapping[str, float] | None = None) -> None:
-        self.periods: list[float] = []
         super().__init__(drawing, numbers, in_tree=in_tree, starts=starts)
 
     def _masses(self) -> Any:
@@ -48,7 +42,7 @@ class SpaceTables(Tables):
         """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
         bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True) for mass in [self.inertias.of[body.name]]]
-        tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.periods,
+        tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations,
                               self.efforts, observed, self._gravity())
         made = SpaceCore if max(self.carrier, default=-1) < 0 else SpaceTreeCore
         return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
@@ -76,9 +70,12 @@ class SpaceTables(Tables):
 
     def coordinates(self) -> tuple[Variable, ...]:
         """The entries of p: of free bodies the places of mass centres, and the quaternions that turn principal axes into the
-        drawing's; of others the coordinates of their joints.
+        drawing's; of others the coordinates of their joints. Where all are free, the angles of joints follow, which count turns.
         """
-        return tuple(each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
+        bodies = tuple(each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
+        if max(self.carrier, default=-1) >= 0:
+            return bodies
+        return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in self.joints for angle in joint.angles))
 
     def velocities(self) -> tuple[Variable, ...]:
         """The entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
@@ -133,13 +130,9 @@ class SpaceTables(Tables):
 
     def coordinate_gauge_of(self, joint: SpaceJoint, coordinate: str) -> Gauge:
         """What reads a coordinate of a joint."""
-        return space.coordinate_gauge(self.joint_rows[self.joint_number[joint.name]], joint.coordinates.index(coordinate))
-
-    def jumps(self, name: str) -> bool:
-        """Whether a measure is an angle of a joint, which counts no turns."""
-        owner, _, coordinate = name.rpartition(".")
-        joint = self.drawing.elements.get(owner)
-        return isinstance(joint, SpaceJoint) and dict(joint.row.coordinates).get(coordinate) == "angle"
+        number = self.joint_number[joint.name]
+        angles = sum(len(before.angles) for before in self.joints[:number])
+        return space.coordinate_gauge(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
         """What reads the length of a spring or an actuator."""
@@ -148,27 +141,34 @@ class SpaceTables(Tables):
 
     # ---- drives and couplings ----
 
-    def _relation(self, name: str, relation: rows.Relation) -> None:
-        """Adds a row. A full turn of an angle makes no difference to a drive, or to a gear, whose ratio says what does not."""
-        super()._relation(name, relation)
-        self.periods.append(self._period(name, relation))
+    def _inputs(self, names: Sequence[str], first: Sequence[int] = ()) -> tuple[list[int], list[tuple[int, bool]]]:
+        gauges, picks = super()._inputs(names, first)
+        for name, (pick, is_rate) in zip(names, picks, strict=True):
+            if not is_rate:
+                self._check_turns(name, gauges[pick])
+        return gauges, picks
 
-    def _period(self, name: str, relation: rows.Relation) -> float:
-        turning = [i for i, gauge in enumerate(relation.gauges) if self.gauges[gauge].kind == "angle"]
-        if not turning:
-            return 0.0
-        if relation.joint >= 0:
-            return TURN
-        if len(turning) == 1 and relation.law < 0:
-            return TURN * abs(relation.coefficients[turning[0]])
-        ratio = abs(relation.coefficients[0]) if relation.law < 0 else np.nan
-        teeth = Fraction(ratio).limit_denominator(MOST_TEETH) if np.isfinite(ratio) else None
-        if teeth is None or abs(float(teeth) - ratio) > SAME * ratio:
-            raise ValueError(f"{name!r} couples angles of joints, which in space count no turns: a gear's ratio must be that "
-                             f"of two whole numbers up to {MOST_TEETH}, and laws cannot depend on angles")
-        return TURN / teeth.denominator
+    def _relation(self, name: str, relation: rows.Relation) -> None:
+        for gauge in () if relation.nonholonomic else relation.gauges:
+            self._check_turns(name, gauge)
+        super()._relation(name, relation)
+
+    def _check_turns(self, name: str, gauge: int) -> None:
+        """Refuses what depends on an angle whose turns nobody counts."""
+        counted = self.gauges[gauge].counted
+        if max(self.carrier, default=-1) < 0 or not counted:
+            return
+        joint = [joint for joint in self.joints for _ in joint.angles][counted - 1]
+        if self.joint_number[joint.name] not in self.carrier and joint.kind != "screw":
+            raise ValueError(f"{name!r} depends on the angle of {joint.name!r}, a joint that closes a loop, which counts no "
+                             "turns in joint coordinates: take system('absolute')")
 
     # ---- forces ----
+
+    def _torsion_spring(self, spring: TorsionSpring) -> None:
+        gauge = self.coordinate_gauge_of(spring.joint, "angle")
+        self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
+        self._check_turns(spring.name, self.gauge_number[spring.name])
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)

@@ -70,13 +70,17 @@ class Starting:
             return tables, assembly, assembly.led_to(self.closed(0.0)[2])
         return tables, assembly, self._positions(tables, assembly)
 
-    def at(self, t: float, *, nudge: bool = False) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged a little, where asked for."""
+    def at(self, t: float, *, nudge: bool = False) -> tuple[np.ndarray, ...]:
+        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged a little, where asked for.
+
+        In space poses are (bodies, 7), and the angles of joints come third.
+        """
         assembly, p = self.assembled(t)
         if nudge:
             p = assembly.nudged(p, set())
         held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
-        return assembly.core.poses(p, assembly.velocities(p, held, wished))
+        poses = assembly.core.poses(p, assembly.velocities(p, held, wished))
+        return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
 
     def _tables(self, starts: Mapping[str, float]) -> Tables:
         if self._known is None or starts:

@@ -11,7 +11,6 @@ import numpy as np
 from .. import _check
 from .._gateway import Variable
 from .._gateway import is_length as is_length_of
-from .._gateway.known_events import Reading
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
 from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
@@ -260,13 +259,6 @@ class MechanismSystem(BaseSystem):
         """As of any system; of bodies in space their orientation, too, as matrices, quaternions and angles."""
         found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
         return super()._measured(name, solution) if found is None else found
-
-    def _reading(self, name: str, what: str) -> Reading:
-        """As of any system; an event cannot be of an angle in space, which jumps by a full turn."""
-        if isinstance(self._tables, SpaceTables) and self._tables.jumps(name) and not what.startswith("of["):
-            raise ValueError(f"{what} is of {name!r}, which jumps by a full turn at pi, and that would be taken for an event: "
-                             "take a component of a point's position, or a callable with of=, such as lambda a: np.sin(a - 0.5)")
-        return super()._reading(name, what)
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, parts = chosen(self._drawing, names), Parts(self._drawing, self._numbers)

@@ -100,7 +100,11 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool
 
 def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
     """Which coordinates and which velocities are held."""
-    held = _held(system, hold)
+    held, core = _held(system, hold), core_of(system)
+    following = [variable.name for variable in system.coordinates[core.nq - core.c.followers:] if variable.name in held]
+    if following:
+        raise ValueError(f"hold names {following[0]!r}, which follows other coordinates: of a mechanism m, "
+                         f"zd.assemble(m, {{{following[0]!r}: ...}}) holds it")
     return [[int(variable.name in held) for variable in group] for group in (system.coordinates, system.velocities)]
 
 

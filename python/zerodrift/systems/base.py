@@ -120,10 +120,8 @@ class BaseSystem:
         _check.choice("term", term, [name for name in _gateway.PACKED if self._core.provides & _gateway.TERMS[name].bit])
         p, v = self._state_or_start(p, v, "p", "v")
         x = _check.vector("x", x, {"A": self.nq, "M": self.nv, "C": self.m}[term] if transposed else self.nv)
-        stored = self._core.evaluate_stored(_check.number("t", t), p, v)[term]
-        if self._core.packing:
-            return self._core.packing.times(term, stored, x, transposed=transposed)
-        return (stored.T if transposed else stored) @ x
+        t = _check.number("t", t)
+        return self._core.times(term, self._core.evaluate_stored(t, p, v)[term], x, t, p, v, transposed=transposed)
 
     @property
     def structure(self) -> Structure | None:
