@@ -4,14 +4,14 @@ import numpy as np
 
 from zerodrift import _gateway
 from zerodrift.ensembles.batch import batch_of
-from zerodrift.ensembles.part import ROADS
+from zerodrift.ensembles.part import BY_CORE, IN_LANES
 from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
 from zerodrift.runs.settings import VECTOR_UNITS
 
 UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
-LANES = ROADS.index("vector lanes")
+LANES, ALONE = IN_LANES, BY_CORE
 
 
 def plan_of(system, span, parameters=None, p0=None, v0=None, names=None, **options):

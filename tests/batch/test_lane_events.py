@@ -5,9 +5,9 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
+from lanes import ALONE, LANES
 from zerodrift import _gateway
 from zerodrift.ensembles import batch as batches
-from zerodrift.ensembles.part import ROADS
 
 BAR = zd.systems.four_bar()
 STARTS = np.linspace(0.5, 1.5, 11)[:, None] * BAR.v0
@@ -39,7 +39,7 @@ def assert_alike(one, other, bound):
 @pytest.mark.parametrize("events", EVENTS)
 def test_events_are_those_of_simulate_but_for_rounding(events, course):
     ens = ensemble(EVENTS[events], **COURSES[course])
-    assert (ens._part.roads == ROADS.index("vector lanes")).all()
+    assert (ens._part.roads == LANES).all()
     assert not ens.failed.any()
     for run in (0, 4, 10):
         sol, kept = zd.simulate(BAR, 2.0, v0=STARTS[run], events=EVENTS[events], **COURSES[course]), ens[run]
@@ -64,7 +64,7 @@ def test_bits_do_not_depend_on_neighbours(course):
     starts[3] += 1.0
     events = EVENTS["numbers"] + EVENTS["terminal"]
     whole, turned = (ensemble(events, order, **COURSES[course]) for order in (starts, starts[::-1]))
-    assert 0 < (whole._part.roads == 0).sum() < 10
+    assert 0 < (whole._part.roads == ALONE).sum() < 10
     assert whole.failed[3]
     for run in range(10):
         alone = ensemble(events, starts[run:run + 1], **COURSES[course])
@@ -115,7 +115,7 @@ def test_what_takes_the_ordinary_road():
 
 def test_general_steps_write_their_events_down_without_python():
     ens = ensemble(EVENTS["terminal"], step=0.01, direct=False)
-    assert not ens._part.roads.any()
+    assert (ens._part.roads == ALONE).all()
     for run in (0, 10):
         sol = zd.simulate(BAR, 2.0, v0=STARTS[run], step=0.01, direct=False, events=EVENTS["terminal"])
         assert ens.messages[run] == sol.message

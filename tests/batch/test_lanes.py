@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from lanes import LANES, UNITS, made, plan_of, rows_of
+from lanes import ALONE, LANES, UNITS, made, plan_of, rows_of
 from zerodrift import _gateway
-from zerodrift.ensembles.part import ROADS
 
 KINDS = ["four_bar", "slider_crank", "pendulum", "driven_four_bar", "knife_edge", "chaplygin_sleigh", "vertical_disc",
          "oscillator"]
@@ -74,7 +73,7 @@ def test_bits_do_not_depend_on_neighbours_nor_on_the_range(course):
         assert whole.messages[run] == single.messages[0]
     assert whole.failed[3]
     assert whole.messages[3].startswith("InconsistentStart: ")
-    assert set(whole.roads) == {LANES, ROADS.index("the ordinary road")}
+    assert set(whole.roads) == {LANES, ALONE}
 
 
 @pytest.mark.skipif(len(UNITS) < 3, reason="the processor has one vector unit at most")
@@ -104,7 +103,7 @@ def test_what_lanes_cannot_make_is_what_simulate_makes():
     part = made(plan_of(system, 0.5, v0=starts, names=["alpha1"], step=0.02))
     with pytest.warns(zd.AccuracyWarning):
         sol = zd.simulate(system, 0.5, v0=starts[1], step=0.02)
-    assert part.roads.tolist() == [LANES, 0]
+    assert part.roads.tolist() == [LANES, ALONE]
     assert np.array_equal(rows_of(part, "alpha1")[1], sol["alpha1"])
 
 
@@ -121,7 +120,7 @@ def test_runs_that_take_too_many_steps_fail_as_ever():
 def test_what_takes_the_ordinary_road(options):
     system = zd.systems.four_bar()
     part = made(plan_of(system, 0.1, v0=starts_of(system, 3), names=["alpha1"], step=0.01, **options))
-    assert (part.roads == 0).all()
+    assert (part.roads == ALONE).all()
     assert np.array_equal(rows_of(part, "alpha1")[1], zd.simulate(system, 0.1, step=0.01, **options)["alpha1"])
 
 

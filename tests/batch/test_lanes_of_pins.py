@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from lanes import LANES, UNITS, made, plan_of, rows_of
+from lanes import ALONE, LANES, UNITS, made, plan_of, rows_of
 from large_mechanisms import four_bars
 from zerodrift import _gateway
-from zerodrift.ensembles.part import ROADS
 
 pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
-ALONE = ROADS.index("the ordinary road")
 LOOPS = 7           # of so many and more, nothing dense is made
 STEP = 0.005
 TIMES = np.linspace(0.013, 0.2, 5)

@@ -15,7 +15,7 @@ from ..runs.simulate import simulate, solution_of_rows
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from ..systems.tables import NumberTables
-from .part import ROADS, Part, nothing
+from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
 
 FEW_EVENTS = 16             # of each, in a run: so much room there is for them at first
@@ -91,10 +91,8 @@ ANGLES = ("angle", "angular_velocity")      # of bodies: measures that are coord
 def _columns(system: BaseSystem, names: tuple[str, ...],
              core: _gateway.CoreSystem) -> tuple[dict[str, tuple[str, Any]], _gateway.Outputs | None] | None:
     """Where outputs are among the numbers of a row, and which measures are recorded; None where one of them is elsewhere."""
-    known: dict[str, list[tuple[str, int]]] = {}
-    for group, variables in {"p": system.coordinates, "v": system.velocities, "multipliers": system.constraints}.items():
-        for column, variable in enumerate(variables):
-            known.setdefault(variable.name, []).append((group, column))
+    groups = "p", "v", "multipliers"
+    known = {name: [(groups[group], column) for group, column in found] for name, found in system._columns_of.items()}
     measured = {name: place for name in names if (place := system._watching.find(name)) is not None
                 and not (len(known.get(name, ())) == 1 and name.rpartition(".")[2] in ANGLES)}
     if any(len(known.get(name, ())) != 1 for name in names if name not in measured):
@@ -200,7 +198,7 @@ def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
     status = made.status[:count]
     ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
-    roads = np.where(made.way[:count] == _gateway.IN_LANES, ROADS.index("vector lanes"), ROADS.index("the ordinary road"))
+    roads = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE)
     return Part(rows, longest.copy() if is_shared else t[kept],
                 {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()},
                 ~ended, messages[:count], roads.astype(np.uint8), doubtful, none, t_events, none)

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-ROADS = ("the ordinary road", "vector lanes")      # how a run was made, by the number that `Part.roads` has
+ROADS = "by Python", "in vector lanes", "by the core alone"       # how a run was made, by the number that `Part.roads` has
+BY_PYTHON, IN_LANES, BY_CORE = range(len(ROADS))
 NOT_STARTED = "it was not started, as the ensemble was interrupted"
 
 

@@ -210,7 +210,7 @@ class Ensemble:
     def _roads(self) -> str:
         """How many runs took which."""
         done = np.array([message != NOT_STARTED for message in self.messages])
-        return ", ".join(f"{count} {'in' if number else 'on'} {road}" for number, road in enumerate(ROADS)
+        return ", ".join(f"{count} {road}" for number, road in enumerate(ROADS)
                          if (count := int((self._part.roads[done] == number).sum()))) or "none was made"
 
 

@@ -88,7 +88,7 @@ def _parts(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callab
 
 
 def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:
-    """One run, on the ordinary road."""
+    """One run, by `simulate`."""
     def look(part: float) -> None:
         if is_cancelled():
             raise Cancelled

@@ -178,8 +178,8 @@ def _other_column(name: str, old: np.ndarray | None, new: np.ndarray | None) -> 
     if old.shape != new.shape or not old.ndim:
         return [] if np.array_equal(old, new) else [f"{name} was {_check.shown(old)} and is {_check.shown(new)}"]
     other = np.flatnonzero((old != new).reshape(len(old), -1).any(axis=1))
-    return [f"{name} of {len(other)} runs, first run {other[0]}, where it was {_check.shown(old[other[0]])} and is "
-            f"{_check.shown(new[other[0]])}"] if len(other) else []
+    return [f"{name} of {len(other)} runs, first run {other[0]}, where it was {_check.shown(old[other[0]].tolist())} and is "
+            f"{_check.shown(new[other[0]].tolist())}"] if len(other) else []
 
 
 def _manifest(folder: Path) -> dict[str, Any]:

@@ -216,8 +216,8 @@ class Solution:
             measured = self.system._measured(name, self)
         if measured is not None:
             return measured
-        columns = [array[:, column] for array, variables in self._named() for column, variable in enumerate(variables)
-                   if variable.name == name]
+        groups = [array for array, _ in self._named()]
+        columns = [groups[group][:, column] for group, column in self.system._columns_of.get(name, ())]
         if len(columns) == 1:
             return columns[0]
         if columns:

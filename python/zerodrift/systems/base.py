@@ -257,6 +257,15 @@ class BaseSystem:
     def _watching(self) -> Watching:
         return Watching(self._measuring)
 
+    @functools.cached_property
+    def _columns_of(self) -> dict[str, list[tuple[int, int]]]:
+        """By each name all columns that have it: of p, 0, of v, 1, or of the multipliers, 2; and which."""
+        found: dict[str, list[tuple[int, int]]] = {}
+        for group, variables in enumerate((self.coordinates, self.velocities, self.constraints)):
+            for column, variable in enumerate(variables):
+                found.setdefault(variable.name, []).append((group, column))
+        return found
+
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """A measure at every row of a solution; None where nothing is measured by that name."""
         return self._watching.values(getattr(name, "name", name), solution)
