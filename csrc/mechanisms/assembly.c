@@ -1,5 +1,5 @@
-/* The same steps as those of Python's assembly.py, which has more to say where something is wrong, and knows wishes, redundant rows and drives of
- * constant speed: least steps in the mass metric, in absolute coordinates, told in rad and parts of the mechanism's length.
+/* The same steps as those of Python's assembly.py, which has more to say where something is wrong, and knows wishes and redundant
+ * rows: least steps in the mass metric, in absolute coordinates, told in rad and parts of the mechanism's length.
  *
  * Where rows are independent, a least step with J x = r is x = W^-2 J^T (J W^-2 J^T)^-1 r, by orthogonalization of the rows of J W^-1; and that of
  * Levenberg and Marquardt, damped by mu, is x = -J^T (J J^T + mu)^-1 r.
@@ -28,6 +28,7 @@ typedef struct assembly {
     int n, mh, m, most;     /* most: rows of m and of all targets */
     int targets;
     const zd_target *target;
+    const zd_wanted *wanted;
     zd_terms terms;
     double *scratch, *at_rest;          /* (measures' scratch,), (n,) zeros */
     double *scale, *weight;             /* (n,) */
@@ -44,13 +45,14 @@ typedef struct problem {
     double left;
 } problem;
 
-static assembly take(zd_arena *arena, const zd_mechanism *mechanism, double length, int targets, const zd_target *target)
+static assembly take(zd_arena *arena, const zd_mechanism *mechanism, const zd_wanted *wanted)
 {
     const zd_system *system = &mechanism->system;
-    const size_t n = (size_t)system->nv, m = (size_t)(system->mh + system->mn), most = m + (size_t)targets + 3;        /* and room for the rows of a vector */
+    const size_t n = (size_t)system->nv, m = (size_t)(system->mh + system->mn);
+    const size_t most = m + (size_t)wanted->targets + 3;        /* and room for the rows of a vector */
     return (assembly){
-        .mechanism = mechanism, .system = system, .length = length, .n = system->nv, .mh = system->mh, .m = (int)m, .most = (int)most,
-        .targets = targets, .target = target,
+        .mechanism = mechanism, .system = system, .length = wanted->length, .n = system->nv, .mh = system->mh, .m = (int)m, .most = (int)most,
+        .targets = wanted->targets, .target = wanted->target, .wanted = wanted,
         .terms = {.M = zd_take_doubles(arena, n * n), .C = zd_take_doubles(arena, m * n), .Phi = zd_take_doubles(arena, m),
                   .Phi_t = zd_take_doubles(arena, m), .scratch = zd_take_doubles(arena, (size_t)system->scratch)},
         .scratch = zd_take_doubles(arena, (size_t)mechanism->measures.scratch), .at_rest = zd_take_doubles(arena, n),
@@ -134,14 +136,24 @@ static int is_of_joint(const assembly *self, int row)
     return row < self->mh && zd_mechanism_rows(self->mechanism)[row].owner == ZD_OF_JOINT;
 }
 
-/* r and J of the problem at p; returns the largest |r| */
+/* The drive of constant speed that a row of C is, of those wanted; -1: it is none. */
+static int drive_of(const assembly *self, int row)
+{
+    if (row >= self->mh) return -1;
+    const zd_row_owner *owner = zd_mechanism_rows(self->mechanism) + row;
+    for (int i = 0; owner->owner == ZD_OF_RELATION && i < self->wanted->drives; i++)
+        if (self->wanted->drive[i] == owner->index) return i;
+    return -1;
+}
+
+/* r and J of the problem at p, without such drives; returns the largest |r| */
 static double find(assembly *self, const problem *of, const double *p)
 {
     write_rows(self, p, self->mh, of->held, 0);
     divide_by_sizes(self, self->rows > self->mh);
     int count = 0;
     for (int k = 0; k < self->rows; k++) {
-        if (of->joints_alone && !is_of_joint(self, k)) continue;
+        if (drive_of(self, k) >= 0 || (of->joints_alone && !is_of_joint(self, k))) continue;
         self->r[count] = self->r[k] - of->left * self->start[k];
         zd_copy(self->n, self->J + k * self->n, self->J + count++ * self->n);
     }
@@ -271,8 +283,9 @@ static int track(assembly *self, double *p)
 {
     problem all = {0, 1, 0};
     memset(self->start, 0, (size_t)self->most * sizeof *self->start);
-    find(self, &all, p);
-    for (int k = 0; k < self->rows; k++) self->start[k] = is_of_joint(self, k) ? 0 : self->r[k];
+    write_rows(self, p, self->mh, 1, 0);
+    divide_by_sizes(self, self->rows > self->mh);
+    for (int k = 0; k < self->rows; k++) self->start[k] = is_of_joint(self, k) || drive_of(self, k) >= 0 ? 0 : self->r[k];
     const double way = zd_largest(self->rows, self->start);
     if (!(way < INFINITY)) return 0;
     const int parts = (int)fmin(200, fmax(1, ceil(way / TRACKED)));
@@ -319,7 +332,7 @@ static int is_closed(assembly *self, const double *p, int held)
 {
     const problem all = {0, 1, 0};
     write_rows(self, p, self->mh, 0, 0);
-    if (!held && zd_largest(self->mh, self->r) <= CLOSED * SMALLEST * self->length) return 1;
+    if (!held && !self->wanted->drives && zd_largest(self->mh, self->r) <= CLOSED * SMALLEST * self->length) return 1;
     return find(self, &all, p) <= CLOSED;
 }
 
@@ -354,17 +367,27 @@ static int find_velocities(assembly *self, const double *p, double *v)
     return 1;
 }
 
-int zd_assemble(const zd_mechanism *mechanism, double length, int targets, const zd_target *target, double *p, double *v)
+/* ---- the whole ---- */
+
+static void find_places(assembly *self, const double *p, double *places)
+{
+    write_rows(self, p, self->mh, 0, 0);
+    for (int k = 0; k < self->mh; k++)
+        if (drive_of(self, k) >= 0) places[drive_of(self, k)] = self->r[k];
+}
+
+int zd_assemble(const zd_mechanism *mechanism, const zd_wanted *wanted, double *p, double *v, double *places)
 {
     zd_arena arena = {NULL, 0};
-    take(&arena, mechanism, length, targets, target);
+    take(&arena, mechanism, wanted);
     zd_take_doubles(&arena, 3 * (size_t)mechanism->system.nv);
     arena = (zd_arena){zd_allocate(arena.used), 0};
     if (!arena.base) return 0;
-    assembly self = take(&arena, mechanism, length, targets, target);
+    assembly self = take(&arena, mechanism, wanted);
     double *memory = zd_take_doubles(&arena, 3 * (size_t)mechanism->system.nv);
     weigh(&self, p);
     const int found = self.rows <= self.n && find_positions(&self, p, memory) && find_velocities(&self, p, v);
+    if (found && wanted->drives) find_places(&self, p, places);
     zd_release(arena.base);
     return found && zd_largest(mechanism->system.nv, p) < INFINITY && zd_largest(mechanism->system.nv, v) < INFINITY;
 }

@@ -4,8 +4,17 @@
 
 #include "mechanism.h"
 
-/* p and v (nv,) of a mechanism in absolute coordinates: p comes as drawn, at time 0. `length` m: how large it is. Returns whether they are found;
- * not where rows follow from others, or contradict each other, or what is drawn is too far from closed: whoever tells of that looks more closely. */
-int zd_assemble(const zd_mechanism *mechanism, double length, int targets, const zd_target *target, double *p, double *v);
+typedef struct zd_wanted {
+    double length;              /* m: how large the mechanism is */
+    int targets;
+    const zd_target *target;
+    int drives;                 /* relations that prescribe constant speeds, from wherever the start has their coordinates */
+    const int *drive;
+} zd_wanted;
+
+/* p and v (nv,) of a mechanism in absolute coordinates: p comes as drawn, at time 0; places (drives,) <- the coordinates that are driven, where the
+ * constants of these relations are 0. Returns whether they are found; not where rows follow from others, or contradict each other, or what is
+ * drawn is too far from closed: whoever tells of that looks more closely. */
+int zd_assemble(const zd_mechanism *mechanism, const zd_wanted *wanted, double *p, double *v, double *places);
 
 #endif

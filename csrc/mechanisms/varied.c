@@ -1,6 +1,8 @@
 /* One of many mechanisms: made from its own tables, and assembled where its start is not known. */
 #include "varied.h"
 
+#include <string.h>
+
 #include "../workspace.h"
 #include "assembly.h"
 #include "plan.h"
@@ -19,49 +21,80 @@ static zd_tables tables_of(const zd_tables *first, const double *gravity, int64_
     return tables;
 }
 
-static zd_mechanism *create(const zd_tables *first, const double *gravity, int64_t run)
+/* Drives of constant speed begin at these places; NULL: at 0. */
+static zd_mechanism *create(const zd_varied *self, const zd_tables *first, int64_t run, const double *places)
 {
     char message[200];
-    const zd_tables tables = tables_of(first, gravity, run);
-    return zd_mechanism_create(&tables, message, sizeof message);
+    zd_tables tables = tables_of(first, self->gravity, run);
+    if (!places || !self->drives) return zd_mechanism_create(&tables, message, sizeof message);
+    const size_t size = (size_t)tables.uses.relations * sizeof(zd_relation);
+    zd_relation *relation = zd_allocate(size);
+    if (!relation) return NULL;
+    memcpy(relation, tables.uses.relation, size);
+    for (int i = 0; i < self->drives; i++) relation[self->drive[i]].constant = places[i];
+    tables.uses.relation = relation;
+    zd_mechanism *made = zd_mechanism_create(&tables, message, sizeof message);
+    zd_release(relation);
+    return made;
 }
 
-/* poses and rates (2, bodies, 3) <- those of the start; what these bodies are in absolute coordinates is (p, v), one behind the other */
-static int assemble(const zd_varied *self, int64_t run, const zd_mechanism *drawn, double *poses, double *p)
+typedef struct found {      /* where a mechanism starts, with all memory for it */
+    double *poses, *rates, *places;     /* (bodies, 3) both; (drives,) */
+    double *p, *v, *scratch;            /* of these bodies in absolute coordinates */
+} found;
+
+static found take(zd_arena *arena, const zd_varied *self, const zd_mechanism *drawn)
 {
     const zd_system *system = zd_mechanism_system(drawn);
-    const int bodies = drawn->tree.bodies;
-    double *v = p + system->nv, *scratch = v + system->nv;
-    zd_mechanism_state(drawn, self->poses + run * 3 * bodies, NULL, p, NULL);
-    if (!zd_assemble(drawn, self->length[run], self->targets, self->target, p, v)) return 0;
-    zd_mechanism_poses(drawn, p, v, poses, poses + 3 * bodies, scratch);
+    const size_t bodies = 3 * (size_t)drawn->tree.bodies;
+    return (found){
+        .poses = zd_take_doubles(arena, bodies), .rates = zd_take_doubles(arena, bodies), .places = zd_take_doubles(arena, (size_t)self->drives),
+        .p = zd_take_doubles(arena, (size_t)system->nv), .v = zd_take_doubles(arena, (size_t)system->nv),
+        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+    };
+}
+
+static int assemble(const zd_varied *self, int64_t run, const zd_mechanism *drawn, const found *to)
+{
+    const zd_wanted wanted = {self->length[run], self->targets, self->target, self->drives, self->drive};
+    zd_mechanism_state(drawn, self->poses + run * 3 * drawn->tree.bodies, NULL, to->p, NULL);
+    if (!zd_assemble(drawn, &wanted, to->p, to->v, to->places)) return 0;
+    zd_mechanism_poses(drawn, to->p, to->v, to->poses, to->rates, to->scratch);
     return 1;
 }
 
-/* p and v of the mechanism that moves */
-static int find_start(const zd_varied *self, int64_t run, const zd_mechanism *moving, double *p, double *v)
+/* The mechanism that moves, and its p and v; NULL: it does not start so. */
+static zd_mechanism *start(const zd_varied *self, int64_t run, const zd_mechanism *drawn, double *p, double *v)
 {
-    zd_mechanism *drawn = create(&self->drawn, self->gravity, run);
-    if (!drawn) return 0;
-    const zd_system *system = zd_mechanism_system(drawn);
-    const size_t poses = 6 * (size_t)drawn->tree.bodies;
-    double *memory = zd_allocate((poses + 2 * (size_t)system->nv + (size_t)system->scratch) * sizeof *memory);
-    const int found = memory && assemble(self, run, drawn, memory, memory + poses);
-    if (found) zd_mechanism_state(moving, memory, memory + poses / 2, p, v);
-    zd_release(memory);
-    zd_mechanism_free(drawn);
-    return found;
+    zd_arena arena = {NULL, 0};
+    take(&arena, self, drawn);
+    arena = (zd_arena){zd_allocate(arena.used), 0};
+    if (!arena.base) return NULL;
+    const found at = take(&arena, self, drawn);
+    zd_mechanism *moving = assemble(self, run, drawn, &at) ? create(self, &self->moving, run, at.places) : NULL;
+    if (moving) zd_mechanism_state(moving, at.poses, at.rates, p, v);
+    zd_release(arena.base);
+    return moving;
 }
 
 const zd_system *zd_varied_make(const void *of, int64_t run, double *p, double *v, void **made)
 {
     const zd_varied *self = of;
-    zd_mechanism *moving = *made = create(&self->moving, self->gravity, run);
-    if (!moving || (self->poses && !find_start(self, run, moving, p, v))) return NULL;
-    return zd_mechanism_system(moving);
+    zd_mechanism *drawn = self->poses ? create(self, &self->drawn, run, NULL) : NULL;
+    zd_mechanism *moving = !self->poses ? create(self, &self->moving, run, NULL) : drawn ? start(self, run, drawn, p, v) : NULL;
+    if (drawn) zd_mechanism_free(drawn);
+    *made = moving;
+    return moving ? zd_mechanism_system(moving) : NULL;
 }
 
 void zd_varied_free(void *made)
 {
     if (made) zd_mechanism_free(made);
+}
+
+double zd_varied_place(const void *of, const void *made, int drive)
+{
+    const zd_varied *self = of;
+    const zd_planned_uses *uses = &((const zd_mechanism *)made)->uses;
+    return uses->row[uses->row_of_relation[self->drive[drive]]].constant;
 }

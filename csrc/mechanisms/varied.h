@@ -17,10 +17,14 @@ typedef struct zd_varied {
     const double *length;       /* (runs,) m: how large each is */
     int targets;
     const zd_target *target;
+    int drives;                 /* relations of constant speed, whose constants are 0 in the tables: the start says what they are */
+    const int *drive;
 } zd_varied;
 
 /* As zd_family asks for it, where `of` is such. */
 const zd_system *zd_varied_make(const void *of, int64_t run, double *p, double *v, void **made);
 void zd_varied_free(void *made);
+/* Where a drive of constant speed begins, of what was made: its number among the drives. */
+double zd_varied_place(const void *of, const void *made, int drive);
 
 #endif

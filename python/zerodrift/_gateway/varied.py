@@ -35,30 +35,35 @@ class Varied:
     length : ndarray (count,)
         How large each is, in m.
     held : sequence of Held
+    drives : sequence of int
+        Relations that prescribe constant speeds, which begin where the start has their coordinates at t = 0.
     starts_are_known : bool
         Whether nothing is to be assembled.
     """
 
     def __init__(self, moving: Tables, drawn: Tables, count: int, poses: np.ndarray, length: np.ndarray, held: Sequence[Held],
-                 starts_are_known: bool) -> None:
+                 drives: Sequence[int], starts_are_known: bool) -> None:
         self._keep: list[Any] = []
+        self.drives = len(drives)
         self.numbers = sum(array.nbytes for array in (poses, length)) // (8 * count)       # that each has, about
         gravity = np.stack([_spread(each, count) for each in moving.gravity], axis=1)
         members = {
             "moving": self._tables(moving, count), "drawn": self._tables(drawn, count), "gravity": self._doubles(gravity),
             "length": self._doubles(length), "targets": len(held),
             "target": self._kept(ffi.new("zd_target[]", [tuple(each) for each in held])),
+            "drives": len(drives), "drive": self._kept(ffi.new("int[]", list(drives))),
             **({} if starts_are_known else {"poses": self._doubles(poses)})}
         of = self._kept(ffi.new("zd_varied *", members))
         self.c = ffi.new("zd_family *", {"of": of, "make": ffi.addressof(lib, "zd_varied_make"),
                                          "free": ffi.addressof(lib, "zd_varied_free")})
 
-    def start(self, run: int, nq: int, nv: int) -> tuple[np.ndarray, np.ndarray] | None:
-        """Where one of them starts, p (nq,) and v (nv,); None: it has to be looked at more closely."""
+    def start(self, run: int, nq: int, nv: int) -> tuple[np.ndarray, np.ndarray, list[float]] | None:
+        """Where one of them starts, p (nq,) and v (nv,), and its drives; None: it has to be looked at more closely."""
         p, v, made = np.zeros(nq), np.zeros(nv), ffi.new("void **")
         found = self.c.make(self.c.of, run, doubles(p, nq, writable=True), doubles(v, nv, writable=True), made)
+        places = [lib.zd_varied_place(self.c.of, made[0], drive) for drive in range(self.drives)] if found else []
         self.c.free(made[0])
-        return (p, v) if found else None
+        return (p, v, places) if found else None
 
     def _kept(self, what: Any) -> Any:
         self._keep.append(what)

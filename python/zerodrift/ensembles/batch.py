@@ -62,7 +62,8 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     if not plan.is_tabular:
         return None
-    found = settings.plan(system, _check.span(plan.t_span), **options)
+    span = _check.span(plan.t_span)
+    found = settings.plan(system, span, **options)
     if found.rows is None:
         return None
     takes_direct = _gateway.takes_direct(core_of(system), found.options)
@@ -70,7 +71,7 @@ def _batch(plan: Plan) -> Batch | None:
     tables = runs.tables(system, 0, 1, direct)      # what has to be compiled is compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     is_family = tables is not None and tables.family is not None
-    if found_columns is None or (is_family and watched is not None):
+    if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
         return None
     return Batch(system, found.options, found.rows, *found_columns, direct,
                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
@@ -158,8 +159,11 @@ def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int
     start = tables.family.start(0, batch.system.nq, batch.system.nv)
     if plan.runs.states or start is None:
         return plan.solution(run)
+    p0, v0, places = start
     recorded = [name for name, (group, _) in batch.columns.items() if group == "outputs"]
-    return simulate(plan.runs.system(run), plan.t_span, *start, **plan.options, outputs=recorded or None)
+    system = plan.runs.system(run)
+    system = system._driven_from(places) if places else system
+    return simulate(system, plan.t_span, p0, v0, **plan.options, outputs=recorded or None)
 
 
 def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int) -> Solution | None:

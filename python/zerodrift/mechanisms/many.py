@@ -14,13 +14,15 @@ from .measuring import read
 from .numbers import Numbers
 from .plane import turned
 from .readings import reading
-from .starting import Starting, size_of
+from .starting import Starting, drives_of, size_of
 from .tables import Tables
 
 
 def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
-    """Whether there is nothing that Python has to do for each: no laws, wishes, nor drives of constant speed."""
-    return drawing.dimension == 2 and not tables.laws.rows and not drawing.wished and not start.has_speeds
+    """Whether there is nothing that Python has to do for each: no laws and no wishes, and nothing moves without mass."""
+    if drawing.dimension != 2 or tables.laws.rows or drawing.wished:
+        return False
+    return all(tables.inertias.is_massive(body) for body in tables.parts) or start.has_mass
 
 
 def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[str, np.ndarray], layout: str, core: MechanismCore,
@@ -29,12 +31,17 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
 
     None where they differ in more than numbers. Those that are wrong (count,) are not assembled.
     """
+    if any(np.isnan(each).any() for each in parameters.values()):       # which decides nothing
+        return None
     count = len(wrong)
     numbers = Numbers({**changed, **{name: Column(np.asarray(each, dtype=float)) for name, each in parameters.items()}})
     try:
         tables = Tables(drawing, numbers, in_tree=layout != "absolute")
         absolute = tables.absolute()
-        if not all(tables.inertias.is_massive(body) for body in tables.parts):
+        if layout == "absolute" and not all(tables.inertias.is_massive(body) for body in tables.parts):
+            return None
+        drives = drives_of(drawing)
+        if starts_are_known and drives:
             return None
         gauges, observed = read(absolute, list(drawing.held))
         held = _held(drawing, {row.name: i for i, row in enumerate(observed)})
@@ -42,10 +49,12 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         moving, drawn = tables.written(*read(tables)), absolute.written(gauges, observed)
     except Varies:
         return None
-    if [row[1:] for row in moving.measures] != [row[1:] for row in core.measures]:
+    has_its_measures = [row[1:] for row in moving.measures] == [row[1:] for row in core.measures]
+    if absolute.relation_names != tables.relation_names or not has_its_measures:
         return None
     poses[wrong] = np.nan
-    return Varied(moving, drawn, count, poses, length, held, starts_are_known)
+    numbers_of_drives = [tables.relation_names.index(motor.name) for motor in drives]
+    return Varied(moving, drawn, count, poses, length, held, numbers_of_drives, starts_are_known)
 
 
 def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:

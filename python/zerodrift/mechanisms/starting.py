@@ -32,7 +32,7 @@ class Starting:
 
     def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
         self.drawing, self.numbers, self._known = drawing, numbers, tables
-        self.has_speeds = any(_is_constant_speed(motor) for motor in drawing.of(Motor))
+        self.has_speeds = bool(drives_of(drawing))
         self._check_held()
 
     def _check_held(self) -> None:
@@ -40,18 +40,32 @@ class Starting:
             for name, value in given.items():
                 checked_reading(what, name, value, self.drawing.elements)
 
+    @property
+    def drives_by_name(self) -> list[str]:
+        """The coordinates that drives of constant speed prescribe."""
+        return [f"{motor.joint.name}.{motor.coordinate}" for motor in drives_of(self.drawing)]
+
     @functools.cached_property
     def drives(self) -> dict[str, float]:
         """Where the coordinates that drives of constant speed prescribe are at t = 0."""
         if not self.has_speeds:
             return {}
         tables = self._tables({})
-        names = [f"{motor.joint.name}.{motor.coordinate}" for motor in self.drawing.of(Motor) if _is_constant_speed(motor)]
+        names = self.drives_by_name
         assembly = self._assembly(tables, 0.0, speeds=names)
         p = self._positions(tables, assembly)
         index = {row.name: i for i, row in enumerate(assembly.core.measures)}
         zero = np.zeros(assembly.core.nv)
         return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
+
+    @functools.cached_property
+    def has_mass(self) -> bool:
+        """Whether nothing moves without mass at t = 0, as it is drawn."""
+        try:
+            self.assembled(0.0)
+        except (CorrectionFailed, InconsistentStart, SingularSystem):
+            return False
+        return True
 
     def assembled(self, t: float) -> tuple[Assembly, np.ndarray]:
         """The assembly at a time, and the positions that it found.
@@ -226,6 +240,11 @@ def size_of(drawing: Drawing, numbers: Numbers) -> float:
     places = [point.drawn_with(numbers) for point in drawing.joined_points()] + [body.pose.origin for body in drawing.parts()]
     size = columns.longest_side(places) if places else 0.0
     return size or 1.0
+
+
+def drives_of(drawing: Drawing) -> list[Motor]:
+    """Those of constant speed."""
+    return [motor for motor in drawing.of(Motor) if _is_constant_speed(motor)]
 
 
 def _is_constant_speed(motor: Motor) -> bool:

@@ -218,6 +218,12 @@ class MechanismSystem(BaseSystem):
         direct = self._direct if self._is_written_out else None
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, direct)
 
+    def _driven_from(self, places: list[float]) -> MechanismSystem:
+        """The same whose drives of constant speed begin there, which is where its start has them but for rounding."""
+        other = self._with({})
+        other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
+        return other
+
     def __reduce__(self) -> tuple[Any, ...]:
         direct = self._direct if self._is_written_out else None
         return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, direct)
