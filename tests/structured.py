@@ -56,8 +56,11 @@ def chain(n, closed=False, masses=None, bend=0.7):
     return Rods(ends - steps / 2, angles, pins, masses)
 
 
-def four_bars(n, angle=1.0, doubled=False):
-    """A row of n parallelograms, 2 n + 1 rods and 3 n + 1 pins; `doubled`: the first pin is there twice."""
+def four_bars(n, angle=1.0, doubled=False, middle=0):
+    """A row of n parallelograms, 2 n + 1 rods and 3 n + 1 pins.
+
+    `doubled`: the first pin is there twice; `middle`: one in so many has a second bar, between the middles of its rods.
+    """
     tip, up = np.array([np.cos(angle), np.sin(angle)]), angle
     centres, angles, pins = [], [], []
     for i in range(n + 1):
@@ -68,6 +71,10 @@ def four_bars(n, angle=1.0, doubled=False):
         if i < n:
             centres, angles = [*centres, np.add(tip, (i + 0.5, 0))], [*angles, 0.0]
             pins.append((2 * i, 2 * i + 1, (0.5, 0.0), (-0.5, 0.0)))
+    for i in range(0, n if middle else 0, max(middle, 1)):
+        centres, angles = [*centres, np.add(tip / 2, (i + 0.5, 0))], [*angles, 0.0]
+        bar = len(angles) - 1
+        pins += [(2 * i, bar, (0.0, 0.0), (-0.5, 0.0)), (2 * i + 2, bar, (0.0, 0.0), (0.5, 0.0))]
     return Rods(centres, angles, [*pins[:1] * doubled, *pins])
 
 

@@ -1,9 +1,13 @@
 /* Redundant rows of a structure with many, at a cost that follows these.
  *
- * In the metric of natural units, pivots of S = C U^2 C^T are the squares of what is left of each row once those eliminated before are taken
- * out: of a row that follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random
- * velocity is projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that
- * follows from them, too, and with probability one no other.
+ * Pivots of S = C U^2 C^T, U diagonal, are the squares of what is left of each row once those eliminated before are taken out: of a row that
+ * follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random velocity is
+ * projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that follows from them,
+ * too, and with probability one no other. Where it does not, a row was taken aside that is independent, and with it those may be missed that
+ * follow from it: all of this is done again with less that counts as little.
+ *
+ * U says how far bodies move that move alike. A length is the same for all of them, and the angle of each is such that its longest arm moves by
+ * as much. With the length of the whole mechanism, as natural units have it, all that angles leave of a row would be small in a long one.
  *
  * A row that follows from others here is redundant if it does so wherever the system goes: then accelerations that the others ask for satisfy
  * it at any velocity, (6), and so at this random one. Else it only does so in this position, a bifurcation.
@@ -19,15 +23,17 @@
 #include "../point/weighted.h"
 
 enum { PROJECTIONS = 6 };
-static const double LITTLE = 0x1p-20;   /* of the square of a row: what is left of one that may follow from others */
+static const double LITTLE[] = {0x1p-20, 0x1p-30, 0x1p-40};     /* of the square of a row: what is left of one that may follow from others */
+static const double SHORT = 0x1p-20;    /* of the mechanism's length: an arm that is as good as none */
 static const double MOVED = 0x1p-28;    /* of what its terms are: a row that the projected velocity satisfies */
 static const double AGREES = 0x1p-20;   /* of the terms of (6), and of the largest: the accelerations satisfy it */
 
 typedef struct search {
     zd_store store;
-    zd_layout whole;        /* with no body taken as several */
+    zd_layout whole;        /* in the end with no body taken as several */
     zd_weighted *weighted;
-    double *U;              /* stored as M is: squares of the natural units */
+    double *unit;           /* (nv,): the diagonal of U, */
+    double *U;              /* and its square, stored as M is */
     double *x, *change;     /* (nv,) */
     double *v0, *v;         /* (nv,): the start's, and one besides */
     unsigned char *aside;   /* (m,) */
@@ -37,6 +43,7 @@ static void *take(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     search self = {
+        .unit = zd_take_doubles(arena, (size_t)system->nv),
         .U = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .x = zd_take_doubles(arena, (size_t)system->nv),
         .change = zd_take_doubles(arena, (size_t)system->nv),
@@ -47,13 +54,51 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void set_metric(const zd_point *point, double *U)
+static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[system->nq + i]; }
+
+/* The longest arm of each block: the entry of an angle over the largest of a length in its row. Returns the shortest of these, 0 for none. */
+static double find_arms(const zd_point *point, double *arm)
+{
+    const zd_system *system = point->system;
+    const zd_layout *layout = point->layout;
+    double shortest = INFINITY, length = 0;
+    for (int b = 0; b < layout->blocks; b++) arm[b] = 0;
+    for (int k = 0; k < zd_constraints(system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        double shift = 0;
+        for (int j = 0; j < row.count; j++)
+            if (is_length(system, row.column[j])) shift = fmax(shift, fabs(row.x[j]));
+        for (int j = 0; j < row.count && shift > 0; j++) {
+            double *of_block = arm + layout->block_of[row.column[j]];
+            if (!is_length(system, row.column[j])) *of_block = fmax(*of_block, fabs(row.x[j]) / shift);
+        }
+    }
+    for (int i = 0; i < system->nv; i++)
+        if (is_length(system, i)) length = point->unit[i];
+    for (int b = 0; b < layout->blocks; b++)
+        if (arm[b] > SHORT * length) shortest = fmin(shortest, arm[b]);
+    return shortest < INFINITY ? shortest : 0;
+}
+
+/* Angles of bodies without arms have the natural unit, and all others a smaller one. */
+static void set_units(search *self, const zd_point *point)
+{
+    const double *arm = self->change, shortest = find_arms(point, self->change);
+    for (int i = 0; i < point->system->nv; i++) {
+        const double own = arm[point->layout->block_of[i]];
+        self->unit[i] = !(shortest > 0) ? point->unit[i] : is_length(point->system, i) ? shortest : own > shortest ? shortest / own : 1;
+    }
+}
+
+static void set_metric(search *self, const zd_point *point)
 {
     const zd_layout *layout = point->layout;
-    zd_set_identity(point->system, U);
+    set_units(self, point);
+    zd_set_identity(point->system, self->U);
     for (int b = 0; b < layout->blocks; b++) {
         const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
-        for (int i = 0; i < n; i++) U[layout->M_at[b] + (layout->is_diagonal[b] ? i : i * (n + 1))] = point->unit[first + i] * point->unit[first + i];
+        double *U = self->U + layout->M_at[b];
+        for (int i = 0; i < n; i++) U[layout->is_diagonal[b] ? i : i * (n + 1)] = self->unit[first + i] * self->unit[first + i];
     }
 }
 
@@ -66,7 +111,7 @@ static void project(search *self, const zd_point *point, const double *rhs)
     zd_weighted_solve(self->weighted, y);
     memset(self->change, 0, (size_t)n * sizeof *self->change);
     zd_weighted_subtract_transposed(self->weighted, point->terms.C, y, self->change);
-    for (int i = 0; i < n; i++) self->x[i] += point->unit[i] * point->unit[i] * self->change[i];
+    for (int i = 0; i < n; i++) self->x[i] += self->unit[i] * self->unit[i] * self->change[i];
 }
 
 /* Whether x satisfies the row, to a share of its terms and of another size. */
@@ -142,33 +187,53 @@ static int note(search *self, zd_point *point)
 }
 
 /* Where it is what welds join that follows from rows, in bodies that are taken as several, these are taken as one. */
-static int set_aside(search *self, const zd_point *point)
+static int set_aside(search *self, const zd_point *point, double little)
 {
-    int of_welds = 1;
-    self->whole = *point->layout;
-    self->whole.most_touchers = INT_MAX;
-    for (int are_whole = 0; are_whole < 2 && of_welds; are_whole++) {
-        self->weighted = zd_weighted_create(&self->store, are_whole ? &self->whole : point->layout);
+    for (;;) {
+        const int is_whole = self->whole.most_touchers == INT_MAX;
+        if (!self->weighted) self->weighted = zd_weighted_create(&self->store, &self->whole);
         if (!self->weighted) return ZD_NO_MEMORY;
-        of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, LITTLE, self->aside);
+        const int of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, little, self->aside);
         if (of_welds < 0) return ZD_NO_MEMORY;
+        if (!of_welds || is_whole) return ZD_DONE;
+        self->whole.most_touchers = INT_MAX;
+        self->weighted = NULL;
     }
-    return ZD_DONE;
+}
+
+static void project_random(search *self, const zd_point *point)
+{
+    unsigned seed = 1;
+    for (int i = 0; i < point->system->nv; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        self->x[i] = self->unit[i] * ((double)(seed >> 8) * 0x1p-23 - 1);
+    }
+    for (int i = 0; i < PROJECTIONS; i++) project(self, point, NULL);
+}
+
+/* Whether the projected velocity satisfies all rows, those that are aside and those that are not. */
+static int satisfies_all(const search *self, const zd_point *point)
+{
+    int does = 1;
+    for (int k = 0; does && k < zd_constraints(point->system); k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        does = is_satisfied(&row, self->x, 0, MOVED, 0);
+    }
+    return does;
 }
 
 static int find(search *self, zd_point *point)
 {
-    unsigned seed = 1;
-    set_metric(point, self->U);
-    int any = 0, status = set_aside(self, point);
-    if (status) return status;
-    for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
-    if (!any) return ZD_DONE;
-    for (int i = 0; i < point->system->nv; i++) {
-        seed = seed * 1664525u + 1013904223u;
-        self->x[i] = point->unit[i] * ((double)(seed >> 8) * 0x1p-23 - 1);
+    set_metric(self, point);
+    self->whole = *point->layout;
+    for (size_t i = 0, is_found = 0; i < sizeof LITTLE / sizeof *LITTLE && !is_found; i++) {
+        int any = 0, status = set_aside(self, point, LITTLE[i]);
+        if (status) return status;
+        for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
+        if (!any) return ZD_DONE;
+        project_random(self, point);
+        is_found = satisfies_all(self, point);
     }
-    for (int i = 0; i < PROJECTIONS; i++) project(self, point, NULL);
     return note(self, point);
 }
 

@@ -109,9 +109,48 @@ def test_redundant_rows_are_found_on_a_body_of_many_joints():
 
 
 @needs_compiler
+@pytest.mark.parametrize("away", [0.0, 3e4])
+@pytest.mark.parametrize(("n", "every"), [(14, 14), (30, 2), (150, 3)])
+def test_redundant_rows_are_told_from_a_bifurcation_in_long_rows_far_away(n, every, away):
+    """Every so many parallelograms have a second bar, one row of x
+    rods = four_bars(n, middle=every)
+    rods.p0[::3] += away
+    rods.pins = [(a, b, np.add(at, (away * (a == -1), 0)), to) for a, b, at, to in rods.pins]
+    sol = zd.simulate(rods.system(), 0.02, **STEP)
+    doubled = (n + every - 1) // every
+    assert len(sol.stats["redundant"]) == doubled
+    assert sol.stats["rank"] == 2 * len(rods.pins) - doubled
+    cranks = sol.p[-1, 2 : 6 * n + 3 : 6]
+    assert cranks[0] < 1
+    assert_close(cranks, np.full(n + 1, cranks[0]), 1e-12 * (1 + away), what="angles of parallel rods")
+
+
+@needs_compiler
+def test_a_long_row_of_parallelograms_moves_as_one_though_its_smallest_pivot_is_small():
+    """Solutions are then compared with (6) now and then, and are as accurate in between: all rods turn as one pendulum."""
+    n = 500
+    sol = zd.simulate(four_bars(n).system(), 0.2, **STEP)
+    assert sol.stats["smallest_pivot"] < 1e-3
+    pull = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
+    angles = np.polynomial.Polynomial(_pendulum(1.0, pull, 24))(sol.t)
+    for rod in (0, 1, n // 2, n):
+        assert_close(sol.p[:, 6 * rod + 2], angles, 1e-10, scale=1.0, what=f"angle of crank {rod}")
+
+
+def _pendulum(angle, pull, terms):
+    """Taylor coefficients of angle'' = -pull cos(angle) from rest, by those of the sine and the cosine."""
+    a, s, c = [angle, 0.0], [np.sin(angle)], [np.cos(angle)]
+    for k in range(terms):
+        a.append(-pull * c[k] / ((k + 1) * (k + 2)))
+        for one, other, sign in ((s, c, 1), (c, s, -1)):
+            one.append(sign * sum((j + 1) * a[j + 1] * other[k - j] for j in range(k + 1)) / (k + 1))
+    return a
+
+
+@needs_compiler
 def test_rows_that_only_follow_from_others_where_a_large_structure_begins_are_not_taken_for_redundant(formulation):
     flat = four_bars(14, angle=0.0)
-    with pytest.raises(zd.Bifurcation, match=r"row \d+ follows from the others\); among so many rows no branch"):
+    with pytest.raises(zd.Bifurcation, match=r"rows .* and 6 others follow from the others\); among so many rows no branch"):
         zd.simulate(flat.system(), 0.01, formulation=formulation, **STEP)
     with pytest.raises(zd.Bifurcation):
         zd.simulate(flat.system(packed=False), 0.01, formulation=formulation, **STEP)

@@ -73,13 +73,12 @@ def _positions(tables: Tables) -> Iterator[Position]:
                 yield _place(tables, point.name, point)
     for point in tables.drawing.of(Point):
         yield _place(tables, point.name, point)
-    joints = transmission.joints_by_body(tables.drawing.elements)
     for i, joint in enumerate(tables.joints):
         if has_coordinate(joint):
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
-        if transmission.has_one(joint, joints):
+        if transmission.has_one(joint, tables.joints_by_body):
             yield Position(f"{joint.name}.transmission_angle", "rad", None, None,
                            lambda joint=joint: (tables.transmission_gauge(joint),))
         if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle

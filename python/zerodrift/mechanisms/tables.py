@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -168,7 +169,12 @@ class Tables:
 
     def transmission_gauge(self, joint: Joint) -> Gauge:
         """What reads the transmission angle at a hinge."""
-        return transmission.gauge(joint, self.drawing.elements, self.numbers, self.number)
+        return transmission.gauge(joint, self.joints_by_body, self.numbers, self.number)
+
+    @cached_property
+    def joints_by_body(self) -> dict[str, list[Joint]]:
+        """The joints of each body, by its name."""
+        return transmission.joints_by_body(self.drawing.elements)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:
         """What reads the length of a spring or an actuator."""

@@ -66,9 +66,9 @@ def has_one(joint: Any, joints: Mapping[str, list[Joint]]) -> bool:
     return True
 
 
-def gauge(joint: Joint, elements: Mapping[str, Any], numbers: Numbers, number: Mapping[str, int]) -> Gauge:
+def gauge(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers, number: Mapping[str, int]) -> Gauge:
     """What reads the angle; between 0 and pi in the drawing, and from there on it is smooth."""
-    first, second = lines(joint, joints_by_body(elements), numbers)
+    first, second = lines(joint, joints, numbers)
     drawn = (second.body.pose.angle if second.body.turns else 0.0) - first.body.pose.angle
     return Gauge("angle", number[first.body.name], number[second.body.name], zero=drawn - _turned(first, second))
 
