@@ -7,6 +7,10 @@
  * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids; and W enlarges the rounding of large reactions
  * that meet in a light body. Both show: in a small pivot of S, and in a row of C to which its bodies contribute unequally. Where either is so,
  * the solution is compared with C vdot = xi and corrected with the same factors until nothing is left of it.
+ *
+ * The smallest pivot of a long chain is small for its length alone, and its solutions are accurate. To compare them takes C, which is not stored
+ * otherwise, and as long as all the rest: so what has many rows, and was found accurate, is compared again after some factorizations, each time
+ * after twice as many, or as soon as the pivot is half of what it was.
  */
 #include "coupling.h"
 
@@ -18,9 +22,13 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { MAX_REFINEMENTS = 40 };
+enum {
+    MAX_REFINEMENTS = 40,
+    LONGEST_WAIT = 251,     /* factorizations until solutions are compared again: a prime, so that each stage of a step has its turn */
+};
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double GOOD = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double CALM = 64 * 0x1p-52;        /* of the terms of C x: so little is left of accurate solutions */
 static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
 
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
@@ -131,7 +139,17 @@ static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
     return ZD_DONE;
 }
 
-static int is_to_be_refined(const zd_coupling *self) { return !self->is_accurate || self->share < GOOD; }
+/* Whether solutions with these factors are compared with what they have to satisfy. */
+static int is_to_be_compared(zd_coupling *self)
+{
+    if (!self->is_accurate || (self->share < GOOD && self->least)) return 1;
+    if (!(self->share < GOOD)) return 0;
+    if (--self->wait > 0 && self->share > self->compared_share / 2) return 0;
+    self->compared_share = self->share;
+    self->pause = self->pause < LONGEST_WAIT / 2 ? 2 * self->pause + 1 : LONGEST_WAIT;
+    self->wait = self->pause;
+    return 1;
+}
 
 int zd_coupling_factor(zd_coupling *self, zd_point *point)
 {
@@ -148,7 +166,8 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
     if (status) return status;
     self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
     self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
-    if (pivots.failed < 0) return is_to_be_refined(self) ? zd_point_need(point, ZD_C) : ZD_DONE;
+    self->is_compared = pivots.failed >= 0 || is_to_be_compared(self);
+    if (pivots.failed < 0) return self->is_compared ? zd_point_need(point, ZD_C) : ZD_DONE;
     point->failed_index = zd_weighted_row(self->weighted, pivots.failed);
     return ZD_DEPENDENT_ROWS;
 }
@@ -233,6 +252,7 @@ static void add_multipliers(zd_coupling *self, double *lambda)
 static void refine(zd_coupling *self, const double *rhs, double *x, double *lambda)
 {
     double before = INFINITY, left = find_rest(self, rhs, x, self->rest);
+    if (left > CALM) self->wait = self->pause = 0;
     for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
         zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->rest, self->step}));
         finish(self, NULL, self->step);
@@ -251,5 +271,5 @@ void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs
     self->begun.x = NULL;
     finish(self, force, x);
     if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
-    if (is_to_be_refined(self)) refine(self, rhs, x, lambda);
+    if (self->is_compared) refine(self, rhs, x, lambda);
 }

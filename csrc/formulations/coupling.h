@@ -15,6 +15,9 @@ typedef struct zd_coupling {
     double share;           /* of its diagonal entry: the smallest pivot where it was factored */
     int smallest;           /* where that is in the order of S */
     int is_accurate;        /* whether neither pivots nor masses there are such that the solution has to be looked at */
+    int is_compared;        /* whether solutions are, as it was factored last */
+    int wait, pause;        /* factorizations until they are again; that were, from the time before to the last */
+    double compared_share;  /* the smallest pivot at the last */
     double *force;          /* (n,): of the constraints, too */
     double *lambda;         /* (m,) */
     double *rest, *step;    /* (m,), (n,): what is left of C x = rhs, and what removes it */

@@ -112,7 +112,7 @@ def test_redundant_rows_are_found_on_a_body_of_many_joints():
 @pytest.mark.parametrize("away", [0.0, 3e4])
 @pytest.mark.parametrize(("n", "every"), [(14, 14), (30, 2), (150, 3)])
 def test_redundant_rows_are_told_from_a_bifurcation_in_long_rows_far_away(n, every, away):
-    """Every so many parallelograms have a second bar, one row of x
+    """Every so many parallelograms have a second bar, a row of which follows; `away` from the origin, in lengths of a rod."""
     rods = four_bars(n, middle=every)
     rods.p0[::3] += away
     rods.pins = [(a, b, np.add(at, (away * (a == -1), 0)), to) for a, b, at, to in rods.pins]
