@@ -1,4 +1,4 @@
-"""Mechanisms of many bodies, from bodies and joints: chains, rows of four-bars, stars, and trees that branch in two."""
+"""Mechanisms of many bodies, from bodies and joints: chains, rows of linkages, stars, trees that branch; some in space."""
 
 import numpy as np
 
@@ -56,4 +56,52 @@ def binary_tree(levels):
                 below.append((link.end, tip))
                 count += 1
         ends = below
+    return m
+
+
+def spatial_chain(n, kind="revolute"):
+    """Links in a row in space, whose hinges, or balls, hang on the ground."""
+    m = zd.Mechanism(f"{kind} chain of {n}", dimension=3, gravity=(0, 0, -9.81))
+    last = m.ground.point((0, 0, 0))
+    for i in range(n):
+        link = m.link(f"link{i}", (i, 0, 0), (i + 1, 0, 0), mass=1.0)
+        if kind == "revolute":
+            m.revolute(f"pin{i}", last, link.start, axis=((0, 1, 0), (0.3, 1, 0.2))[i % 2])
+        else:
+            m.spherical(f"pin{i}", last, link.start)
+        last = link.end
+    return m
+
+
+def chain_of_balls(n):
+    """Links in a row in space that hang on the ground by balls."""
+    return spatial_chain(n, "spherical")
+
+
+def spatial_star(n):
+    """A hub on a ball, with n pendulums at its rim."""
+    m = zd.Mechanism(f"star in space of {n}", dimension=3, gravity=(0, 0, -9.81))
+    hub = m.body("hub", 1.0, (1, 1, 1))
+    m.spherical("ball", m.ground, hub, at=(0, 0, 0))
+    for i in range(n):
+        angle = 2 * np.pi * i / n
+        along, across = np.array([np.cos(angle), np.sin(angle), 0]), (-np.sin(angle), np.cos(angle), 0.1)
+        m.revolute(f"pin{i}", hub, m.link(f"link{i}", along, 2 * along, mass=1.0).start, axis=across)
+    return m
+
+
+def spatial_linkages(n):
+    """A row of n four-bars in space, each on the rocker of the one before: two hinges, a ball, and a cross."""
+    m = zd.Mechanism(f"{n} linkages", dimension=3, gravity=(0, 0, -9.81))
+    base = m.ground
+    for i in range(n):
+        one, other = np.array([0, 3 * i, 0.5]), np.array([2, 3 * i + 0.5, 1.2])
+        crank = m.link(f"crank{i}", (0, 3 * i, 0), one, mass=1.0)
+        rocker = m.link(f"rocker{i}", (2, 3 * i + 0.3, 0), other, mass=1.0)
+        rod = m.link(f"rod{i}", one, other, mass=1.0)
+        m.revolute(f"A{i}", base, crank.start, axis=(0, 1, 0))
+        m.revolute(f"D{i}", base, rocker.start, axis=(0.2, 1, 0))
+        m.spherical(f"B{i}", crank.end, rod.start)
+        m.universal(f"C{i}", rod.end, rocker.end, axes=((0, 0, 1), (0, 1, 0)))
+        base = rocker
     return m

@@ -22,7 +22,7 @@ static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation */
 
 zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
 {
-    if (!system->quaternions) return (zd_increments){.nq = 0};
+    if (!system->quaternions && !system->followers) return (zd_increments){.nq = 0};
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
     return (zd_increments){
         .nq = (int)nq,
@@ -34,13 +34,15 @@ zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v */
+/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v. What follows other coordinates says nothing that these do
+ * not, and is left out. */
 static void weigh(zd_increments *self, const zd_point *point)
 {
-    const int nq = self->nq, nv = self->nv;
+    const int nq = self->nq, nv = self->nv, leading = nq - point->system->followers;
     for (int j = 0; j < nv; j++)
-        for (int i = 0; i < nq; i++)
+        for (int i = 0; i < leading; i++)
             self->inverse[j * nq + i] = point->inverse_unit_p[i] * zd_entry_of_A(point, i, j) * point->unit[j];
+    for (int j = 0; j < nv; j++) memset(self->inverse + j * nq + leading, 0, (size_t)(nq - leading) * sizeof *self->inverse);
     for (int j = 0; j < nv; j++)
         for (int l = 0; l <= j; l++)
             self->gram[j * nv + l] = self->gram[l * nv + j] = zd_dot(nq, self->inverse + j * nq, self->inverse + l * nq);

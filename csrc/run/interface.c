@@ -260,11 +260,12 @@ static int check_quaternions(const zd_system *system, text message)
 
 static int check_followers(const zd_system *system, text message)
 {
-    const int may_be = system->quaternions ? system->nq - 1 : 0;
+    const int may_be = system->nq > 0 ? system->nq - 1 : 0;
     if (system->followers < 0 || system->followers > may_be || (system->followers && !system->follow))
-        return refuse(message, "followers: there are %d, and may be %d, behind unit quaternions, with follow()", system->followers, may_be);
-    if (system->followers && !(system->structure && system->operations && system->operations->times_A))
-        return refuse(message, "followers: no block has them, so that there are a structure and times_A");
+        return refuse(message, "followers: there are %d, and may be %d, behind the others, with follow()", system->followers, may_be);
+    const int has_rates = system->structure ? system->operations && system->operations->times_A : system->provides & ZD_A;
+    if (system->followers && !has_rates)
+        return refuse(message, "followers: their rates are in A, or of a structure, whose blocks do not have them, in times_A");
     return ZD_DONE;
 }
 

@@ -37,7 +37,7 @@ typedef struct zd_turns {
     int count;
     zd_space_gauge *angle;          /* (count,) what reads it */
     zd_vector3 *axis;               /* (count,) in the axes of the gauge's first body */
-    int *joint, *place;             /* (count,) of which joint it is, and which entry of p has it; -1: none */
+    int *joint, *place;             /* (count,) of which joint it is, and which entry of p has it */
 } zd_turns;
 
 struct zd_space {

@@ -59,7 +59,7 @@ void zd_space_free(zd_space *space);
 /* The system; it refers to the mechanism. */
 const zd_system *zd_space_system(const zd_space *space);
 const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
-/* How many angles of joints there are; place (angles,) <- which entry of p each is, -1: none. NULL: not wanted. */
+/* How many angles of joints there are; place (angles,) <- which entry of p each is. NULL: not wanted. */
 int zd_space_angles(const zd_space *space, int *place);
 /* The gauge that reads a coordinate of a joint, which its kind has to have; the joints before it have so many angles. */
 zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);

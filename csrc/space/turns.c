@@ -40,21 +40,9 @@ void zd_turns_plan(zd_turns *self, int joints, const zd_space_joint *joint, int 
     }
 }
 
-/* What a screw that carries nothing has turned by, as its displacement, the second coordinate, says; of other joints nothing is known. */
-static double by_displacement(const zd_space_joint *joint, const zd_pose3 *pose)
-{
-    const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
-    if (!kind->row[kind->rows - 1].advances) return 0;
-    const zd_space_gauge along = zd_space_coordinate_gauge(joint, 1, 0);
-    return zd_space_gauge_read(&along, pose).value / joint->length;
-}
-
 void zd_turns_read(const zd_space *space, const zd_frame3 *frame, const double *p)
 {
-    for (int k = 0; k < space->turns.count; k++) {
-        const int place = space->turns.place[k];
-        frame->angle[k] = place >= 0 ? p[place] : by_displacement(space->joint + space->turns.joint[k], frame->pose);
-    }
+    for (int k = 0; k < space->turns.count; k++) frame->angle[k] = p[space->turns.place[k]];
 }
 
 static zd_vector3 spin_of(const zd_space *space, const zd_frame3 *frame, int body, const double *x)

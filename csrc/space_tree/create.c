@@ -9,12 +9,13 @@
 #include "inward.h"
 #include "motion.h"
 #include "reactions.h"
+#include "turns.h"
 
 typedef struct parts {
     zd_tree3 *tree;
     zd_link3 *link;
     int *order, *lengths, *quaternion;
-    int quaternions;
+    int quaternions, followers;
 } parts;
 
 static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
@@ -24,7 +25,7 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(tree, 1);
     TAKE(link, bodies + 1);
     TAKE(order, bodies);
-    TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies);
+    TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies + ZD_SPACE_COORDINATES * (size_t)tables->joints);
     TAKE(quaternion, bodies);
 #undef TAKE
 }
@@ -142,14 +143,15 @@ static int place_of_angle(const zd_link3 *link, int number)
     return -1;
 }
 
-static void place_angles(zd_space *self, const zd_link3 *link)
+/* Angles of joints that carry nothing follow the coordinates of the tree. */
+static void place_angles(zd_space *self, parts *to)
 {
+    const int end = to->tree->nq;
     for (int k = 0; k < self->turns.count; k++) {
         const zd_planned_joint3 *joint = self->planned + self->turns.joint[k];
-        self->turns.place[k] = joint->carried ? place_of_angle(link + joint->carried, k - joint->angles) : -1;
+        self->turns.place[k] = joint->carried ? place_of_angle(to->link + joint->carried, k - joint->angles) : end + to->followers++;
     }
-    self->system.followers = 0;
-    self->system.follow = NULL;
+    to->tree->nq += to->followers;
 }
 
 /* The mechanism with its system in the coordinates of the tree: matrices are dense. */
@@ -163,7 +165,7 @@ static void carry_bodies(zd_space *self, const parts *from)
     zd_system *system = &self->system;
     system->nq = tree->nq;
     system->nv = tree->nv;
-    if (!from->quaternions) system->provides &= ~ZD_A;
+    if (!from->quaternions && !from->followers) system->provides &= ~ZD_A;
     system->scratch = self->measures.scratch = zd_frame3_size(self);
     system->evaluate = zd_space_tree_evaluate;
     system->lengths = from->lengths;
@@ -171,6 +173,8 @@ static void carry_bodies(zd_space *self, const parts *from)
     system->operations = NULL;
     system->quaternions = from->quaternions;
     system->quaternion = from->quaternion;
+    system->followers = from->followers;
+    system->follow = from->followers ? zd_tree3_follow : NULL;
 }
 
 static zd_space *refuse(zd_space *space, void *memory, const char *why, char *message, int message_size)
@@ -193,8 +197,8 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     take_parts(tables, &arena, &all);
     plan_links(tables, &all);
     if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other", message, message_size);
+    place_angles(self, &all);
     write_lengths(all.tree, all.lengths);
     carry_bodies(self, &all);
-    place_angles(self, all.link);
     return self;
 }

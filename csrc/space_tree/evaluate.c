@@ -8,6 +8,7 @@
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"
+#include "turns.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
@@ -34,6 +35,7 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     if (want & ZD_A) {
         memset(out->A, 0, (size_t)(tree->nq * tree->nv) * sizeof *out->A);
         zd_tree3_write_A(tree, p, out->A);
+        zd_tree3_write_rates(self, &frame, out->A);
     }
     if (want & ZD_M) zd_tree3_mass(self, &frame, out->M);
     if (want & ZD_BIAS) zd_tree3_bias(self, &frame, out->d);

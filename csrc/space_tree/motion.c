@@ -111,6 +111,20 @@ void zd_tree3_place(const zd_space *space, const zd_frame3 *frame, const double 
     }
 }
 
+zd_rotation zd_tree3_attitude(const zd_tree3 *tree, int body, const double *p)
+{
+    const zd_link3 *link = tree->link + body;
+    if (!body || !link->turns) return AS_DRAWN;
+    if (link->is_free) return zd_rotation_of(p + link->p + 3);
+    const zd_rotation inner = zd_tree3_attitude(tree, link->inner, p);
+    zd_axes3 F = turned_axes(&inner, &link->near_axes);
+    for (const zd_step3 *step = link->step; step < link->step + link->steps; step++) {
+        if (step->kind == ZD_SPACE_SWINGS) swing_axes(&F, p + step->p);
+        else if (step->kind != ZD_SPACE_SLIDES) zd_tree3_turn_axes(&F, step->direction, step->sign * p[step->p]);
+    }
+    return rotation_from(&F, &link->far_axes);
+}
+
 /* ---- velocities ---- */
 
 /* A point, and the frame that it is the origin of, on their way from body to body. */

@@ -12,7 +12,9 @@ void zd_tree3_move(const zd_space *space, const zd_frame3 *frame, const double *
 void zd_tree3_accelerate(const zd_space *space, const zd_frame3 *frame, const double *vdot);
 /* A frame after a turn about one of its directions. */
 void zd_tree3_turn_axes(zd_axes3 *F, int direction, double angle);
-/* (1): ones, and of quaternions half of q times (0, omega). A (nq, nv) is zero before. */
+/* How a body is turned. */
+zd_rotation zd_tree3_attitude(const zd_tree3 *tree, int body, const double *p);
+/* (1) but for angles that follow: ones, and of quaternions half of q times (0, omega). A (nq, nv) is zero before. */
 void zd_tree3_write_A(const zd_tree3 *tree, const double *p, double *A);
 
 #endif

@@ -1,6 +1,7 @@
 /* Between poses of bodies and coordinates. */
 #include "motion.h"
 #include "tree.h"
+#include "turns.h"
 
 static const double TURN = 6.283185307179586;
 enum { POSE = 12, TWIST = 6 };      /* doubles */
@@ -142,4 +143,5 @@ void zd_space_tree_state(const zd_space *space, const double *poses, const doubl
         side now = side_of(given_pose(poses, link->inner), given_twist(twists, link->inner), link->near, &link->near_axes);
         for (int i = 0; i < link->steps; i++) read_step(link, i, &outer, &now, p, v);
     }
+    zd_tree3_follow(space, p);
 }

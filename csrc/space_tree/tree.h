@@ -3,7 +3,8 @@
  * A joint leaves its freedoms in the order of its table (../space_joints/joint.h), which are steps here: a frame that begins on the inner body
  * slides, turns or swings its way to the outer one, which is the second body where the joint is taken forwards, and the first where it is taken
  * backwards, by the same coordinates. Coordinates are those of the steps, a distance, an angle or a unit quaternion; velocities are their rates,
- * and of a quaternion the angular velocity of the outer frame against the inner one, in the outer one's axes. Angles count turns. A body that is
+ * and of a quaternion the angular velocity of the outer frame against the inner one, in the outer one's axes. Angles count turns; those of joints that
+ * carry nothing follow the others, and are the last of p. A body that is
  * free has the coordinates and velocities that it has in absolute coordinates.
  */
 #ifndef ZD_SPACE_TREE_H
@@ -15,7 +16,8 @@
 zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int message_size);
 
 /* Poses (bodies, 12), the place of each mass centre and then its axes one after another, and twists (bodies, 6), its velocity and its angular
- * velocity, all in the drawing's axes, from the state and back. What joints of the tree forbid is not looked at. `twists` and `v` may be NULL;
+ * velocity, all in the drawing's axes, from the state and back. Angles come with the turns
+ * that are nearest to none, and of screws to how far they have come. What joints of the tree forbid is not looked at. `twists` and `v` may be NULL;
  * `scratch` holds system->scratch doubles. */
 void zd_space_tree_poses(const zd_space *space, const double *p, const double *v, double *poses, double *twists, double *scratch);
 void zd_space_tree_state(const zd_space *space, const double *poses, const double *twists, double *p, double *v);

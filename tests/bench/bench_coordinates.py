@@ -15,13 +15,15 @@ import numpy as np
 from scipy.optimize import nnls
 
 import zerodrift as zd
-from large_mechanisms import binary_tree, chain, four_bars, star
+from large_mechanisms import binary_tree, chain, chain_of_balls, four_bars, spatial_chain, spatial_linkages, spatial_star, star
 from measuring import RESULTS, least
 from zerodrift.mechanisms import cost
 
 ROUNDS, SECONDS, STEP, FEW = 7, 0.02, 1e-5, 4
 CASES = [(make, n) for make, sizes in ((chain, (1, 3, 6, 10, 16, 24, 32, 48, 80)), (four_bars, (1, 2, 3, 4, 6, 10, 16)),
-                                       (star, (4, 8, 16, 32, 64, 128)), (binary_tree, (3, 4, 5, 6))) for n in sizes]
+                                       (star, (4, 8, 16, 32, 64, 128)), (binary_tree, (3, 4, 5, 6)),
+                                       (spatial_chain, (1, 2, 4, 8, 16, 32)), (chain_of_balls, (1, 2, 4, 8, 16)),
+                                       (spatial_star, (4, 8, 16, 32)), (spatial_linkages, (1, 2, 4, 8))) for n in sizes]
 
 
 def seconds_of(system, steps):
@@ -49,21 +51,24 @@ def fitted(columns, times):
 
 
 def main():
-    rows, parts = [], {"joint": [], "absolute": []}
+    rows, parts = [], {dimension: {"joint": [], "absolute": [], "times": []} for dimension in (2, 3)}
     for make, n in CASES:
         mechanism = make(n)
         tables, times = mechanism.system("joint")._tables, measured(mechanism)
         counted = cost.cost(tables, exact=True)
-        parts["joint"].append(cost.parts_of_joint(tables))
-        parts["absolute"].append(cost.parts_of_absolute(tables))
+        of = parts[mechanism.dimension]
+        of["joint"].append(cost.parts_of_joint(tables))
+        of["absolute"].append(cost.parts_of_absolute(tables))
+        of["times"].append(times)
         taken, faster = counted.cheaper, "joint" if times[0] < times[1] else "absolute"
         lost = max(times[taken == "absolute"] / min(times), 1.0)
         rows.append((make.__name__, n, len(mechanism.bodies), *(f"{1e6 * time:.3g}" for time in times),
                      *(f"{1e6 * cost.seconds(each):.3g}" for each in counted), faster, taken, f"{lost:.2f}"))
         print(*rows[-1], sep="\t", flush=True)
-    times = np.array([[float(row[3]), float(row[4])] for row in rows]) * 1e-6
-    joint, absolute = fitted(parts["joint"], times[:, 0]), fitted(parts["absolute"], times[:, 1])
-    print("an operation:", joint[0], "s; weights in operations:", joint / joint[0], absolute / joint[0])
+    for dimension, of in parts.items():
+        times = np.array(of["times"])
+        joint, absolute = fitted(of["joint"], times[:, 0]), fitted(of["absolute"], times[:, 1])
+        print(f"dimension {dimension}, an operation: {joint[0]:.3g} s; weights in operations:", joint / joint[0], absolute / joint[0])
     header = ("mechanism", "n", "bodies", "joint us", "absolute us", "joint counted us", "absolute counted us", "faster", "taken",
               "time lost")
     (RESULTS / "coordinates.csv").write_text("\n".join(",".join(map(str, row)) for row in (header, *rows)) + "\n")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from large_mechanisms import binary_tree, chain, four_bars, star
+from large_mechanisms import binary_tree, chain, chain_of_balls, four_bars, spatial_chain, spatial_linkages, spatial_star, star
 from mechanisms import known
 from watched import At, throw
 from zerodrift.mechanisms import cost
@@ -30,7 +30,8 @@ def test_what_has_no_structure_has_no_count():
 
 @pytest.mark.parametrize(("m", "bodies", "n", "rows", "depths", "row_depths"), [
     (chain(4), 4, 4, 0, 1 + 2 + 3 + 4, 0), (binary_tree(3), 7, 7, 0, 1 + 2 * 2 + 4 * 3, 0), (star(5), 6, 6, 0, 1 + 5 * 2, 0),
-    (four_bars(1), 3, 3, 2, 1 + 1 + 2, 2 * (2 + 1)), (four_bars(2), 5, 5, 4, 3 * 1 + 2 * 2, 4 * (2 + 1))])
+    (four_bars(1), 3, 3, 2, 1 + 1 + 2, 2 * (2 + 1)), (four_bars(2), 5, 5, 4, 3 * 1 + 2 * 2, 4 * (2 + 1)),
+    (chain_of_balls(2), 2, 6, 0, 1 + 2, 0), (spatial_linkages(1), 3, 4, 3, 1 + 1 + 2, 3 * (1 + 2))])
 def test_parts_of_joint_coordinates(m, bodies, n, rows, depths, row_depths):
     dense = n**3 / 6 + n**2 * rows + n * rows**2 / 2 + rows**3 / 6 + 2 * (n**2 + n * rows + rows**2)
     system = m.system("joint")
@@ -55,7 +56,9 @@ def test_coordinates_along_the_tree_are_those_that_the_core_finds():
 @pytest.mark.parametrize(("m", "layout"), [
     (chain(1), "joint"), (chain(6), "joint"), (known.four_bar(), "joint"), (four_bars(1), "joint"), (star(16), "joint"),
     (zd.models.andrews(), "joint"), (chain(24), "absolute"), (chain(100), "absolute"),
-    (four_bars(10), "absolute"), (star(300), "absolute"), (binary_tree(7), "absolute")],
+    (four_bars(10), "absolute"), (star(300), "absolute"), (binary_tree(7), "absolute"),
+    (spatial_chain(4), "joint"), (spatial_chain(60), "absolute"), (chain_of_balls(6), "absolute"), (spatial_star(12), "joint"),
+    (spatial_linkages(2), "joint")],
     ids=lambda given: getattr(given, "name", given))
 def test_the_ends_are_clear(m, layout):
     assert m.system().layout == layout
@@ -81,6 +84,14 @@ def test_what_absolute_coordinates_cannot_take_stays_in_joint_ones():
     assert cost_of(m).absolute == np.inf
     assert m.system().layout == "joint"
     assert chain(40).system().layout == "absolute"
+
+
+def test_in_space_what_has_no_mass_stays_in_joint_coordinates():
+    m = chain_of_balls(6)
+    m.spherical("end", "link5.end", m.particle("tip", 0.0, at=(6, 0, 0)))
+    assert cost_of(m).absolute == np.inf
+    assert m.system().layout == "joint"
+    assert zd.simulate(m, 1e-3, step=1e-3).system.layout == "joint"
 
 
 def test_written_out_mechanisms_are_in_joint_coordinates():
@@ -113,6 +124,7 @@ def test_long_chains_in_joint_coordinates_say_what_they_cost():
     time = cost.in_words(cost.seconds(found.joint))
     assert repr(chain(300).system("joint")).endswith(
         f"constraints; a step takes about {time}, {found.joint / found.absolute:.3g} times as long as in absolute coordinates>")
+    assert "times as long as in absolute coordinates>" in repr(chain_of_balls(20).system("joint"))
     assert found.ratio > 20
     for system in (chain(20).system("joint"), chain(300).system("absolute"), chain(300).system()):
         assert repr(system).endswith("constraints>")

@@ -11,14 +11,14 @@ FAR = 1e-7      # m: what two steps of two different RK4 end apart, and those di
 
 @pytest.mark.parametrize(("seed", "wanted"), list(zip((1, 2, 3, 5, 6), FORMULATIONS, strict=True)))
 def test_accelerations_and_reactions(seed, wanted):
-    case = Compared(seed)
+    case = Compared(seed, coordinates="absolute")
     assert case.can_be
     assert max(case.accelerations(wanted)) < NEAR
 
 
 @pytest.mark.parametrize("kind", [*ON_GROUND, "blade"])
 def test_rolling_and_gliding(kind):
-    case = Compared(1, kind)
+    case = Compared(1, kind, coordinates="absolute")
     assert case.can_be
     assert max(case.accelerations("nullspace")) < NEAR
 

@@ -1,11 +1,14 @@
-"""Mechanisms in space in joint coordinates: against absolute ones, an independent model of bodies, and a reference."""
+"""Mechanisms in space in joint coordinates: against absolute ones, and an independent model of bodies."""
+
+import functools
 
 import numpy as np
 import pytest
 
 import zerodrift as zd
 from mechanisms.plain_space import ON_GROUND, Compared, Plain
-from support import FORMULATIONS
+from mechanisms.test_in_space import four_bar
+from support import FORMULATIONS, assert_close
 
 NEAR = 1e-6         # of the largest acceleration: the model's differences have some 1e-8
 SAME = 1e-8         # of the largest value of a measure: 20 steps of RK4 in different coordinates, whose errors are 1e-11 or so
@@ -53,3 +56,124 @@ def test_accelerations_and_reactions(seed, wanted):
     case = Compared(seed, coordinates="joint")
     assert case.can_be
     assert max(case.accelerations(wanted)) < NEAR
+
+
+# ---- cuts, roots and names ----
+
+AT, AXIS, NORMAL = (0.3, 0.2, 0.1), (0.0, 0.6, 0.8), (1.0, 0.0, 0.0)
+GIVEN = {"revolute": {"axis": AXIS}, "prismatic": {"axis": AXIS}, "cylindrical": {"axis": AXIS}, "planar": {"normal": AXIS},
+         "screw": {"axis": AXIS, "pitch": 0.2}, "universal": {"axes": (AXIS, NORMAL)}, "spherical": {}}
+OWN = {"revolute": 1, "prismatic": 1, "cylindrical": 2, "planar": 3, "screw": 1, "universal": 2, "spherical": 3}
+
+
+def two_bodies(kind, **options):
+    """A pendulum on a ball, and a body on it by the joint looked at."""
+    m = zd.Mechanism("two", dimension=3, gravity=(0, 1, -9.81))
+    arm, tool = m.body("arm", 1.0, (1, 2, 2), at=(0.5, 0, 0)), m.body("tool", 2.0, (1, 1.5, 2), at=(0.4, 0.3, 0.1))
+    m.spherical("shoulder", m.ground, arm, at=(0, 0, 0))
+    getattr(m, kind)("wrist", tool, arm, at=AT, **GIVEN[kind], **options)
+    m.start({"arm.angular_velocity": (1.0, 0.5, -0.3)})
+    return m
+
+
+@pytest.mark.parametrize("kind", OWN)
+def test_a_joint_is_in_the_tree_or_cut_by_its_user(kind):
+    """Cut, it is rows; and the body that nothing else carries is free, or carries what it is joined to."""
+    tree, cut = two_bodies(kind).system("joint"), two_bodies(kind, cut=True).system("joint")
+    assert (tree.nv, tree.m) == (3 + OWN[kind], 0)
+    assert (cut.nv, cut.m) == (3 + 6, 6 - OWN[kind])
+    found = [zd.simulate(system, 0.02, step=1e-3) for system in (tree, cut)]
+    assert max(off for _, off in differences(two_bodies(kind), found)) < SAME
+
+
+def test_a_free_root_is_the_heaviest_body():
+    m = zd.Mechanism("kite", dimension=3, gravity=(0, 0, -9.81))
+    tail = m.body("tail", 1.0, (1, 1, 1), at=(1, 0, 0))
+    m.revolute("hinge", tail, m.body("kite", 3.0, (1, 2, 3)), at=(0.5, 0, 0), axis=(0, 1, 0))
+    m.particle("bird", 0.2, at=(0, 0, 3))
+    system = m.system("joint")
+    assert [name for name, _ in system.coordinates] == [
+        "hinge.angle", "kite.x", "kite.y", "kite.z", "kite.e0", "kite.e1", "kite.e2", "kite.e3", "bird.x", "bird.y", "bird.z"]
+    assert [name for name, _ in system.velocities] == [
+        "hinge.speed", "kite.x_dot", "kite.y_dot", "kite.z_dot", "kite.x_spin", "kite.y_spin", "kite.z_spin",
+        "bird.x_dot", "bird.y_dot", "bird.z_dot"]
+    assert max(off for _, off in differences(m, compared(m))) < SAME
+
+
+def test_names_of_coordinates_are_those_of_measures():
+    system = two_bodies("planar").system("joint")
+    assert [name for name, _ in system.coordinates] == [
+        "shoulder.e0", "shoulder.e1", "shoulder.e2", "shoulder.e3", "wrist.along normal", "wrist.along third", "wrist.angle"]
+    assert [name for name, _ in system.velocities] == [
+        "shoulder.x_spin", "shoulder.y_spin", "shoulder.z_spin", "wrist.along normal_dot", "wrist.along third_dot", "wrist.speed"]
+    sol = zd.simulate(two_bodies("cylindrical").system("joint"), 0.02, step=1e-3)
+    for i, name in enumerate(("displacement", "angle")):
+        np.testing.assert_allclose(sol[f"wrist.{name}"], sol.p[:, 4 + i], rtol=0, atol=1e-14)
+        np.testing.assert_allclose(sol[f"wrist.{name}_speed"], sol.v[:, 3 + i], rtol=0, atol=1e-14)
+
+
+def test_rows_between_welded_bodies_are_zero_to_the_last_bit():
+    """So what closes a loop of welds is known to follow from nothing, however it is rounded."""
+    m = two_bodies("revolute")
+    m.weld("glue", "tool", m.body("tip", 1.0, (1, 1, 1), at=(1, 1, 1)), at=(1, 1, 0))
+    m.spherical("again", "tip", "tool", at=(0.7, 0.6, 0.3), cut=True)
+    system = m.system("joint")
+    assert not system.evaluate().C.any()
+    assert max(off for _, off in differences(m, compared(m), reactions=False)) < SAME
+
+
+def test_what_is_welded_to_the_ground_does_not_move():
+    m = zd.Mechanism("post", dimension=3)
+    m.weld("foot", m.ground, m.body("post", 1.0, (1, 1, 1)), at=(0, 0, 0))
+    with pytest.raises(zd.ZerodriftError, match="no joint coordinates to move in"):
+        zd.simulate(m.system("joint"), 1.0, step=0.1)
+
+
+def test_a_cut_is_yes_or_no():
+    with pytest.raises(TypeError, match="cut of 'wrist' must be True or False, not 'yes'"):
+        two_bodies("spherical", cut="yes")
+
+
+# ---- angles ----
+
+
+def crank_and_rocker():
+    """Whose crank a torsion spring turns at a joint that closes the loop, so that the spring knows how often it went round."""
+    m = zd.Mechanism("crank and rocker", dimension=3, gravity=(0, 0, -9.81))
+    crank, rocker = m.link("crank", (0, 0, 0), (0, 0, 0.2), 1.0), m.link("rocker", (1, 0.1, 0), (1.1, 0.2, 0.7), 1.0)
+    rod = m.link("rod", (0, 0, 0.2), (1.1, 0.2, 0.7), 0.5)
+    m.revolute("A", m.ground, crank.start, axis=(0, 1, 0.1), cut=True)
+    m.revolute("D", m.ground, rocker.start, axis=(0.2, 1, 0))
+    m.spherical("B", crank.end, rod.start)
+    m.universal("C", rod.end, rocker.end, axes=((0, 0, 1), (0, 1, 0)))
+    m.torsion_spring("spring", "A", stiffness=0.3)
+    m.start({"A.speed": 25.0})
+    return m
+
+
+def four_bar_of_revolutes():
+    """In a plane of space: no coordinate but angles, of which that of the cut follows the others."""
+    m = four_bar(np.eye(3))
+    m.start({"A.speed": 15.0})
+    return m
+
+
+TURNS = {"quaternion": (crank_and_rocker, ("A.angle", "C.angle1")),
+         "angles alone": (four_bar_of_revolutes, ("A.angle", "C.angle"))}
+FINE = {"integrator": "dop853", "step": 5e-3}
+
+
+@functools.cache
+def in_absolute_coordinates(which):
+    return zd.simulate(TURNS[which][0]().system("absolute"), 0.5, **FINE)
+
+
+@pytest.mark.parametrize("which", TURNS)
+def test_angles_of_cuts_count_turns(which, formulation):
+    make, angles = TURNS[which]
+    other = in_absolute_coordinates(which)
+    sol = zd.simulate(make().system("joint"), 0.5, formulation=formulation, **FINE)
+    assert (sol.system.m, sol.system.nq - sol.system.nv) == (5, 1 + (make is crank_and_rocker))
+    assert np.abs(other["A.angle"]).max() > 2 * np.pi
+    for name in angles:
+        assert_close(sol[name], other[name], 1e-7)

@@ -206,10 +206,10 @@ def in_structure(**changed):
     (quaternions(1, 4) | {"nq": 8, "structure": {"coordinates": [2, 2, 4]}},
      r"quaternion 1 begins at p\[4\]; .*behind those of the one before"),
     (quaternions(1) | {"lengths": listed("int", *[0] * 4, 1, *[0] * 7)}, r"p\[4\] is in quaternion 0, and said to be a length"),
-    ({"followers": 1}, "followers: there are 1, and may be 0, behind unit quaternions"),
+    ({"followers": 1}, r"followers: there are 1, and may be \d+, behind the others, with follow\(\)"),
     (quaternions(1) | {"nq": 7, "followers": 1}, r"followers: there are 1, and may be 6, .*with follow\(\)"),
     (quaternions(1) | {"nq": 7, "followers": 1, "follow": lambda made: made.function("zd_system", "follow")},
-     "followers: no block has them, so that there are a structure and times_A"),
+     "followers: their rates are in A, or of a structure, whose blocks do not have them, in times_A"),
 ], ids=lambda value: value if isinstance(value, str) else "")
 def test_what_is_malformed_is_refused(changed, sentence):
     refusal = Made(**changed).refusal

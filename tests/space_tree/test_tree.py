@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from space_tables import KINDS, random_frame, unit
 from support import assert_close
+from zerodrift._gateway.base import doubles
 from zerodrift._gateway.mechanisms import Effort, Relation
 from zerodrift._gateway.space import Body, Gauge, Joint, SpaceCore, Tables
 from zerodrift._gateway.space_tree import SpaceTreeCore
@@ -75,7 +76,7 @@ class Both:
         return np.eye(self.tree.nv) if A is None else A
 
     def absolute(self, p, v):
-        return self.free.state(*self.tree.poses(p, v))
+        return self.free.state(*self.tree.poses(p, v), self.tree.angles(p))
 
     def D(self, p):
         """What velocities (nv,) of the tree are in absolute coordinates."""
@@ -120,7 +121,7 @@ class TestTree:
         before, after = (both.tree.poses(both.p + sign * H * both.pdot)[0] for sign in (-1, 1))
         assert_close((after - before)[:, :3] / (2 * H), rates[:, :3], NEAR, scale=1.0)
         assert_close(turn_between(before[:, 3:], after[:, 3:]) / (2 * H), rates[:, 3:], NEAR, scale=1.0)
-        p, v = both.tree.state(poses, rates)
+        p, v = both.tree.state(poses, rates, both.tree.angles(both.p))
         again = both.tree.poses(p)[0]
         assert_close(again[:, :3], poses[:, :3], EXACT, scale=1.0)
         assert_close(rotation_of(again[:, 3:]), rotation_of(poses[:, 3:]), EXACT)
@@ -132,6 +133,21 @@ def test_a_screw_counts_turns():
     tree = SpaceTreeCore(Tables([body(rng, 0)], [joint(rng, "screw", 0, 1)]))
     p = np.array([25.0])
     assert_close(tree.state(tree.poses(p)[0])[0], p, EXACT)
+
+
+def test_angles_count_turns():
+    """Those of the tree are coordinates; that of a joint that closes a loop follows the others, by its rate and by what it is."""
+    rng = np.random.default_rng(3)
+    joints = [joint(rng, "cylindrical", 0, 1), joint(rng, "universal", 2, 1), joint(rng, "revolute", 0, 2)]
+    both = Both(Tables([body(rng, 0), body(rng, 1)], joints), 4)
+    assert (both.tree.nq, both.tree.nv, both.tree.c.followers) == (5, 4, 1)
+    p = np.array([0.1, 9.0, -15.0, 20.0, 31.0])
+    both.tree.c.follow(both.tree.c.data, doubles(p, 5, writable=True))
+    assert_close(both.tree.angles(p), p[1:], 0.0)
+    assert abs(p[4] - 31.0) < np.pi
+    assert_close(both.tree.state(both.tree.poses(p)[0], None, both.tree.angles(p))[0], p, EXACT)
+    again = both.free.angles(both.absolute(p, both.v)[0])
+    assert_close(again, p[1:], EXACT)
 
 
 @pytest.mark.parametrize(("tables", "message"), [

@@ -2,8 +2,9 @@
 
     OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/spatial_mechanisms.py [how many [how many processes]]
 
-Trees of up to four bodies and joints of all kinds, with up to three loops; on every second of them the last body rolls on the
-ground, as a ball, a disc or an egg, or glides on a blade. Reactions have to balance each body, whichever of them are determined.
+Trees of up to four bodies and joints of all kinds, with up to three loops, in absolute and in joint coordinates; on every
+second of them the last body rolls on the ground, as a ball, a disc or an egg, or glides on a blade. Reactions have to balance
+each body, whichever of them are determined.
 A run that stops with an error is not wrong in silence, and is counted by its error.
 """
 
@@ -18,6 +19,7 @@ from mechanisms.plain_space import ON_GROUND, Compared
 
 TABLE = Path(__file__).with_suffix(".md")
 FORMULATIONS = ("nullspace", "schur", "augmented", "mixed", "independent")
+COORDINATES = ("absolute", "joint")
 GROUND = (None, "ball", None, "disc", None, "egg", None, "blade")
 NEAR = 1e-5     # of the largest acceleration: of the model's differences
 FAR = 1e-6      # m: two steps of two different RK4, and those differences
@@ -27,9 +29,10 @@ EVERY = 10      # motions are looked at of one in so many, as the model's take a
 def outcome(seed):
     """How one mechanism ends: a word, and how far it is off or a sentence."""
     formulation, on_ground = FORMULATIONS[seed % len(FORMULATIONS)], GROUND[seed // len(FORMULATIONS) % len(GROUND)]
-    kind = f"{formulation}, {'rolling' if on_ground in ON_GROUND else on_ground or 'holonomic'}"
+    coordinates = COORDINATES[seed // (len(FORMULATIONS) * len(GROUND)) % 2]
+    kind = f"{coordinates}, {formulation}, {'rolling' if on_ground in ON_GROUND else on_ground or 'holonomic'}"
     try:
-        case = Compared(seed, on_ground, loops=3)
+        case = Compared(seed, on_ground, loops=3, coordinates=coordinates)
         if not case.can_be:
             return "not compared: nothing is free, or rows nearly depend on each other", "", 0.0
         off = max(case.accelerations(formulation))

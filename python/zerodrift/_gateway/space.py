@@ -163,7 +163,7 @@ class SpaceCore(CoreSystem):
         self._turning = np.array([not body.is_particle for body in tables.bodies])
         places = np.zeros(lib.zd_space_angles(self._mechanism, ffi.NULL), dtype=np.int32)
         lib.zd_space_angles(self._mechanism, ffi.from_buffer("int[]", places, require_writable=True))
-        self._angle_at = places         # in p; -1: none
+        self._angle_at = places         # in p
 
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
@@ -228,8 +228,8 @@ class SpaceCore(CoreSystem):
         return self.state(start, rates)[1]
 
     def angles(self, p: np.ndarray) -> np.ndarray:
-        """The angles of joints, (k,) in rad with their turns; 0 where one is no coordinate."""
-        return np.where(self._angle_at >= 0, np.asarray(p)[self._angle_at], 0.0)
+        """The angles of joints, (k,) in rad with their turns."""
+        return np.asarray(p)[self._angle_at]
 
     def state(self, poses: np.ndarray, rates: np.ndarray | None = None,
               angles: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:

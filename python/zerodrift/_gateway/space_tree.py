@@ -45,6 +45,5 @@ class SpaceTreeCore(SpaceCore):
         lib.zd_space_tree_state(self._mechanism, doubles(told, told.size), given(twists, len(told) * TWIST),
                                 doubles(p, p.size, writable=True), doubles(v, v.size, writable=True))
         if angles is not None:
-            places = self._angle_at[self._angle_at >= 0]
-            p[places] += 2 * np.pi * np.round((angles[self._angle_at >= 0] - p[places]) / (2 * np.pi))
+            p[self._angle_at] += 2 * np.pi * np.round((angles - p[self._angle_at]) / (2 * np.pi))
         return p, v

@@ -119,7 +119,7 @@ class CoreSystem(Measuring):
                              "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
         arrays = self.evaluate_stored(t, p, v)
         packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}
-        if self.c.followers and "A" in packed:
+        if self.packing and self.c.followers and "A" in packed:
             packed["A"] = np.vstack([packed["A"], self.follower_rows(t, p, v)])
         return arrays | packed
 

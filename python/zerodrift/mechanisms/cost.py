@@ -11,7 +11,8 @@ D is the sum of the bodies' depths in the tree, and R that of the depths of both
 are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in
 the order in which a run eliminates; all else that a step does for each body and joint grows with them. Weights are those that
 tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies; but a is larger, as
-mechanisms of unequal bodies that share loops take more in absolute coordinates, Andrews' three times what is counted.
+mechanisms of unequal bodies that share loops take more in absolute coordinates, Andrews' three times what is counted. In space
+they are those of chains of hinges and of balls, stars, trees and rows of linkages of 1 to 33 bodies.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ import numpy as np
 from .tables import Tables
 
 FACTORIZATIONS = 5
-JOINT = 1.0, 700.0, 40.0, 650.0     # 1, b, d, r
-ABSOLUTE = 16000.0, 2.5             # a, s
+JOINT = {2: (1.0, 700.0, 40.0, 650.0), 3: (1.0, 3000.0, 100.0, 500.0)}      # 1, b, d, r; in the plane, and in space
+ABSOLUTE = {2: (16000.0, 2.5), 3: (4000.0, 1.0)}                            # a, s
 NANOSECONDS = 0.38      # of an operation, there
 DEARER = 3.0            # so many times the operations are worth a sentence, and
 WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
@@ -57,13 +58,14 @@ class Cost(NamedTuple):
 
 def cost(tables: Tables, exact: bool = False) -> Cost:
     """Of a mechanism whose tables have a tree; `exact`: S is counted, too, where joint coordinates cost less whatever it is."""
-    joint = float(np.dot(JOINT, parts_of_joint(tables)))
+    dimension = tables.drawing.dimension
+    joint, least = float(np.dot(JOINT[dimension], parts_of_joint(tables))), ABSOLUTE[dimension][0]
     if not _has_mass(tables):
         return Cost(joint, np.inf)
-    if joint <= ABSOLUTE[0] and not exact:
-        return Cost(joint, ABSOLUTE[0])
+    if joint <= least and not exact:
+        return Cost(joint, least)
     parts = parts_of_absolute(tables)
-    return Cost(joint, float(np.dot(ABSOLUTE, parts)) if parts[-1] else np.inf)
+    return Cost(joint, float(np.dot(ABSOLUTE[dimension], parts)) if parts[-1] else np.inf)
 
 
 def parts_of_absolute(tables: Tables) -> tuple[float, ...]:
@@ -104,8 +106,7 @@ def _depths(tables: Tables) -> list[int]:
 
 def _has_mass(tables: Tables) -> bool:
     """Whether every body has, which absolute coordinates need."""
-    known = ((body, *tables.inertias.of[body.name]) for body in tables.parts)
-    return all(mass > 0 and (inertia > 0 or not body.turns) for body, mass, inertia, _ in known)
+    return all(tables.inertias.is_massive(body) for body in tables.parts)
 
 
 def seconds(operations: float) -> float:

@@ -8,7 +8,7 @@ from .. import _check
 from .bodies import Body, Particle, Point
 from .joint_verbs import verb
 from .joints import BY_ROW, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
-from .making_space_joints import SpaceJointVerbs
+from .making_space_joints import SpaceJointVerbs, checked_cut
 
 Side = Body | Point | str
 
@@ -60,14 +60,13 @@ class JointVerbs(SpaceJointVerbs):
         """
         axis = self._one_axis(name, axis)
         if axis is not None:
-            _flag(name, cut)
-            return self._join("revolute", name, first, second, at, axis, damping=damping)
+            return self._join("revolute", name, first, second, at, axis, damping=damping, cut=cut)
         name = self._new_name(name, "joint")
         sides = self._sides(name, first, second, at)
         damping = _check.number(f"damping of {name!r}", damping, least=0)
         if damping:
             self._turning(name, "damping of", *(side.body for side in sides))
-        return self._add(Revolute(name, *sides, damping=damping, cut=_flag(name, cut)))
+        return self._add(Revolute(name, *sides, damping=damping, cut=checked_cut(name, cut)))
 
     def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
                   cut: bool = False) -> Any:
@@ -105,9 +104,8 @@ class JointVerbs(SpaceJointVerbs):
         Measure('rail.displacement')
         """
         if self.dimension == 3:
-            _flag(name, cut)
             return self._join("prismatic", name, first, second, self._at_origin(at, first, second),
-                              self._direction(f"axis of {name!r}", axis), damping=damping)
+                              self._direction(f"axis of {name!r}", axis), damping=damping, cut=cut)
         name = self._new_name(name, "joint")
         axis = self._direction(f"axis of {name!r}", axis)
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
@@ -115,7 +113,7 @@ class JointVerbs(SpaceJointVerbs):
             at = second.pose.origin
         sides = self._sides(name, first, second, at)
         self._turning(name, "prismatic", *(side.body for side in sides))
-        return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=_flag(name, cut),
+        return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=checked_cut(name, cut),
                                    damping=_check.number(f"damping of {name!r}", damping, least=0)))
 
     def weld(self, name: str, first: Side, second: Side, *, at: Any = None) -> Any:
@@ -335,8 +333,3 @@ class JointVerbs(SpaceJointVerbs):
 for _kind, _joint in BY_ROW.items():
     setattr(JointVerbs, _kind, verb(_joint))
 
-
-def _flag(name: str, value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise TypeError(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
-    return value

@@ -21,7 +21,7 @@ TOUCHING = 0.01         # of the height of the centre: a drawing that is less of
 class SpaceJointVerbs(Elements):
     """Joints that there are in space alone. Their axes are directions in the drawing."""
 
-    def spherical(self, name: str, first: Side, second: Side, *, at: Any = None) -> SpaceJoint:
+    def spherical(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> SpaceJoint:
         """Join two bodies by a ball.
 
         Parameters
@@ -31,6 +31,8 @@ class SpaceJointVerbs(Elements):
             As of `revolute`; one of them may be a particle.
         at : array_like (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            As of `revolute`.
 
         Returns
         -------
@@ -50,9 +52,10 @@ class SpaceJointVerbs(Elements):
         VectorMeasure3('A.force')
         """
         self._in_space("spherical", "revolute")
-        return self._join("spherical", name, first, second, at)
+        return self._join("spherical", name, first, second, at, cut=cut)
 
-    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[Any, Any], at: Any = None) -> SpaceJoint:
+    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[Any, Any], at: Any = None,
+                  cut: bool = False) -> SpaceJoint:
         """Join two bodies by a cross, as Hooke's or Cardan's joint does.
 
         Parameters
@@ -64,6 +67,8 @@ class SpaceJointVerbs(Elements):
             The arm of the cross that belongs to the first body, and that which belongs to the second: perpendicular.
         at : array_like (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            As of `revolute`.
 
         Returns
         -------
@@ -93,9 +98,9 @@ class SpaceJointVerbs(Elements):
         if abs(cosine) > RIGHT_ANGLE:
             raise ValueError(f"axes of {name!r} must be perpendicular in the drawing, and are "
                              f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
-        return self._join("universal", name, first, second, at, first_axis, second_axis)
+        return self._join("universal", name, first, second, at, first_axis, second_axis, cut=cut)
 
-    def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None) -> SpaceJoint:
+    def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
         """Join two bodies by an axis about which and along which one moves on the other.
 
         Parameters
@@ -107,6 +112,8 @@ class SpaceJointVerbs(Elements):
             Its direction in the drawing.
         at : array_like (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            As of `revolute`.
 
         Returns
         -------
@@ -128,9 +135,10 @@ class SpaceJointVerbs(Elements):
         """
         self._in_space("cylindrical", "prismatic")
         return self._join("cylindrical", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"axis of {name!r}", axis))
+                          self._direction(f"axis of {name!r}", axis), cut=cut)
 
-    def screw(self, name: str, first: Side, second: Side, *, axis: Any, pitch: float, at: Any = None) -> SpaceJoint:
+    def screw(self, name: str, first: Side, second: Side, *, axis: Any, pitch: float, at: Any = None,
+              cut: bool = False) -> SpaceJoint:
         """Join two bodies by a screw.
 
         Parameters
@@ -144,6 +152,8 @@ class SpaceJointVerbs(Elements):
             How far the second body advances along the axis for each turn about it, in m; positive of a right-handed screw.
         at : array_like (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            As of `revolute`.
 
         Returns
         -------
@@ -168,9 +178,9 @@ class SpaceJointVerbs(Elements):
         if not pitch:
             raise ValueError(f"pitch of {name!r} must not be 0: take revolute")
         return self._join("screw", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"axis of {name!r}", axis), length=pitch)
+                          self._direction(f"axis of {name!r}", axis), length=pitch, cut=cut)
 
-    def planar(self, name: str, first: Side, second: Side, *, normal: Any, at: Any = None) -> SpaceJoint:
+    def planar(self, name: str, first: Side, second: Side, *, normal: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
         """Let one body slide on a plane of another, and turn about its normal.
 
         Parameters
@@ -182,6 +192,8 @@ class SpaceJointVerbs(Elements):
             Of the plane, in the drawing.
         at : array_like (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            As of `revolute`.
 
         Returns
         -------
@@ -203,7 +215,7 @@ class SpaceJointVerbs(Elements):
         """
         self._in_space("planar", "a free body")
         return self._join("planar", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"normal of {name!r}", normal))
+                          self._direction(f"normal of {name!r}", normal), cut=cut)
 
     # ---- rolling and gliding ----
 
@@ -290,13 +302,14 @@ class SpaceJointVerbs(Elements):
         return at
 
     def _join(self, kind: str, name: str, first: Side, second: Side, at: Any, axis: Any = None, normal: Any = None, *,
-              length: float | None = None, damping: Any = 0.0) -> SpaceJoint:
+              length: float | None = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
         """A joint of space between two sides, with the frame that its axis and normal in the drawing make."""
         name = self._new_name(name, "joint")
-        return self._fasten(kind, name, *self._sides(name, first, second, at), axis, normal, length=length, damping=damping)
+        return self._fasten(kind, name, *self._sides(name, first, second, at), axis, normal, length=length, damping=damping,
+                            cut=cut)
 
     def _fasten(self, kind: str, name: str, first: Point, second: Point, axis: Any = None, normal: Any = None, *,
-                length: float | None = None, damping: Any = 0.0) -> SpaceJoint:
+                length: float | None = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
         """The same between two points."""
         joint = BY_KIND[kind]
         if has_torque(joint.row):
@@ -306,7 +319,7 @@ class SpaceJointVerbs(Elements):
         frame = np.eye(3) if axis is None else _frame(axis, normal)
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
         damping = _check.number(f"damping of {name!r}", damping, least=0)
-        made = joint(name, first, second, frames=frames, length=length, damping=damping)
+        made = joint(name, first, second, frames=frames, length=length, damping=damping, cut=checked_cut(name, cut))
         if kind == "rod":
             _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
         return self._add(made)
@@ -316,3 +329,10 @@ def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
     """The rows axis, normal and third direction (3, 3), right-handed."""
     normal = perpendicular(axis, normal)
     return np.stack([axis, normal, np.cross(axis, normal)])
+
+
+def checked_cut(name: str, value: Any) -> bool:
+    """Whether a joint shall close a loop."""
+    if not isinstance(value, bool):
+        raise TypeError(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
+    return value

@@ -92,7 +92,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
             body has no mass, and for `compiled`. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
             In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
-            and quaternion; angles count turns. "absolute" are seven coordinates and six velocities a body; None takes these.
+            and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
+            velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
+            from some twenty on.
         compiled : bool
             Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that

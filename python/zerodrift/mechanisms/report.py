@@ -12,7 +12,7 @@ from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpri
 from .joints import Joint
 from .made_forces import MadeForce
 from .numbers import AS_GIVEN
-from .tables import Tables
+from .tabulated import tables_of
 
 MOST_NAMED = 40         # of rows or loops
 
@@ -49,19 +49,14 @@ def report(drawing: Drawing) -> str:
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
-    if drawing.dimension == 3:
-        return "\n".join(lines)
-    found = cost.cost(Tables(drawing, AS_GIVEN, in_tree=True), exact=True)
+    found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
     lines.append(f" a simulation takes {found.cheaper} coordinates: {found.in_words}")
     return "\n".join(lines)
 
 
 def _freedom(drawing: Drawing, counted: Count) -> str:
     """Freedom and coordinates of both kinds."""
-    if drawing.dimension == 3:
-        return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); {counted.velocities} velocities, "
-                f"{_several(counted.rows, 'row')}")
-    tables = Tables(drawing, AS_GIVEN, in_tree=True)
+    tables = tables_of(drawing, AS_GIVEN, in_tree=True)
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}
     cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]

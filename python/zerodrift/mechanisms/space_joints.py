@@ -30,6 +30,8 @@ class SpaceJoint(Joint):
         The rows are the joint's axis, a normal of it and the third direction, in the frame of the first body and of the second.
     damping : float
         Of its coordinate, in N m s or N s/m.
+    cut : bool
+        Whether it shall close a loop, and own no coordinate.
     """
 
     row: ClassVar[JointKind]    # type: ignore[assignment]
@@ -52,8 +54,8 @@ class SpaceJoint(Joint):
                 setattr(cls, name, vector(name, doc))
 
     def __init__(self, name: str, first: Point, second: Point, *, frames: tuple[np.ndarray, np.ndarray],
-                 length: float | None = None, damping: float = 0.0) -> None:
-        super().__init__(name, first, second, length=length, damping=damping)
+                 length: float | None = None, damping: float = 0.0, cut: bool = False) -> None:
+        super().__init__(name, first, second, length=length, damping=damping, cut=cut)
         self.frames = frames
 
     def length_with(self, numbers: Numbers) -> float:

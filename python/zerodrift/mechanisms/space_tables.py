@@ -70,12 +70,12 @@ class SpaceTables(Tables):
 
     def coordinates(self) -> tuple[Variable, ...]:
         """The entries of p: of free bodies the places of mass centres, and the quaternions that turn principal axes into the
-        drawing's; of others the coordinates of their joints. Where all are free, the angles of joints follow, which count turns.
+        drawing's; of others the coordinates of their joints; and angles of joints that carry no body, which follow and count
+        turns.
         """
-        bodies = tuple(each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
-        if max(self.carrier, default=-1) >= 0:
-            return bodies
-        return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in self.joints for angle in joint.angles))
+        bodies = (each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
+        others = (joint for i, joint in enumerate(self.joints) if i not in self.carrier)
+        return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in others for angle in joint.angles))
 
     def velocities(self) -> tuple[Variable, ...]:
         """The entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
@@ -141,34 +141,11 @@ class SpaceTables(Tables):
 
     # ---- drives and couplings ----
 
-    def _inputs(self, names: Sequence[str], first: Sequence[int] = ()) -> tuple[list[int], list[tuple[int, bool]]]:
-        gauges, picks = super()._inputs(names, first)
-        for name, (pick, is_rate) in zip(names, picks, strict=True):
-            if not is_rate:
-                self._check_turns(name, gauges[pick])
-        return gauges, picks
-
-    def _relation(self, name: str, relation: rows.Relation) -> None:
-        for gauge in () if relation.nonholonomic else relation.gauges:
-            self._check_turns(name, gauge)
-        super()._relation(name, relation)
-
-    def _check_turns(self, name: str, gauge: int) -> None:
-        """Refuses what depends on an angle whose turns nobody counts."""
-        counted = self.gauges[gauge].counted
-        if max(self.carrier, default=-1) < 0 or not counted:
-            return
-        joint = [joint for joint in self.joints for _ in joint.angles][counted - 1]
-        if self.joint_number[joint.name] not in self.carrier and joint.kind != "screw":
-            raise ValueError(f"{name!r} depends on the angle of {joint.name!r}, a joint that closes a loop, which counts no "
-                             "turns in joint coordinates: take system('absolute')")
-
     # ---- forces ----
 
     def _torsion_spring(self, spring: TorsionSpring) -> None:
         gauge = self.coordinate_gauge_of(spring.joint, "angle")
         self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
-        self._check_turns(spring.name, self.gauge_number[spring.name])
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)

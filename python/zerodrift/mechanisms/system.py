@@ -63,7 +63,6 @@ class MechanismSystem(BaseSystem):
                  direct: tuple[str, DirectFunctions] | None = None) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
-        layout = layout or ("absolute" if drawing.dimension == 3 else None)
         self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
         self.layout = layout or ("joint" if compiled else cost.cost(self._tables).cheaper)
         if self.layout == "absolute":

@@ -164,7 +164,8 @@ def _consistency(state: _State) -> Iterator[tuple[str, str]]:
     C, xi = state.terms.C, state.terms.xi
     if C is None:
         return
-    length = np.maximum(np.linalg.norm(C, axis=1), 1e-300)
+    length = np.linalg.norm(C, axis=1)
+    length = np.maximum(length, max(NEGLIGIBLE * length.max(), 1e-300))     # what is left of a row that vanishes is rounding
     C, xi = C / length[:, None], xi / length
     vdot = np.linalg.lstsq(C, xi, rcond=NEGLIGIBLE)[0]
     left = np.abs(C @ vdot - xi).max()

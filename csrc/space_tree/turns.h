@@ -1,0 +1,12 @@
+/* Angles of joints, which count turns: of joints in the tree they are coordinates of their own, and of the others they follow the rest of p. */
+#ifndef ZD_SPACE_TREE_TURNS_H
+#define ZD_SPACE_TREE_TURNS_H
+
+#include "links.h"
+
+/* The rows of A (nq, nv) of the angles that follow, where bodies are placed; they are zero before. */
+void zd_tree3_write_rates(const zd_space *space, const zd_frame3 *frame, double *A);
+/* Brings these angles in p to what the rest of it says, with the turns that they have. */
+void zd_tree3_follow(const void *data, double *p);
+
+#endif
