@@ -222,7 +222,7 @@ WRONG = {
     "version with other keys": (lambda d: d.update(version=2, wheels=[]), r"m\.json is a mechanism of version 2, and version 1"),
     "version that is no number": (lambda d: d.update(version=True), r"m\.json is a mechanism of version True, and version 1 is"),
     "no version": (lambda d: d.pop("version"), r"m\.json lacks the key 'version'"),
-    "dimension": (lambda d: d.update(dimension=3), r"m\.json: dimension must be 2, not 3"),
+    "dimension": (lambda d: d.update(dimension=4), r"m\.json: dimension must be 2, the plane, or 3, space, not 4"),
     "kind": (lambda d: d["elements"][1].update(kind="hinge"), r"element 1 is of kind 'hinge', which is not known; there are"),
     "element's key": (lambda d: d["elements"][0].update(colour=1),
                       r"element 0 \(link 'link'\) has the key 'colour', which is not known; there are kind, name, start"),

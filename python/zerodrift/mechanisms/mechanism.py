@@ -253,7 +253,6 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         ...     zd.load(m.save(folder + "/pendulum")).bodies
         (<link link>,)
         """
-        self._in_the_plane("save()")
         path = Path(path)
         path = path if path.suffix == ".json" else path.with_name(path.name + ".json")
         path.write_text(text(described(self._drawing())), encoding="utf-8")

@@ -10,16 +10,15 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .bodies import Point
 from .describing import VERSION, WHAT
 from .expressions import from_json
 from .force_verbs import NEEDED, taken
 from .joints import BY_ROW, Joint
 from .made_forces import FORCES_BY_ROW, MadeForce
 from .mechanism import Mechanism
+from .reading_json import law_and_of, point_of_body, told_direction, told_place
+from .rebuilding_space import IN_SPACE, keep_rotations
 from .system import LAYOUTS, MechanismSystem
-
-UNIT = 1e-9         # how near the length of a direction is to one
 
 
 def parsed(text: str, where: str) -> dict[str, Any] | None:
@@ -62,23 +61,23 @@ def system(description: dict[str, Any], where: str) -> MechanismSystem:
 
 def _parts(where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any, gravity: Any, parameters: Any,
            elements: Any, start: Any, wish: Any) -> Mechanism:
-    if dimension != 2:
-        raise ValueError(f"{where}: dimension must be 2, not {dimension!r}: mechanisms in space cannot be saved yet")
     m = _at(where, Mechanism, name, dimension=dimension, gravity=gravity, parameters=parameters)
     for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
         _element(m, element, f"{where}, element {i}")
     _at(f"{where}, start", m.start, start, wish=wish)
+    keep_rotations(m, start, wish)
     return m
 
 
 def _element(m: Mechanism, description: Any, where: str) -> None:
     _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
     kind, name = description.get("kind"), description.get("name")
-    if kind not in MADE:
-        raise ValueError(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(MADE)}")
+    made = MADE | IN_SPACE if m.dimension == 3 else MADE
+    if kind not in made:
+        raise ValueError(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}")
     where = f"{where} ({kind} {name!r})"
-    given = _fields(MADE[kind], description, where, skip=("kind", "name"))
-    _at(where, MADE[kind], m, name, **given)
+    given = _fields(made[kind], description, where, skip=("kind", "name"))
+    _at(where, made[kind], m, name, **given)
 
 
 def _fields(function: Callable[..., Any], description: Any, where: str, skip: tuple[str, ...]) -> dict[str, Any]:
@@ -104,35 +103,6 @@ def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> 
         raise ValueError(f"{where}: {error}") from error
 
 
-# ---- parts of elements ----
-
-
-def _place(m: Mechanism, given: Any) -> Any:
-    """A point by its name, or by its body and where it is in that body's frame."""
-    if isinstance(given, str):
-        return m._named("a point", given)
-    if not isinstance(given, Mapping) or set(given) != {"body", "local"}:
-        raise ValueError(f"a point must be a name, or have a body and local coordinates, not {_check.shown(given)}")
-    return m._body("body", given["body"]).point(given["local"])
-
-
-def _direction(what: str, given: Any) -> np.ndarray:
-    """A direction (2,), which is kept as it is where its length is one."""
-    direction = _check.vector(what, given, 2)
-    if abs(np.hypot(*direction) - 1) > UNIT:
-        raise ValueError(f"{what} must have length 1, not {_check.shown(given)}")
-    return direction
-
-
-def _law(given: Any, what: str) -> tuple[Any, Any]:
-    """What a verb takes for a law, and for its `of`."""
-    if not isinstance(given, Mapping):
-        return given, None
-    if set(given) != {"expression", "of"}:
-        raise ValueError(f"{what} must be a number, or have an expression and of, not {_check.shown(given)}")
-    return from_json(given["expression"], what), given["of"]
-
-
 # ---- elements ----
 
 
@@ -145,7 +115,7 @@ def _link(m: Mechanism, name: str, *, start: Any, end: Any, mass: Any, length: A
 
 
 def _particle(m: Mechanism, name: str, *, mass: Any, at: Any) -> None:
-    m.particle(name, mass, at=at if isinstance(at, list) else _place(m, at))
+    m.particle(name, mass, at=at if isinstance(at, list) else told_place(m, at))
 
 
 def _point(m: Mechanism, name: str, *, body: Any, local: Any) -> None:
@@ -153,39 +123,40 @@ def _point(m: Mechanism, name: str, *, body: Any, local: Any) -> None:
 
 
 def _revolute(m: Mechanism, name: str, *, first: Any, second: Any, damping: Any, cut: Any) -> None:
-    m.revolute(name, _place(m, first), _place(m, second), damping=damping, cut=cut)
+    m.revolute(name, told_place(m, first), told_place(m, second), damping=damping, cut=cut)
 
 
 def _prismatic(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any, damping: Any, cut: Any) -> None:
-    axis, sides = _direction("axis", axis), (_place(m, first), _place(m, second))
+    axis, sides = told_direction("axis", axis), (told_place(m, first), told_place(m, second))
     joint = m.prismatic(name, *sides, axis=sides[0].body.pose.direction(axis), damping=damping, cut=cut)
     joint.axis = axis
 
 
 def _weld(m: Mechanism, name: str, *, first: Any, second: Any) -> None:
-    m.weld(name, _place(m, first), _place(m, second))
+    m.weld(name, told_place(m, first), told_place(m, second))
 
 
 def _rod(m: Mechanism, name: str, *, first: Any, second: Any, length: Any = None) -> None:
-    m.rod(name, _place(m, first), _place(m, second), length=length)
+    m.rod(name, told_place(m, first), told_place(m, second), length=length)
 
 
 def _slot(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, line = _direction("axis", axis), _line(m, first)
-    joint = m.slot(name, line.body, _place(m, second), axis=line.body.pose.direction(axis))
+    axis, line = told_direction("axis", axis), point_of_body(m, first)
+    joint = m.slot(name, line.body, told_place(m, second), axis=line.body.pose.direction(axis))
     joint.first, joint.axis = line, axis
 
 
 def _rolling(m: Mechanism, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
-    normal, line = _direction("normal", normal), _line(m, first)
-    joint = m.rolling(name, line.body, _place(m, second), radius=radius, at=line.drawn, normal=line.body.pose.direction(normal))
+    normal, line = told_direction("normal", normal), point_of_body(m, first)
+    joint = m.rolling(name, line.body, told_place(m, second), radius=radius, at=line.drawn,
+                      normal=line.body.pose.direction(normal))
     joint.first, joint.axis = line, np.array([normal[1], -normal[0]])
 
 
 def _knife_edge(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, point = _direction("axis", axis), _line(m, second)
+    axis, point = told_direction("axis", axis), point_of_body(m, second)
     joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
-    joint.first, joint.axis = _line(m, first), axis
+    joint.first, joint.axis = point_of_body(m, first), axis
 
 
 def _by_row(joint: type[Joint]) -> Callable[..., None]:
@@ -195,12 +166,12 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
     def make(m: Mechanism, name: str, **given: Any) -> None:
         places = {side: given.pop(side) for side in ("first", "second")}
         if axis := given.get("axis"):
-            axis = _direction("axis", axis)
-            given["axis"] = _line(m, places[sides[0]]).body.pose.direction(axis)
-        made = verb(m, name, *(_place(m, places[side]) for side in sides), **given)
+            axis = told_direction("axis", axis)
+            given["axis"] = point_of_body(m, places[sides[0]]).body.pose.direction(axis)
+        made = verb(m, name, *(told_place(m, places[side]) for side in sides), **given)
         made.axis = axis
         if joint.is_of_one_body:
-            made.first = _line(m, places["first"])
+            made.first = point_of_body(m, places["first"])
 
     words, needed = inspect.signature(verb).parameters, inspect.Parameter.empty
     optional = {word: None for word in joint.takes if words[word].default is None}
@@ -208,11 +179,6 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
         for word in ("first", "second", *joint.takes)])
     return make
-
-
-def _line(m: Mechanism, given: Any) -> Point:
-    """A point, of which the body is wanted, too."""
-    return _check.instance("a point", _place(m, given), Point, "a point of a body")
 
 
 def _gear(m: Mechanism, name: str, *, first: Any, second: Any, ratio: Any) -> None:
@@ -226,7 +192,7 @@ def _rack_pinion(m: Mechanism, name: str, *, first: Any, second: Any, ratio: Any
 def _coupler(m: Mechanism, name: str, *, law: Any = None, sum: Any = None) -> None:
     if (law is None) == (sum is None):
         raise ValueError("it needs one of two, law or sum")
-    value, of = (sum, None) if law is None else _law(law, "law")
+    value, of = (sum, None) if law is None else law_and_of(law, "law")
     m.coupler(name, value, of=of)
 
 
@@ -237,29 +203,29 @@ def _cam(m: Mechanism, name: str, *, cam: Any, follower: Any, profile: Any) -> N
 
 
 def _constraint(m: Mechanism, name: str, *, law: Any) -> None:
-    value, of = _law(law, "law")
+    value, of = law_and_of(law, "law")
     m.constraint(name, value, of=of)
 
 
 def _nonholonomic(m: Mechanism, name: str, *, law: Any) -> None:
-    value, of = _law(law, "law")
+    value, of = law_and_of(law, "law")
     m.nonholonomic(name, value, of=of)
 
 
 def _motor(m: Mechanism, name: str, *, joint: Any, drives: Any, law: Any) -> None:
-    value, of = _law(law, "law")
+    value, of = law_and_of(law, "law")
     _check.choice("drives", drives, ("angle", "displacement", "speed", "torque", "force"))
     m.motor(name, joint, of=of, **{drives: value})
 
 
 def _actuator(m: Mechanism, name: str, *, first: Any, second: Any, drives: Any, law: Any) -> None:
-    value, of = _law(law, "law")
+    value, of = law_and_of(law, "law")
     _check.choice("drives", drives, ("length", "force"))
-    m.actuator(name, _place(m, first), _place(m, second), of=of, **{drives: value})
+    m.actuator(name, told_place(m, first), told_place(m, second), of=of, **{drives: value})
 
 
 def _spring(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
-    m.spring(name, _place(m, first), _place(m, second), stiffness=stiffness, length=length, damping=damping)
+    m.spring(name, told_place(m, first), told_place(m, second), stiffness=stiffness, length=length, damping=damping)
 
 
 def _torsion_spring(m: Mechanism, name: str, *, joint: Any, stiffness: Any, angle: Any, damping: Any) -> None:
@@ -268,18 +234,18 @@ def _torsion_spring(m: Mechanism, name: str, *, joint: Any, stiffness: Any, angl
 
 def _bushing(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, torsion: Any,
              torsion_damping: Any) -> None:
-    m.bushing(name, _place(m, first), _place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+    m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
               torsion_damping=torsion_damping)
 
 
 def _force(m: Mechanism, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
-    along, frame, (value, of) = _direction("along", along), m._body("frame", frame), _law(value, "value")
-    force = m.force(name, _place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
+    along, frame, (value, of) = told_direction("along", along, m.dimension), m._body("frame", frame), law_and_of(value, "value")
+    force = m.force(name, told_place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
     force.along = along
 
 
 def _torque(m: Mechanism, name: str, *, body: Any, against: Any, value: Any) -> None:
-    value, of = _law(value, "value")
+    value, of = law_and_of(value, "value")
     m.torque(name, body, value=value, of=of, against=against)
 
 
@@ -290,11 +256,11 @@ def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
     def make(m: Mechanism, name: str, **given: Any) -> None:
         sides = given.pop("first"), given.pop("second")
         if axis := given.get("axis"):
-            axis = _direction("axis", axis)
-            given["axis"] = _line(m, sides[0]).body.pose.direction(axis)
+            axis = told_direction("axis", axis)
+            given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
         if "value" in given:
-            given["value"], given["of"] = _law(given["value"], "value")
-        verb(m, name, *(_place(m, side) for side in sides), **given).axis = axis
+            given["value"], given["of"] = law_and_of(given["value"], "value")
+        verb(m, name, *(told_place(m, side) for side in sides), **given).axis = axis
 
     initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
