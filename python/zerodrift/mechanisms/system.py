@@ -31,6 +31,7 @@ from .sketch import sketches
 from .space_joints import SpaceJoint
 from .space_measuring import orientation
 from .space_outline import space_outline
+from .space_sketch import space_sketches
 from .space_tables import SpaceTables
 from .start import targets
 from .starting import Starting
@@ -256,7 +257,8 @@ class MechanismSystem(BaseSystem):
 
     def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
         if self._drawing.dimension == 3:
-            return None
+            poses = [self._first_core.poses(np.ascontiguousarray(p))[0] for p in positions]
+            return space_sketches(self._drawing, self._numbers, poses)
         moments, others = ((self._first_core.poses(np.ascontiguousarray(p))[0] for p in those) for those in (positions, motion))
         return sketches(self._drawing, self._numbers, moments, others)
 

@@ -19,6 +19,7 @@ from ..systems.shapes import Shape
 from .annotations import Arrow, draw_path
 from .mechanism import Extras, Picture, points_of
 from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_equal_scales
+from .space_picture import SpacePicture
 from .style import given_axes
 
 GHOSTS = 8      # faint positions of a motion
@@ -33,9 +34,11 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     """Draw a system in one position, or a solution at one time with faint positions of its motion.
 
     Mechanisms of bodies and joints are drawn as in textbooks: bars and plates with their pins, the ground hatched, sliders on
-    their rails and blocks in their grooves, springs and dashpots, wheels, pitch circles of gears, profiles of cams, motors and
-    loads as arrows. Of other systems only points and the lines between them are known: in the plane lines are links, and points
-    that stay in place during the motion are on the ground (curves of many points stay curves); in space they are lines.
+    their rails and blocks in their grooves, springs and dashpots, wheels, pitch circles of gears, profiles of cams, motors
+    and loads as arrows. In space bodies are bars, plates, discs, and boxes of their inertia, axes of hinges and sliders short
+    lines; the view is turned with the mouse, in notebooks with ``%matplotlib widget``. Of other systems only points and the
+    lines between them are known: in the plane lines are links, and points that stay in place during the motion are on the
+    ground (curves of many points stay curves); in space they are lines.
 
     Parameters
     ----------
@@ -91,8 +94,11 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     moments, points = _moments(system, positions, sol, names=names, path=path, forces=forces)
     if moments is None:
         return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
-    extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
-    picture = Picture(drawing_axes(ax, 2), moments, extras)
+    if _is_in_space(moments):
+        picture = SpacePicture(drawing_axes(ax, 3), moments, names=names, paths=paths_of(sol, path, 3))
+    else:
+        extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+        picture = Picture(drawing_axes(ax, 2), moments, extras)
     picture.faintly(range(1, len(moments)))
     picture.show(0)
     return picture.ax
@@ -178,9 +184,11 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     times = sol.t[0] + np.arange(frames) * speed / fps
     rows = nearest(sol.t, times)
     moments, points = _moments(sol.system, sol.p[rows], sol, names=names, path=path, forces=forces)
-    ax = drawing_axes(ax, 3 if moments is None else 2)
+    ax = drawing_axes(ax, 3 if moments is None or _is_in_space(moments) else 2)
     if moments is None:
         return _film(ax, moved_in_space(ax, points), times, fps)
+    if _is_in_space(moments):
+        return _film(ax, SpacePicture(ax, moments, names=names, paths=paths_of(sol, path, 3)).show, times, fps)
     extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
@@ -221,8 +229,13 @@ def _spread(sol: Solution, count: int) -> np.ndarray:
     return np.linspace(0, len(sol.t) - 1, count + 1).round().astype(int)
 
 
-def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
-    """The places (k, 2) of points at all rows."""
+def _is_in_space(moments: list[list[Shape]]) -> bool:
+    """Whether shapes are of space."""
+    return any(shape.points.shape[1] == 3 for shape in moments[0])
+
+
+def paths_of(sol: Solution | None, points: Any, dimension: int = 2) -> list[np.ndarray]:
+    """The places (k, dimension) of points at all rows."""
     several = points if isinstance(points, list | tuple) else [points]
     found = []
     for point in several:
@@ -230,8 +243,8 @@ def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
         if not isinstance(name, str):
             raise TypeError(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
-        if places.ndim != 2 or places.shape[1] != 2:
-            raise ValueError(f"path {name!r} must be of a point of the plane")
+        if places.ndim != 2 or places.shape[1] != dimension:
+            raise ValueError(f"path {name!r} must be of a point of {'the plane' if dimension == 2 else 'space'}")
         found.append(places)
     return found
 
@@ -260,6 +273,9 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
         known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
+            if _is_in_space(known) and asked["forces"] is not False:
+                raise ValueError(f"forces= is there for mechanisms in the plane, and {system.name} is in space: their numbers "
+                                 "are in sol['joint.force']")
             return known, None
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):

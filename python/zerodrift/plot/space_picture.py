@@ -1,0 +1,156 @@
+"""Pictures of mechanisms in space from the shapes of their parts, in axes of matplotlib that show space; `drawing` asks for them.
+
+All shapes of a kind are one collection, which films move instead of drawing anew. Bodies are grey, their joints dark.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+
+from ..systems.shapes import Shape
+from .points import with_equal_scales
+from .style import COLOURS
+
+SIZE = 0.04         # of the picture: half the length of a pin
+COILS = 6           # of a spring
+FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])     # of a box's corners
+MOST_NAMES = 40     # more would hide the picture
+TICKS = 4           # of each axis, at most
+
+
+def _as_it_is(points: np.ndarray, size: float) -> list[np.ndarray]:
+    return [points]
+
+
+def _pin(points: np.ndarray, size: float) -> list[np.ndarray]:
+    """A short line along an axis: a place and a direction."""
+    return [points[0] + size * np.outer((-1, 1), points[1])]
+
+
+def _sleeve(points: np.ndarray, size: float) -> list[np.ndarray]:
+    return _pin(points, 1.5 * size)
+
+
+def _patch(points: np.ndarray, size: float) -> list[np.ndarray]:
+    """A square in a plane: a place and two directions."""
+    corners = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) @ points[1:]
+    return [points[0] + 2 * size * corners]
+
+
+def _box(points: np.ndarray, size: float) -> list[np.ndarray]:
+    return list(points[FACES])
+
+
+def _spring(points: np.ndarray, size: float) -> list[np.ndarray]:
+    """A coil between two ends."""
+    start, end = points
+    length = np.linalg.norm(end - start) or 1.0
+    along = (end - start) / length
+    side = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
+    side /= np.linalg.norm(side)
+    s = np.linspace(0, 1, 16 * COILS)
+    radius = 0.6 * size * ((s > 0.1) & (s < 0.9))
+    turns = 2 * np.pi * COILS * s
+    around = np.outer(radius * np.cos(turns), side) + np.outer(radius * np.sin(turns), np.cross(along, side))
+    return [start + np.outer(s, end - start) + around]
+
+
+class Glyph(NamedTuple):
+    """How shapes of a kind look: what makes lines or faces of one, and matplotlib's words for them."""
+
+    draw: Callable[[np.ndarray, float], list[np.ndarray]]
+    looks: dict[str, Any]
+    is_face: bool = False
+
+
+GLYPHS = {
+    "bar": Glyph(_as_it_is, {"colors": "#7A8CA0", "linewidths": 4.0}),
+    "plate": Glyph(_as_it_is, {"facecolors": "#7A8CA060", "edgecolors": "#7A8CA0", "linewidths": 1.5}, True),
+    "box": Glyph(_box, {"facecolors": "#7A8CA050", "edgecolors": "#7A8CA0", "linewidths": 0.8}, True),
+    "disc": Glyph(_as_it_is, {"facecolors": "#7A8CA040", "edgecolors": "#40505F", "linewidths": 1.8}, True),
+    "ring": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 1.2}),
+    "patch": Glyph(_patch, {"facecolors": "#E69F0030", "edgecolors": "#E69F00", "linewidths": 0.8}, True),
+    "rod": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 1.2}),
+    "track": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 0.8, "linestyles": ":"}),
+    "spring": Glyph(_spring, {"colors": COLOURS[2], "linewidths": 1.2}),
+    "pin": Glyph(_pin, {"colors": COLOURS[1], "linewidths": 2.5}),
+    "sleeve": Glyph(_sleeve, {"colors": COLOURS[0], "linewidths": 5.0}),
+}
+DOTS = {"dot": {"marker": "o", "color": "#40505F", "markersize": 7}, "ball": {"marker": "o", "color": COLOURS[1], "markersize": 4.5},
+        "weld": {"marker": "s", "color": "black", "markersize": 4}, "ground": {"marker": "^", "color": "black", "markersize": 6}}
+FAINT = ("bar", "rod", "disc", "ring")      # what other positions show
+FAINTLY = 0.36      # and how opaque they are
+
+
+class SpacePicture:
+    """Shapes in axes that show space, all to the scale that holds every one of them; `show` draws those of one moment."""
+
+    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], *, names: bool = False,
+                 paths: Sequence[np.ndarray] = ()) -> None:
+        self.ax, self._moments, self._drawn = ax, moments, {}
+        places = np.vstack([*(_extent(shape) for shapes in moments for shape in shapes), *paths])
+        low, high = places.min(axis=0), places.max(axis=0)
+        self.size = SIZE * (float((high - low).max()) or 1.0)
+        middle, half = (low + high) / 2, np.maximum((high - low) / 2, 4 * self.size) + self.size
+        for axis, a, b in zip("xyz", middle - half, middle + half, strict=True):
+            getattr(ax, f"set_{axis}lim")(a, b)
+            getattr(ax, f"{axis}axis").set_major_locator(MaxNLocator(TICKS))
+        with_equal_scales(ax)
+        for i, path in enumerate(paths):
+            ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
+        named = {shape.name for shape in moments[0] if shape.name} if names else set()
+        self._texts = {name: ax.text(0, 0, 0, name, fontsize="small") for name in named if len(named) <= MOST_NAMES}
+
+    def faintly(self, moments: Sequence[int]) -> None:
+        """Other moments, as thin lines and for good."""
+        lines = [shape.points for i in moments for shape in self._moments[i] if shape.kind in FAINT]
+        if lines:
+            ghosts = Line3DCollection(lines, colors="#7A8CA0", alpha=FAINTLY, linewidths=1.0, label="_ghosts")
+            self.ax.add_collection3d(ghosts)
+
+    def show(self, moment: int) -> list[Any]:
+        """Draws one moment."""
+        of_kind: dict[str, list[np.ndarray]] = {kind: [] for kind in self._drawn}
+        for shape in self._moments[moment]:
+            drawn = [shape.points] if shape.kind in DOTS else GLYPHS[shape.kind].draw(shape.points, self.size)
+            of_kind.setdefault(shape.kind, []).extend(drawn)
+        for kind, those in of_kind.items():
+            artist = self._artist(kind)
+            if kind in DOTS:
+                artist.set_data_3d(*np.vstack(those).T)
+            elif GLYPHS[kind].is_face:
+                artist.set_verts(those)
+            else:
+                artist.set_segments(those)
+        for shape in self._moments[moment]:
+            if text := self._texts.get(shape.name):
+                text.set_position_3d(_anchor(shape) + 0.5 * self.size)
+        return [*self._drawn.values(), *self._texts.values()]
+
+    def _artist(self, kind: str) -> Any:
+        """What shows all shapes of a kind."""
+        if kind not in self._drawn:
+            if kind in DOTS:
+                (self._drawn[kind],) = self.ax.plot([], [], [], linestyle="", label=f"_{kind}", **DOTS[kind])
+            else:
+                glyph = GLYPHS[kind]
+                collection = Poly3DCollection if glyph.is_face else Line3DCollection
+                made = collection([np.zeros((4, 3))], label=f"_{kind}", **glyph.looks)
+                self._drawn[kind] = self.ax.add_collection3d(made)
+        return self._drawn[kind]
+
+
+def _extent(shape: Shape) -> np.ndarray:
+    """The places that a shape takes, (n, 3)."""
+    return shape.points[:1] if shape.kind in ("pin", "sleeve", "patch") else shape.points
+
+
+def _anchor(shape: Shape) -> np.ndarray:
+    """Where its name stands."""
+    return shape.points[0] if shape.kind in ("pin", "sleeve", "patch") else shape.points.mean(axis=0)

@@ -1,0 +1,124 @@
+"""Pictures of mechanisms in space: what is drawn is where the measures say."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from every_model import IN_SPACE
+from support import assert_close
+from zerodrift.mechanisms.space import about
+from zerodrift.plot.space_picture import FACES, GLYPHS
+
+
+def artist(ax, kind):
+    (found,) = [each for each in [*ax.collections, *ax.lines] if each.get_label() == f"_{kind}"]
+    return found
+
+
+def shapes(system, kind):
+    return [shape for shape in system._sketches([system.p0])[0] if shape.kind == kind]
+
+
+@pytest.mark.parametrize("name", IN_SPACE)
+def test_every_model_in_space_is_drawn(name):
+    m = IN_SPACE[name](**({"links": 20} if name == "chain" else {}))
+    ax = zd.plot.mechanism(m, names=True)
+    assert ax.name == "3d"
+    names = {text.get_text() for text in ax.texts}
+    assert name == "chain" or {body.name for body in m.bodies} <= names | {"elbow 0"}
+    if name in ("gyroscope", "double_wishbone"):
+        ax.figure.canvas.draw()
+    plt.close(ax.figure)
+
+
+def test_bars_and_plates_are_where_their_ends_are():
+    m = zd.models.stewart_platform()
+    sol = zd.simulate(m, 0.3, step=5e-3)
+    bars = [shape for shape in sol.system._sketches([sol.p[-1]])[0] if shape.kind == "bar"]
+    for shape in bars:
+        assert_close(shape.points[1], sol[f"{shape.name}.end.position"][-1], 1e-12, scale=1.0)
+    (top,) = [shape for shape in sol.system._sketches([sol.p[-1]])[0] if shape.kind == "plate"]
+    ends = np.array([sol[f"piston {k}.end.position"][-1] for k in range(6)])
+    assert all(np.abs(ends - corner).sum(axis=1).min() < 1e-9 for corner in top.points)
+    assert len(top.points) == 6
+    assert len(bars) == 12
+    sides = np.linalg.norm(np.diff(np.vstack([top.points, top.points[:1]]), axis=0), axis=1)
+    assert sides.max() < 1.01 * 2 * 0.6 * np.sin(np.pi / 3 - 0.2)      # neighbours, so that no two edges cross
+
+
+def test_a_box_has_the_inertia_of_its_body():
+    m = zd.Mechanism("box", dimension=3)
+    m.body("box", 2.0, (0.1, 0.2, 0.25), rotation=about((1, 2, 3), 0.4), at=(1, 2, 3))
+    ((_, corners, _, _),) = shapes(m.system(), "box")
+    middle = corners.mean(axis=0)
+    assert_close(middle, np.array([1.0, 2, 3]), 1e-14)
+    edges = np.array([corners[i] - corners[0] for i in (4, 2, 1)])
+    squares = (edges**2).sum(axis=1)
+    assert_close(2.0 / 12 * (squares.sum() - squares), np.array([0.1, 0.2, 0.25]), 1e-14)
+    assert len(GLYPHS["box"].draw(corners, 1.0)) == len(FACES) == 6
+    for face in corners[FACES]:         # round each face, not across it
+        assert abs(np.diff(np.vstack([face, face[:1]]), axis=0) @ np.diff(face, axis=0)[0]).max() < 1.01 * squares.max()
+
+
+def test_a_disc_touches_the_ground_where_its_contact_is():
+    m = zd.models.rolling_disc()
+    ((_, rim, name, _),) = shapes(m.system(), "disc")
+    assert name == "disc"
+    assert rim[:, 2].min() == pytest.approx(0.0, abs=5e-3)      # of a polygon
+    assert_close(np.linalg.norm(rim - m.p0[:3], axis=1), np.full(len(rim), 0.5), 1e-14)
+    rings = shapes(zd.models.rattleback().system(), "ring")
+    longest = [np.linalg.norm(np.ptp(ring.points, axis=0)) / 2 for ring in rings]
+    assert max(longest) == pytest.approx(np.hypot(0.2, 0.03), abs=1e-3)
+    assert min(longest) == pytest.approx(np.hypot(0.02, 0.03), abs=1e-3)
+
+
+def everything():
+    m = zd.Mechanism("all", dimension=3)
+    box, other = m.body("box", 1.0, (0.1, 0.1, 0.1)), m.body("other", 1.0, (0.1, 0.1, 0.1), at=(1, 0, 0.2))
+    star = m.body("star", 1.0, (0.1, 0.1, 0.1), at=(0, 2, 0))
+    bob = m.particle("bob", 1.0, at=(2, 0, 0))
+    m.planar("ice", m.ground, box, normal=(0, 0, 1))
+    m.weld("glue", box, other, at=(0.5, 0, 0))
+    for i, place in enumerate(((0, 2.5, 0), (0.3, 2, 0), (0, 1.8, 0.4), (-0.3, 2, -0.2))):
+        m.rod(f"rod {i}", star.point(at=place), m.ground.point(np.add(place, (0, 0, 1))))
+    m.particle("load", 0.1, at=other.point((0.2, 0, 0)))
+    m.spring("spring", bob, other.center, stiffness=1.0)
+    m.actuator("jack", bob, m.ground.point((3, 0, 0)), force=1.0)
+    m.knife_edge("blade", other.point((0, 0, -0.2)), along=(1, 0, 0))
+    return m
+
+
+def test_every_shape_there_is():
+    kinds = {shape.kind for m in (everything(), *(model() for model in IN_SPACE.values() if model is not zd.models.chain))
+             for shape in m.system()._sketches([m.p0])[0]}
+    assert kinds >= set(GLYPHS)
+    ax = zd.plot.mechanism(everything())
+    assert len(artist(ax, "spring")._segments3d) == 1
+    plt.close(ax.figure)
+
+
+def test_a_motion_with_its_path_and_a_film():
+    sol = zd.simulate(zd.models.heavy_top(), 0.2, step=1e-3)
+    ax = zd.plot.mechanism(sol, path="top.center", ghosts=3)
+    path = [line for line in ax.lines if len(line.get_data_3d()[0]) == len(sol.t)]
+    assert np.array_equal(np.array(path[0].get_data_3d()).T, sol["top.center.position"])
+    assert len(artist(ax, "ghosts")._segments3d) == 3
+    plt.close(ax.figure)
+    film = zd.plot.animate(sol, fps=20, names=True)
+    film._init_draw()
+    film._draw_frame(3)
+    bar = artist(film._fig.axes[0], "bar")._segments3d[0]
+    assert_close(np.sum(bar, axis=0), sol["top.center.position"][150] + sol["tip.position"][150], 1e-12, scale=1.0)
+    plt.close(film._fig)
+
+
+def test_what_is_not_drawn_in_space_says_so():
+    sol = zd.simulate(zd.models.heavy_top(), 0.01, step=1e-3)
+    with pytest.raises(ValueError, match="forces= is there for mechanisms in the plane, and heavy_top is in space"):
+        zd.plot.mechanism(sol, forces=True)
+    with pytest.raises(KeyError, match="nothing in heavy_top is called 'nobody"):
+        zd.plot.mechanism(sol, path="nobody")
+    with pytest.raises(ValueError, match="ax must be 3D axes"):
+        zd.plot.mechanism(sol, ax=plt.subplots()[1])
+    plt.close("all")
