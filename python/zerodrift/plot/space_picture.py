@@ -82,8 +82,9 @@ GLYPHS = {
     "pin": Glyph(_pin, {"colors": COLOURS[1], "linewidths": 2.5}),
     "sleeve": Glyph(_sleeve, {"colors": COLOURS[0], "linewidths": 5.0}),
 }
-DOTS = {"dot": {"marker": "o", "color": "#40505F", "markersize": 7}, "ball": {"marker": "o", "color": COLOURS[1], "markersize": 4.5},
-        "weld": {"marker": "s", "color": "black", "markersize": 4}, "ground": {"marker": "^", "color": "black", "markersize": 6}}
+DOTS = {"dot": {"marker": "o", "color": "#40505F", "markersize": 7}, "weld": {"marker": "s", "color": "black", "markersize": 4},
+        "ball": {"marker": "o", "color": COLOURS[1], "markersize": 4.5},
+        "ground": {"marker": "^", "color": "black", "markersize": 6}}
 FAINT = ("bar", "rod", "disc", "ring")      # what other positions show
 FAINTLY = 0.36      # and how opaque they are
 
