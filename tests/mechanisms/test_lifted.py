@@ -74,10 +74,10 @@ def test_what_is_free_in_the_plane_stays_there():
     space = m.lifted()
     assert [joint.name for joint in space.joints] == ["pin", "rod", "wire", "puck in its plane"]
     assert space["bob in its plane"].of == ("bob.position.z",)
-    plane, sol = (zd.simulate(each, 1.0, step=1e-2, integrator="dop853") for each in (m.system("absolute"), space))
+    plane, sol = (zd.simulate(each, 0.2, step=1e-2, integrator="dop853") for each in (m.system("absolute"), space))
     for name in ("puck.position", "bob.velocity", "bead.position", "load.position", "P.velocity", "rod.force", "wire.force"):
         assert_close(sol[name][:, :2], plane[name], 1e-9, scale=1.0)
-        assert_close(sol[name][:, 2], np.zeros(101), 1e-12, scale=1.0)
+        assert_close(sol[name][:, 2], np.zeros(21), 1e-12, scale=1.0)
     assert_close(sol["puck.angular_velocity.z"], plane["puck.angular_velocity"], 1e-10)
 
 
