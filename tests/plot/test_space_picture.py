@@ -61,6 +61,15 @@ def test_a_box_has_the_inertia_of_its_body():
         assert abs(np.diff(np.vstack([face, face[:1]]), axis=0) @ np.diff(face, axis=0)[0]).max() < 1.01 * squares.max()
 
 
+def test_a_wheel_is_a_disc_of_its_own_inertia():
+    m = zd.Mechanism("wheel", dimension=3)
+    m.body("wheel", 2.0, (0.13, 0.25, 0.13), rotation=about((1, 2, 3), 0.4), at=(1, 2, 3))
+    ((_, rim, _, _),) = shapes(m.system(), "disc")
+    assert_close(np.linalg.norm(rim - (1, 2, 3), axis=1), np.full(len(rim), np.sqrt(2 * 0.25 / 2.0)), 1e-14)
+    assert np.abs((rim - (1, 2, 3)) @ about((1, 2, 3), 0.4)[:, 1]).max() < 1e-14
+    assert not shapes(m.system(), "box")
+
+
 def test_a_disc_touches_the_ground_where_its_contact_is():
     m = zd.models.rolling_disc()
     ((_, rim, name, _),) = shapes(m.system(), "disc")

@@ -126,7 +126,7 @@ def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
         elif np.ndim(value):
             said |= {f"{name}.x": float(value[0]), f"{name}.y": float(value[1])}
         else:
-            said[name] = float(np.arctan2(np.sin(value), np.cos(value))) if quantity == "angle" else value
+            said[name] = value
     return said
 
 

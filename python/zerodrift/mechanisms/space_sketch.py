@@ -1,7 +1,7 @@
 """What there is to draw of a mechanism in space in its poses, in m: shapes that `zerodrift.plot.space_picture` draws.
 
 A body is a bar between the two places at which it is held, a plate between three or more in a plane, a star of bars between
-others, and a box of its own inertia where it is held at less than two; what rolls is a disc or an ellipsoid.
+others, and a disc or a box of its own inertia where it is held at less than two; what rolls is a disc or an ellipsoid.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from .space_joints import SpaceJoint, SpaceRolling
 
 APART = 1e-9        # m: places that are nearer are one
 FLAT = 1e-6         # of the extent of places: what lies in a plane
+ALIKE = 1e-6        # of the largest moment: by how much two differ that are one
 ROUND = np.linspace(0, 2 * np.pi, 49)
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 ALONG = ("prismatic", "cylindrical", "screw", "slot")       # joints that are drawn as sleeves
@@ -73,7 +74,7 @@ class SpaceSketch:
         if any(np.linalg.norm(place) < APART for place in places) and len(places) > 1 and not isinstance(body, Link):
             yield Shape("dot", centre[None], body.name)
         if len(places) < 2:
-            yield Shape("box", centre + self._box(body) @ R.T, body.name)
+            yield from self._by_inertia(body, centre, R)
             return
         plate = _around(places) if len(places) > 2 else None
         if plate is not None:
@@ -83,12 +84,19 @@ class SpaceSketch:
             for place in places if len(places) > 2 else places[1:]:
                 yield Shape("bar", centre + np.array([middle, place]) @ R.T, body.name)
 
-    def _box(self, body: Body) -> np.ndarray:
-        """The corners (8, 3) of the uniform box that has its mass and its moments."""
+    def _by_inertia(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
+        """The disc that has its mass and its largest moment, where the two others are alike; else the uniform box."""
         known = self.inertias.of[body.name]
         a, b, c = known.moments
+        axis = next((i for i in range(3) if _is_axial(*np.roll(known.moments, -i))), None)
+        if axis is not None and known.mass:
+            radius, one, other = np.sqrt(2 * known.moments[axis] / known.mass), R[:, (axis + 1) % 3], R[:, (axis + 2) % 3]
+            rim = centre + radius * (np.outer(np.cos(ROUND), one) + np.outer(np.sin(ROUND), other))
+            yield Shape("disc", rim, body.name)
+            yield Shape("rod", np.array([centre, rim[0]]), body.name)
+            return
         squares = 6 * np.array([b + c - a, c + a - b, a + b - c]) / known.mass if known.mass else np.zeros(3)
-        return CORNERS * np.sqrt(np.maximum(squares, 0.0))
+        yield Shape("box", centre + CORNERS * np.sqrt(np.maximum(squares, 0.0)) @ R.T, body.name)
 
     def _joint(self, joint: SpaceJoint, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> Iterator[Shape]:
         first, second = (self._placed(point, at) for point in (joint.first, joint.second))
@@ -138,6 +146,11 @@ class SpaceSketch:
         body = joint.bodies[side]
         own = np.array([self.inertias.direction(body, row) for row in joint.frames[side]])
         return own @ at[body.name][1].T
+
+
+def _is_axial(own: float, one: float, other: float) -> bool:
+    """Whether a moment is the largest, and the two others are alike, as of a wheel."""
+    return abs(one - other) <= ALIKE * own and own > (1 + ALIKE) * one
 
 
 def _different(places: list[np.ndarray]) -> np.ndarray:
