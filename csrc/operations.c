@@ -1,4 +1,4 @@
-/* What a run does, outside it: acceleration, projection, a single step. */
+/* What a run does, outside it: accelerations, projection, states between its rows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +9,7 @@
 #include "run/arguments.h"
 #include "run/create.h"
 #include "run/explain.h"
+#include "run/revisit.h"
 #include "run/status.h"
 #include "systems/held.h"
 
@@ -120,18 +121,22 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
     return status;
 }
 
-int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size)
+static void copy_state(const zd_system *system, const double *p, const double *v, double *to_p, double *to_v)
 {
-    int status = zd_check_method(system, settings, message, message_size);
-    if (!status) status = zd_check_quaternions(system, p, 0, message, message_size);
-    if (status) return status;
-    zd_run *run = zd_run_open(system, settings, settings->t0, p, v, &status, message, message_size);
+    memcpy(to_p, p, (size_t)system->nq * sizeof *p);
+    memcpy(to_v, v, (size_t)system->nv * sizeof *v);
+}
+
+int zd_states_between(const zd_system *system, const zd_settings *settings, const zd_saved *saved, int64_t count, const double *t, double *p,
+                      double *v, char *message, int message_size)
+{
+    int status;
+    zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
-    if (!status) status = zd_suits(system, settings->integrator) ? zd_stepper_place(&run->stepper, settings->t0, p, v) : ZD_UNSUITED_INTEGRATOR;
-    if (!status) status = zd_motion_start_energy(&run->motion);
-    if (!status && run->motion.road.direct) zd_direct_choose(&run->motion);
-    if (!status) status = zd_stepper_make_substep(&run->stepper, settings->t1);
-    memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
-    memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
+    zd_revisit revisit = {.run = run, .saved = saved, .row = -1};
+    for (int64_t i = 0; i < count && !status; i++) {
+        status = zd_revisit_move(&revisit, t[i]);
+        copy_state(system, run->motion.point->p, run->motion.point->v, p + i * system->nq, v + i * system->nv);
+    }
     return finish(run, status, message, message_size);
 }

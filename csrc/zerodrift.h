@@ -200,6 +200,14 @@ typedef struct zd_record {      /* one row per saved instant; memory belongs to 
     double *outputs;            /* (capacity, components of all outputs); NULL where there are none */
 } zd_record;
 
+typedef struct zd_saved {       /* the rows of a run in which every step was saved, at least one */
+    int64_t rows;
+    const double *t;            /* (rows,) increasing */
+    const double *p, *v;        /* (rows, nq), (rows, nv) */
+    const double *input;        /* (rows,) J; NULL where there is none */
+    int ends_in_event;          /* whether the last row is a terminal event */
+} zd_saved;
+
 typedef struct zd_run zd_run;
 
 /* Steps from t0 to t1: a span within rounding of a whole number of steps has that many, else a shorter one is added. */
@@ -319,7 +327,9 @@ int zd_measure_states(const zd_system *system, int measure, int64_t rows, const 
  * nonzero (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size);
-/* One step, corrected, from (p, v) at settings->t0 to settings->t1: what a run does between its own steps. In place. */
-int zd_step(const zd_system *system, const zd_settings *settings, double *p, double *v, char *message, int message_size);
+/* States p (count, nq), v (count, nv) at times t (count,) from the first to the last row of a run that was made with these settings, and that
+ * saved every step: what it would have saved there. Times that increase take the least. */
+int zd_states_between(const zd_system *system, const zd_settings *settings, const zd_saved *saved, int64_t count, const double *t, double *p,
+                      double *v, char *message, int message_size);
 
 #endif

@@ -18,7 +18,7 @@ typedef struct zd_method {
     const zd_tableau *tableau;
     int stages, error_order;
     zd_weights a[ZD_MOST_STAGES], b, e, e3;
-    zd_weights more[ZD_MOST_STAGES], d[ZD_COEFFICIENTS];    /* for values between */
+    zd_weights more[ZD_MOST_STAGES], d[ZD_MOST_STAGES];    /* for values between */
 } zd_method;
 
 /* A number of y that is an event where it reaches a level. */
@@ -89,7 +89,7 @@ typedef struct zd_lanes {
     double *pdot1, *vdot1, *power1, *pivots1;
     double *Phi, *dp, *dv;  /* (mh,), (nq,), (nv,) */
     double *other;          /* (nq + nv + m + 1 + nv,): what another order makes of it */
-    double *polynomial;     /* (ZD_COEFFICIENTS, size): through the last step, once it is asked for */
+    double *polynomial;     /* (coefficients, size): through the last step, once it is asked for */
     int has_polynomial;
 } zd_lanes;
 

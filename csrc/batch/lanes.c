@@ -25,7 +25,7 @@ static zd_method method_of(const zd_integrator *integrator)
     method.e = without_zeros(stages + 1, T->e);
     method.e3 = without_zeros(stages + 1, T->e3);
     for (int i = 0; i < T->more; i++) method.more[i] = without_zeros(all, T->more_a + i * all);
-    for (int i = 0; i < 4 && T->more; i++) method.d[i] = without_zeros(all, T->d + i * all);
+    for (int i = 0; i < T->coefficients - 3; i++) method.d[i] = without_zeros(all, T->d + i * all);
     return method;
 }
 
@@ -112,7 +112,7 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
     self->dp = take(self, arena, nq);
     self->dv = take(self, arena, nv);
     self->other = take(self, arena, nq + 2 * nv + m + 1);
-    self->polynomial = take(self, arena, T->more ? (int64_t)ZD_COEFFICIENTS * size : 0);
+    self->polynomial = take(self, arena, (int64_t)T->coefficients * size);
 }
 
 /* The number of y that an event is, if it is one: its place; else -1. */

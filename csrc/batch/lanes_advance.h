@@ -152,7 +152,7 @@ ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
 
 /* ---- within the last step ---- */
 
-/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: dop853.c */
+/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: interpolation.h */
 ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_real h)
 {
     const zd_method *method = &self->method;
@@ -171,17 +171,19 @@ ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_real h)
         F[size + i] = h * k[i] - change;
         F[2 * size + i] = 2 * change - h * (k[f1 * size + i] + k[i]);
     }
-    for (int i = 0; i < 4; i++) ZD_NAMED(combine)(self, 0, size, &method->d[i], h, NULL, self->polynomial + (3 + i) * size * ZD_LANES);
+    for (int i = 3; i < method->tableau->coefficients; i++)
+        ZD_NAMED(combine)(self, 0, size, &method->d[i - 3], h, NULL, self->polynomial + i * size * ZD_LANES);
 }
 
 ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
 {
-    const int n = self->size;
+    const int n = self->size, coefficients = self->method.tableau->coefficients;
     const zd_stored *F = REAL(self->polynomial);
     const zd_real z = 1 - x;
     for (int i = 0; i < n; i++) {
-        const zd_real inner = F[3 * n + i] + x * (F[4 * n + i] + z * (F[5 * n + i] + x * F[6 * n + i]));
-        REAL(self->y_row)[i] = REAL(self->y0)[i] + x * (F[i] + z * (F[n + i] + x * (F[2 * n + i] + z * inner)));
+        zd_real value = F[(coefficients - 1) * n + i];
+        for (int k = coefficients - 2; k >= 0; k--) value = F[k * n + i] + (k % 2 ? x : z) * value;
+        REAL(self->y_row)[i] = REAL(self->y0)[i] + x * value;
     }
 }
 
@@ -195,7 +197,7 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 {
     const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_row = *REAL(self->t_row);
     const zd_condition inside = HOLDS(self->is_wanted) & (t_row != t);
-    const int is_spread = !self->is_fixed && self->method.tableau->more;
+    const int is_spread = !self->is_fixed && self->method.tableau->coefficients;
     if (is_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t - before);
     self->has_polynomial = is_spread;
     return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_row - before, ZD_SPLAT(0.0))};

@@ -1,7 +1,7 @@
 /* The explicit Runge-Kutta method of order eight by Dormand and Prince, in the twelve stages of DOP853. Coefficients: E. Hairer,
  * S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, 1993, section II.5.
  */
-#include "runge_kutta.h"
+#include "interpolation.h"
 
 enum { STAGES = 12, MORE = 3, ALL = STAGES + 1 + MORE };    /* for values between: f at the end, and three stages more */
 
@@ -78,66 +78,12 @@ static const double d[4 * ALL] = {
 };
 
 static const zd_tableau tableau = {
-    .stages = STAGES, .a = a, .b = b, .c = c, .e = e5, .e3 = e3, .more = MORE, .more_a = more_a, .more_c = more_c, .d = d,
+    .stages = STAGES, .a = a, .b = b, .c = c, .e = e5, .e3 = e3, .more = MORE, .coefficients = 7, .more_a = more_a, .more_c = more_c, .d = d,
 };
 
 ZD_RUNGE_KUTTA_STEP
 ZD_RUNGE_KUTTA_ERROR
-
-/* to <- h sum_j weight_j k_j, over all stages there are */
-ZD_INLINE void add_up(const int size, const double *weight, double h, const double *restrict k, double *restrict to)
-{
-    for (int i = 0; i < size; i++) {
-        double sum = 0;
-        ZD_UNROLL
-        for (int j = 0; j < ALL; j++)
-            if (weight[j] != 0) sum += weight[j] * k[j * size + i];
-        to[i] = h * sum;
-    }
-}
-
-/* The polynomial between the ends of the step just made, of order seven: its coefficients are seven vectors. */
-ZD_INLINE int spread_sized(const int size, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
-{
-    const int positions = rate->direct ? rate->system->nq : 0;
-    double *k = self->k, *F = self->polynomial, *f1 = k + STAGES * size;
-    int status = rate->evaluate(rate->context, t + h, y1, f1);
-    ZD_UNROLL
-    for (int i = 0; i < MORE; i++) {
-        if (status) return status;
-        zd_combine(positions, size, STAGES + 1 + i, more_a + i * ALL, h, k, y0, self->stage);
-        status = zd_rate_of_stage(rate, t + more_c[i] * h, self->stage, k + (STAGES + 1 + i) * size);
-    }
-    for (int i = 0; i < size; i++) {
-        const double change = y1[i] - y0[i];
-        F[i] = change;
-        F[size + i] = h * k[i] - change;
-        F[2 * size + i] = 2 * change - h * (f1[i] + k[i]);
-    }
-    ZD_UNROLL
-    for (int i = 0; i < 4; i++) add_up(size, d + i * ALL, h, k, F + (3 + i) * size);
-    return status;
-}
-
-/* Of three and four coordinates with as many velocities, whose sums are written out; and of any */
-static int spread(void *memory, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
-{
-    zd_runge_kutta *self = memory;
-    return self->size == 6   ? spread_sized(6, self, rate, t, h, y0, y1)
-         : self->size == 8   ? spread_sized(8, self, rate, t, h, y0, y1)
-                             : spread_sized(self->size, self, rate, t, h, y0, y1);
-}
-
-static void between(const void *memory, double x, const double *y0, double *y)
-{
-    const zd_runge_kutta *self = memory;
-    const int n = self->size;
-    const double *F = self->polynomial, z = 1 - x;
-    for (int i = 0; i < n; i++) {
-        const double inner = F[3 * n + i] + x * (F[4 * n + i] + z * (F[5 * n + i] + x * F[6 * n + i]));
-        y[i] = y0[i] + x * (F[i] + z * (F[n + i] + x * (F[2 * n + i] + z * inner)));
-    }
-}
+ZD_RUNGE_KUTTA_INTERPOLATION
 
 const zd_integrator zd_dop853 = {
     .card = {
@@ -146,10 +92,11 @@ const zd_integrator zd_dop853 = {
         .equations = "Hairer et al., section II.5",
         .order = 8, .error_order = 7, .stability = 5.97,
         .description = "Order eight with error estimates of orders five and three, blended, by which it can choose its steps. "
-                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6.",
+                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6. Between chosen "
+                       "steps its polynomial, of three evaluations more, has order seven.",
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
                      "1993, section II.5",
     },
     .decay = 6.39,
-    ZD_RUNGE_KUTTA, .error = error, .spread = spread, .between = between,
+    ZD_RUNGE_KUTTA, .error = error, ZD_INTERPOLATED,
 };

@@ -1,7 +1,7 @@
 /* The method of order five by J. R. Dormand and P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational
  * and Applied Mathematics 6 (1980) 19-26.
  */
-#include "runge_kutta.h"
+#include "interpolation.h"
 
 static const double a[] = {
     0,              0,               0,              0,            0,               0,
@@ -16,10 +16,18 @@ static const double c[] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1};
 
 static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0 / 339200, -22.0 / 525, 1.0 / 40};
 
-static const zd_tableau tableau = {.stages = 6, .a = a, .b = b, .c = c, .e = e};
+/* Of the polynomial of order four: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, 1993,
+ * section II.6 */
+static const double d[] = {
+    -12715105075.0 / 11282082432, 0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072, 701980252875.0 / 199316789632,
+    -1453857185.0 / 822651844, 69997945.0 / 29380423,
+};
+
+static const zd_tableau tableau = {.stages = 6, .a = a, .b = b, .c = c, .e = e, .coefficients = 4, .d = d};
 
 ZD_RUNGE_KUTTA_STEP
 ZD_RUNGE_KUTTA_ERROR
+ZD_RUNGE_KUTTA_INTERPOLATION
 
 const zd_integrator zd_dormand_prince = {
     .card = {
@@ -28,10 +36,10 @@ const zd_integrator zd_dormand_prince = {
         .equations = "Dormand and Prince, 1980",
         .order = 5, .error_order = 4, .stability = 1.7,
         .description = "Order five with an error estimate of order four, by which it can choose its steps: the method of SciPy's "
-                       "RK45 and of ode45. For errors of 1e-3 to 1e-6.",
+                       "RK45 and of ode45. For errors of 1e-3 to 1e-6. Between chosen steps its polynomial has order four.",
         .reference = "J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and "
                      "Applied Mathematics 6 (1980) 19-26",
     },
     .decay = 3.307,
-    ZD_RUNGE_KUTTA, .error = error,
+    ZD_RUNGE_KUTTA, .error = error, ZD_INTERPOLATED,
 };

@@ -15,18 +15,17 @@ typedef struct zd_tableau {
     const double *a, *b, *c;
     const double *e;        /* NULL: there is none */
     const double *e3;       /* weights of a second estimate that DOP853 blends in; NULL: there is none */
-    int more;               /* stages more that values between the ends of a step need, whose polynomial has as many coefficients as DOP853's */
-    const double *more_a, *more_c, *d;      /* (more, all), (more,), (4, all), all of them being stages + 1 + more: see dop853.c */
+    int more;               /* stages more that values between the ends of a step need */
+    int coefficients;       /* how many vectors their polynomial has, at least three; 0: there is none */
+    const double *more_a, *more_c, *d;      /* (more, all), (more,), (coefficients - 3, all), all of them being stages + 1 + more */
 } zd_tableau;
-
-enum { ZD_COEFFICIENTS = 7 };   /* of the polynomial */
 
 typedef struct zd_runge_kutta {
     int size;
     int calls;      /* of the error estimate */
     double *k;      /* (stages, size), and for an error estimate one more, and those for values between */
     double *stage, *end;    /* (size,): the last stage, the end of the step; one, where no error is estimated */
-    double *polynomial;     /* (ZD_COEFFICIENTS, size) */
+    double *polynomial;     /* (coefficients, size) */
 } zd_runge_kutta;
 
 /* A loop over stages, of which there are at most 13: written out, so that weights are constants, and those that are zero take no time. */

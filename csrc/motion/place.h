@@ -8,6 +8,15 @@ typedef struct zd_place {
     double *extra;          /* what the state has besides them */
 } zd_place;
 
+/* The acceleration where a motion was, with which a step may begin there: to be handed back with the place. */
+typedef struct zd_rates_there {
+    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *pivots;         /* (nv,): of the direct road; NULL where the system brings none, */
+    const void *order;      /* the order of elimination that they are of; NULL: none */
+    double smallest;        /* and of them */
+    int are_known;
+} zd_rates_there;
+
 typedef struct zd_last {    /* the step being made: its size, and where it began */
     double t, h;
     double *y, *p, *v;      /* (size,), (nq,), (nv,) */

@@ -18,6 +18,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_steppe
     if (settings->t_eval || settings->events) {
         self.before = zd_place_take(arena, stepper->motion);
         self.after = zd_place_take(arena, stepper->motion);
+        self.rates = zd_rates_take(arena, stepper->motion);
     }
     return self;
 }
@@ -30,11 +31,20 @@ void zd_output_keep_beginning(zd_output *self)
 void zd_output_keep_end(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->after);
+    zd_stepper_keep_rates(self->stepper, &self->rates);
+}
+
+/* Where the next step begins */
+static int return_to_end(zd_output *self)
+{
+    int status = zd_stepper_return_to(self->stepper, &self->after);
+    if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
+    return status;
 }
 
 int zd_output_move(zd_output *self, double t)
 {
-    if (t == self->after.t) return zd_stepper_return_to(self->stepper, &self->after);
+    if (t == self->after.t) return return_to_end(self);
     int status = zd_stepper_return_to(self->stepper, &self->before);
     return status ? status : zd_stepper_make_substep(self->stepper, t);
 }

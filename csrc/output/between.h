@@ -12,7 +12,8 @@ typedef struct zd_output {
     int64_t t_evals;
     int64_t next;              /* of them */
     int has_polynomial;     /* whether that of the method is taken */
-    zd_place before, after; /* the step: where it began and where it has ended */
+    zd_place before, after; /* the step: where it began and where it has ended, */
+    zd_rates_there rates;   /* with the acceleration there */
     int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
     int is_open;            /* whether its end is kept, */
     int is_away;            /* the motion is elsewhere, */

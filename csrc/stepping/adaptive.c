@@ -102,7 +102,7 @@ static void weigh(zd_course *course)
 static int attempt(zd_course *course, double h, double t1, double *norm)
 {
     zd_stepper *stepper = course->stepper;
-    const int is_short = zd_is_short(course);
+    const int is_short = zd_is_short(course->motion);
     if (stepper->integrator->weigh) weigh(course);
     int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(stepper, h);
     if (status) return status;

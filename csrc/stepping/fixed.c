@@ -11,7 +11,7 @@ enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
 
 static int integrate_and_land(zd_course *course, double h, double t1)
 {
-    const int is_short = zd_is_short(course);
+    const int is_short = zd_is_short(course->motion);
     int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(course->stepper, h);
     return status ? status : is_short ? zd_short_land(course, t1) : zd_passage_land(course, t1);
 }

@@ -39,25 +39,30 @@ int zd_short_integrate(zd_course *course, double h)
 }
 
 /* Of the point, which the acceleration is known at, too, afterwards. */
-ZD_INLINE int correct_rest(const int n, zd_course *course)
+ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, int64_t step, int forced)
 {
-    zd_motion *motion = course->motion;
-    int status = zd_motion_correct_rest(motion, course->step, course->stepper->t == course->end || course->parts);
+    zd_motion *motion = stepper->motion;
+    int status = zd_motion_correct_rest(motion, step, forced);
     if (status) return status;
-    zd_copy_pairs(n, motion->point->v, course->stepper->y + n);
+    zd_copy_pairs(n, motion->point->v, stepper->y + n);
     return zd_motion_accelerate(motion);
+}
+
+ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, int64_t step, int forced)
+{
+    zd_point *point = stepper->motion->point;
+    point->t = stepper->t = t;
+    int status = zd_direct_land(stepper->motion, t, stepper->y, stepper->y + n);
+    zd_copy_pairs(n, stepper->y, point->p);
+    zd_copy_pairs(n, stepper->y + n, point->v);
+    return !status && stepper->motion->corrections > 1 ? correct_rest(n, stepper, step, forced) : status;
 }
 
 ZD_INLINE int land(const int n, zd_course *course, double t1)
 {
     zd_stepper *stepper = course->stepper;
-    zd_point *point = course->motion->point;
     const double h = stepper->last.h;
-    point->t = stepper->t = t1;
-    int status = zd_direct_land(course->motion, t1, stepper->y, stepper->y + n);
-    zd_copy_pairs(n, stepper->y, point->p);
-    zd_copy_pairs(n, stepper->y + n, point->v);
-    if (!status && course->motion->corrections > 1) status = correct_rest(n, course);
+    int status = correct(n, stepper, t1, course->step, t1 == course->end || course->parts);
     if (status) return status;
     if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
     return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;
@@ -66,4 +71,15 @@ ZD_INLINE int land(const int n, zd_course *course, double t1)
 int zd_short_land(zd_course *course, double t1)
 {
     return ZD_SIZED(land, course->motion->system.nv, course, t1);
+}
+
+ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t)
+{
+    int status = correct(n, stepper, t, 0, 1);
+    return status || is_finite(n, stepper->y) ? status : ZD_NOT_FINITE;
+}
+
+int zd_short_land_between(zd_stepper *stepper, double t)
+{
+    return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t);
 }

@@ -150,3 +150,40 @@ int zd_stepper_return_to(zd_stepper *self, const zd_place *place)
     memcpy(self->y + motion->formulation_size, place->extra, extras(motion) * sizeof(double));
     return zd_stepper_place(self, place->t, place->p, place->v);
 }
+
+/* ---- accelerations at a place ---- */
+
+zd_rates_there zd_rates_take(zd_arena *arena, const zd_motion *motion)
+{
+    const size_t nv = (size_t)motion->system.nv;
+    return (zd_rates_there){
+        .vdot = zd_take_doubles(arena, nv),
+        .lambda = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
+        .pivots = motion->road.direct ? zd_take_doubles(arena, nv) : NULL,
+    };
+}
+
+void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates)
+{
+    const zd_motion *motion = self->motion;
+    const zd_point *point = motion->point;
+    const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->settle || point->terms.A;
+    rates->are_known = (point->known & ZD_ACCELERATED) && !has_more;
+    if (!rates->are_known) return;
+    rates->order = motion->road.order;
+    rates->smallest = motion->road.smallest;
+    ZD_SIZED(zd_copy, motion->system.nv, point->vdot, rates->vdot);
+    ZD_SIZED(zd_copy, zd_constraints(&motion->system), point->lambda, rates->lambda);
+    if (rates->order) ZD_SIZED(zd_copy, motion->system.nv, motion->road.pivots, rates->pivots);
+}
+
+void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates)
+{
+    zd_motion *motion = self->motion;
+    if (!rates->are_known || rates->order != motion->road.order) return;
+    motion->point->known |= ZD_ACCELERATED;
+    motion->road.smallest = rates->smallest;
+    ZD_SIZED(zd_copy, motion->system.nv, rates->vdot, motion->point->vdot);
+    ZD_SIZED(zd_copy, zd_constraints(&motion->system), rates->lambda, motion->point->lambda);
+    if (rates->order) ZD_SIZED(zd_copy, motion->system.nv, rates->pivots, motion->road.pivots);
+}

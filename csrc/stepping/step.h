@@ -50,5 +50,9 @@ int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *
 zd_place zd_place_take(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_keep_place(const zd_stepper *self, zd_place *place);
 int zd_stepper_return_to(zd_stepper *self, const zd_place *place);
+/* The acceleration at the place where the motion is, if it is known, and if nothing but p and v says what it is; and back to it there. */
+zd_rates_there zd_rates_take(zd_arena *arena, const zd_motion *motion);
+void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates);
+void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates);
 
 #endif

@@ -1,4 +1,5 @@
 /* A shorter step, to a time between steps: in the variables that serve there. */
+#include "short_step.h"
 #include "variables.h"
 
 static int integrate_and_land(zd_stepper *self, double h, double t1)
@@ -22,7 +23,7 @@ int zd_stepper_land_between(zd_stepper *self, double t)
     const zd_last *last = &self->last;
     self->integrator->between(self->memory, (t - last->t) / last->h, last->y, self->y);
     self->motion->statistics.output_steps++;
-    return zd_stepper_land(self, t, 0, 1);
+    return zd_is_short(self->motion) ? zd_short_land_between(self, t) : zd_stepper_land(self, t, 0, 1);
 }
 
 int zd_stepper_make_substep(zd_stepper *self, double t)

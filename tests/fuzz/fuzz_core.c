@@ -211,7 +211,10 @@ static void make_events(input *in, events *self, const zd_settings *settings)
     memset(self, 0, sizeof *self);
     self->t0 = settings->t0, self->t1 = settings->t1;
     self->calls = below(in, 4) ? -1 : (int)byte(in);
-    self->core = (zd_events){below(in, 4), self->direction, self->terminal, self, value_of_event, found_event};
+    self->core = (zd_events){
+        .count = below(in, 4), .direction = self->direction, .terminal = self->terminal, .data = self, .evaluate = value_of_event,
+        .found = found_event,
+    };
     for (int i = 0; i < SIZES; i++) {
         self->what[i] = below(in, 4);
         self->direction[i] = below(in, 3) - 1;
@@ -356,6 +359,18 @@ static void simulate(input *in, const zd_system *system, const zd_settings *sett
     zd_run_free(run);
 }
 
+/* Within one row and another that is no end of its step: p and v become a state between them. */
+static int states_between(const zd_system *system, const zd_settings *settings, double at, double *p, double *v, char *message, int size)
+{
+    const double t[] = {settings->t0, settings->t1};
+    double rows_p[2 * LARGEST], rows_v[2 * LARGEST], energies[] = {0, 1};
+    const int nq = system->nq > 0 && system->nq < LARGEST ? system->nq : 0, nv = system->nv > 0 && system->nv < LARGEST ? system->nv : 0;
+    for (int i = 0; i < LARGEST; i++) rows_p[i] = rows_p[nq + i] = p[i], rows_v[i] = rows_v[nv + i] = v[i];
+    const zd_saved saved = {2, t, rows_p, rows_v, energies, at > 1};
+    const double within = at > t[0] && at < t[1] ? at : t[0] + (t[1] - t[0]) / 2;
+    return zd_states_between(system, settings, &saved, 1, &within, p, v, message, size);
+}
+
 static void operate(input *in, const zd_system *system, const zd_settings *settings, const double *p0, const double *v0)
 {
     char message[MESSAGE];
@@ -375,7 +390,7 @@ static void operate(input *in, const zd_system *system, const zd_settings *setti
                             below(in, 2) ? &iterations : NULL, message, size);
         break;
     default:
-        status = zd_step(system, settings, p, v, message, size);
+        status = states_between(system, settings, t, p, v, message, size);
         EXPECT(status || (are_finite(p, system->nq) && are_finite(v, system->nv)));
     }
     EXPECT(status <= 0 && (size == 1 || !status == (message[0] == '\0')) && memchr(message, '\0', (size_t)size));

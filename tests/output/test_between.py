@@ -105,11 +105,12 @@ def test_times_that_do_not_increase():
 
 
 def chosen(system, rtol, times=None, **options):
-    return zd.simulate(system, 2.0, integrator="dop853", rtol=rtol, atol=rtol, t_eval=times, **options)
+    return zd.simulate(system, 2.0, **{"integrator": "dop853", "rtol": rtol, "atol": rtol, "t_eval": times, **options})
 
 
 @pytest.mark.parametrize("options", [{}, {"direct": False}, {"formulation": "augmented"}, {"energy": True},
-                                     {"stabilization": "baumgarte"}], ids=str)
+                                     {"stabilization": "baumgarte"}, {"integrator": "dormand_prince"},
+                                     {"integrator": "dormand_prince", "direct": False, "energy": True}], ids=str)
 def test_the_polynomial_of_a_method_errs_as_its_steps_do(bar, options):
     """By how much the rows between steps are off, beside the rows at their ends: at either, what the tolerance leaves."""
     times = np.linspace(0, 2, 217)
@@ -135,3 +136,55 @@ def test_no_more_is_evaluated_than_three_stages_and_what_is_saved(bar):
     steps, times = chosen(bar, 1e-6), np.linspace(0.013, 1.987, 20)
     between = chosen(bar, 1e-6, times)
     assert between.stats["evaluations"] - steps.stats["evaluations"] <= 20 * 11     # shorter steps alone would take more
+
+
+INTERPOLATED = ["dormand_prince", "dop853"]
+WITHIN = np.array([0.011, 0.012, 0.1, 0.10001, 0.237, 0.4, 0.4321, 0.5])
+
+
+@pytest.mark.parametrize("method", INTERPOLATED)
+@pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning")       # near rest energies are left alone
+def test_the_same_bits_between_rows_as_while_the_run_goes_on(system, formulation, method):
+    """The step is made again from a row, with what the run has measured at its start, and its polynomial taken at once."""
+    options = {"integrator": method, "rtol": 1e-5, "atol": 1e-6, "formulation": formulation, "energy": system.has_energy or None}
+    at = zd.simulate(system, 0.5, t_eval=WITHIN, **options)
+    p, v = zd.simulate(system, 0.5, **options)(WITHIN[::-1])
+    if formulation in ("mixed", "independent"):     # in velocities that are chosen at the row, and the run may have others
+        assert np.abs(p[::-1] - at.p).max() <= 1e-6
+        assert np.abs(v[::-1] - at.v).max() <= 1e-6 * (1 + np.abs(v).max())
+    else:
+        assert (p[::-1] == at.p).all()
+        assert (v[::-1] == at.v).all()
+    assert np.abs(at.position_violation).max(initial=0) <= 1e-12
+    assert np.abs(at.velocity_violation).max(initial=0) <= 1e-12 * (1 + np.abs(at.v).max())
+
+
+@pytest.mark.parametrize("method", INTERPOLATED)
+def test_the_same_bits_where_an_event_has_ended_the_run(bar, method):
+    """Its last step ends at the event, and is no part of a longer one that was interpolated."""
+    options = {"integrator": method, "rtol": 1e-6, "atol": 1e-6,
+               "events": [zd.Event(lambda t, p, v: p[0] - 1.0, terminal=True), lambda t, p, v: p[0] - 0.8]}
+    sol = zd.simulate(bar, 8.0, **options)
+    times = np.linspace(0, sol.t[-1], 83)
+    at = zd.simulate(bar, 8.0, t_eval=times[:-1], **options)
+    p, v = sol(times)
+    assert (p[:-1] == at.p[:82]).all()
+    assert (v[:-1] == at.v[:82]).all()
+    step = zd.simulate(bar, (sol.t[-2], sol.t[-1]), sol.p[-2], sol.v[-2], integrator=method, step=sol.t[-1] - sol.t[-2])
+    assert np.abs(step.p[-1] - sol.p[-1]).max() <= 1e-14
+
+
+def with_steps(system, method, n, times=None):
+    """Of one size, chosen by nothing else."""
+    return zd.simulate(system, 0.5, integrator=method, rtol=1e3, atol=1e3, first_step=0.5 / n, max_step=0.5 / n, t_eval=times)
+
+
+@pytest.mark.parametrize(("method", "steps", "slope"), [("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
+@pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
+def test_the_order_of_polynomials(system, method, steps, slope):
+    """What they miss within a step is one power of h more than their order, which is that of the method less one."""
+    times = np.linspace(0.013, 0.487, 11)
+    exact = zd.simulate(system, 0.5, step=0.5 / 400, integrator="dop853", t_eval=times)
+    errors = [np.abs(with_steps(system, method, n, times).p - exact.p).max() for n in steps]
+    if errors[1] > 1e-12:       # else it is rounding
+        assert np.log2(errors[0] / errors[1]) / np.log2(steps[1] / steps[0]) > slope

@@ -14,6 +14,11 @@ def created(options, core=None):
     _gateway.Run(core or pendulum._core, options, pendulum.p0, pendulum.v0)
 
 
+def between(core, options, p, v):
+    t = np.array([options.t0, options.t1])
+    return _gateway.states_between(core, options, t, np.vstack([p, p]), np.vstack([v, v]), None, False, np.array([t.mean()]))
+
+
 DOP853 = list(zd.integrators()).index("dop853")
 
 
@@ -80,7 +85,7 @@ def test_systems_that_the_core_refuses(changed, sentence):
         setattr(core.c, name, value)
     for call in (lambda: created(handed(), core), lambda: _gateway.acceleration(core, 0, 0, 0.0, np.zeros(2), np.zeros(2)),
                  lambda: _gateway.project(core, handed(), 0.0, np.zeros(2), np.zeros(2)),
-                 lambda: _gateway.step(core, handed(), np.zeros(2), np.zeros(2))):
+                 lambda: between(core, handed(), np.zeros(2), np.zeros(2))):
         with pytest.raises(zd.ZerodriftError, match=sentence):
             call()
 
@@ -88,7 +93,7 @@ def test_systems_that_the_core_refuses(changed, sentence):
 def test_an_energy_correction_without_potential_is_refused_by_the_core():
     core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
     with pytest.raises(zd.ZerodriftError, match=r"^energy correction needs V \(potential energy in J\)$"):
-        _gateway.step(core, handed(correction={"energy": {}}), np.zeros(1), np.zeros(1))
+        between(core, handed(correction={"energy": {}}), np.zeros(1), np.zeros(1))
 
 
 def test_a_start_that_is_not_finite_is_refused_by_the_core():
@@ -116,4 +121,4 @@ def test_a_step_by_an_integrator_that_does_not_suit_is_refused_by_the_core():
     edge = zd.systems.knife_edge()
     options = handed(integrator=list(zd.integrators()).index("rattle"))
     with pytest.raises(zd.ZerodriftError, match="rattle"):
-        _gateway.step(edge._core, options, edge.p0.copy(), edge.v0.copy())
+        between(edge._core, options, edge.p0, edge.v0)

@@ -48,7 +48,7 @@ from .runs import (
     project,
     row_bytes,
     settings,
-    step,
+    states_between,
     takes_direct,
     takes_embeddings,
 )
@@ -61,7 +61,7 @@ __all__ = [
     "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash",
     "count_steps", "default", "direct_unit", "doubles", "error_of", "find", "hand_far_sines", "in_library", "is_length",
     "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings",
-    "step", "takes_direct", "takes_embeddings", "terms_of",
+    "states_between", "takes_direct", "takes_embeddings", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

@@ -283,13 +283,20 @@ class Run:
                        self._redundant(statistics.rank), ffi.buffer(lib.zd_run_sizes(run), size)[:] if size else b"")
 
 
-def step(core: CoreSystem, options: Any, p: np.ndarray, v: np.ndarray) -> None:
-    """`zd_step`: one corrected step, p and v in place."""
-    core, message = core.for_run(), ffi.new("char[]", MESSAGE_SIZE)
-    status = lib.zd_step(core.c, options, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True), message,
-                         MESSAGE_SIZE)
+def states_between(core: CoreSystem, options: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
+                   ends_in_event: bool, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the rows t, p, v of a run."""
+    core, message, rows, count = core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
+    columns = {"t": doubles(t, rows), "p": doubles(p, rows * core.nq), "v": doubles(v, rows * core.nv)}
+    if energy_input is not None:
+        columns["input"] = doubles(energy_input, rows)
+    saved = ffi.new("zd_saved *", {"rows": rows, "ends_in_event": ends_in_event, **columns})
+    found_p, found_v = np.empty((count, core.nq)), np.empty((count, core.nv))
+    found = doubles(found_p, count * core.nq, writable=True), doubles(found_v, count * core.nv, writable=True)
+    status = lib.zd_states_between(core.c, options, saved, count, doubles(times, count), *found, message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))
+    return found_p, found_v
 
 
 def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float, p: np.ndarray,

@@ -1,0 +1,113 @@
+/* The step from a row to the row after it is made again, and its polynomial taken, as rows between chosen steps are made while a run goes on: with
+ * the same bits, as long as a step depends on nothing but where it begins. Where those take shorter steps instead, so does this.
+ *
+ * What a run measures its rows, energies and pivots by comes from its start, where this one has begun, too.
+ */
+#include "revisit.h"
+
+#include <string.h>
+
+static int64_t row_before(const zd_saved *saved, double t)
+{
+    int64_t low = 0, high = saved->rows;      /* it is in low ... high - 1 */
+    while (high - low > 1) {
+        const int64_t middle = low + (high - low) / 2;
+        if (saved->t[middle] <= t) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+static int place(zd_revisit *self, int64_t row)
+{
+    zd_motion *motion = &self->run->motion;
+    zd_stepper *stepper = &self->run->stepper;
+    const zd_saved *saved = self->saved;
+    const double *p = saved->p + row * motion->system.nq, *v = saved->v + row * motion->system.nv;
+    if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = saved->input[row];
+    return zd_stepper_place(stepper, saved->t[row], p, v);
+}
+
+static int make_step(zd_revisit *self, int64_t row)
+{
+    zd_stepper *stepper = &self->run->stepper;
+    const double *t = self->saved->t + row, step = self->run->settings.step;
+    const int is_last = row + 2 == self->saved->rows;
+    int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : t[1] - t[0]);
+    return status ? status : zd_stepper_land(stepper, t[1], row + 1, is_last);
+}
+
+static int is_at(const zd_revisit *self, int64_t row)
+{
+    const zd_point *point = self->run->motion.point;
+    const size_t nq = (size_t)point->system->nq, nv = (size_t)point->system->nv;
+    return !memcmp(point->p, self->saved->p + (size_t)row * nq, nq * sizeof(double))
+        && !memcmp(point->v, self->saved->v + (size_t)row * nv, nv * sizeof(double));
+}
+
+/* To the row, and onto the road that a step takes from there */
+static int begin(zd_revisit *self, int64_t row, int is_general)
+{
+    zd_motion *motion = &self->run->motion;
+    if (is_general) zd_direct_leave(motion);
+    int status = place(self, row);
+    if (!status && motion->road.direct && !is_general) zd_direct_choose(motion);
+    return status;
+}
+
+/* The same where a step of the direct road may have ended at the row: its end has the acceleration from another function, which may round another
+ * way, so that step is made first. */
+static int begin_from_before(zd_revisit *self, int64_t row)
+{
+    zd_motion *motion = &self->run->motion;
+    int status = begin(self, row, 0);
+    if (status || !motion->road.lands || row == 0) return status;
+    status = begin(self, row - 1, 0);
+    if (!status) status = make_step(self, row - 1);
+    if (status || !is_at(self, row)) return begin(self, row, 0);
+    zd_direct_choose(motion);
+    return ZD_DONE;
+}
+
+/* Where an event has ended the run, rows in its last step come from shorter ones. */
+static int may_have_polynomial(const zd_revisit *self, int64_t row)
+{
+    const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
+    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread && !self->run->motion.formulation->settle && !is_cut;
+}
+
+static int make_general_step(zd_revisit *self, int64_t row)
+{
+    int status = begin(self, row, 1);
+    return status ? status : make_step(self, row);
+}
+
+/* A run may have left the direct road in the step: that road is taken which leads to the row after, to the last bit, if one does. */
+static void make_again(zd_revisit *self, int64_t row)
+{
+    const zd_stepper *stepper = &self->run->stepper;
+    const int may_interpolate = may_have_polynomial(self, row), has_roads = self->run->motion.road.direct != NULL;
+    self->row = row;
+    self->is_general = self->has_polynomial = 0;
+    if (!may_interpolate && !has_roads) return;
+    int status = begin_from_before(self, row);
+    if (!status) status = make_step(self, row);
+    if (has_roads && (status || !is_at(self, row + 1))) {
+        const int general_status = make_general_step(self, row);
+        self->is_general = status || (!general_status && is_at(self, row + 1));
+        status = self->is_general ? general_status : begin(self, row, 0);
+        if (!status && !self->is_general) status = make_step(self, row);
+    }
+    self->has_polynomial = !status && may_interpolate && zd_stepper_spread(&self->run->stepper, stepper->last.t);
+}
+
+int zd_revisit_move(zd_revisit *self, double t)
+{
+    const int64_t row = row_before(self->saved, t);
+    if (t == self->saved->t[row]) return place(self, row);
+    if (row != self->row) make_again(self, row);
+    if (self->has_polynomial && !zd_stepper_land_between(&self->run->stepper, t)) return ZD_DONE;
+    self->has_polynomial = 0;
+    int status = begin(self, row, self->is_general);
+    return status ? status : zd_stepper_make_substep(&self->run->stepper, t);
+}
