@@ -68,7 +68,8 @@ def main():
     for dimension, of in parts.items():
         times = np.array(of["times"])
         joint, absolute = fitted(of["joint"], times[:, 0]), fitted(of["absolute"], times[:, 1])
-        print(f"dimension {dimension}, an operation: {joint[0]:.3g} s; weights in operations:", joint / joint[0], absolute / joint[0])
+        print(f"dimension {dimension}, an operation: {joint[0]:.3g} s; weights in operations:", joint / joint[0],
+              absolute / joint[0])
     header = ("mechanism", "n", "bodies", "joint us", "absolute us", "joint counted us", "absolute counted us", "faster", "taken",
               "time lost")
     (RESULTS / "coordinates.csv").write_text("\n".join(",".join(map(str, row)) for row in (header, *rows)) + "\n")
