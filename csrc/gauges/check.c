@@ -57,7 +57,8 @@ static int count_of(const tables *of, int quantity)
     case ZD_JOINT_TENSION: return of->joints;
     case ZD_EFFORT_VALUE:
     case ZD_EFFORT_POWER:
-    case ZD_EFFORT_FORCE: return of->uses->efforts;
+    case ZD_EFFORT_FORCE:
+    case ZD_EFFORT_TORQUE: return of->uses->efforts;
     case ZD_DRIVE_VALUE:
     case ZD_DRIVE_POWER: return of->uses->relations;
     default: return 0;
@@ -68,7 +69,7 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_observed *measure = of->uses->measure + i;
     const int quantity = measure->quantity, count = count_of(of, quantity), index = measure->index;
-    const int size = quantity <= ZD_ACCELERATIONS || quantity == ZD_EFFORT_FORCE ? measure->size : 1;
+    const int size = quantity <= ZD_ACCELERATIONS || quantity >= ZD_EFFORT_FORCE ? measure->size : 1;
     const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->uses->relation[index].terms : 1;
     return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
            zd_complain(to, "measure %s: what it is of is not there", measure->name);

@@ -9,7 +9,8 @@ int zd_observed_size(const zd_observed *measure, int of_forces, int of_torques)
     case ZD_ACCELERATIONS: return measure->size;
     case ZD_JOINT_FORCE:
     case ZD_EFFORT_FORCE: return of_forces;
-    case ZD_JOINT_TORQUE: return of_torques;
+    case ZD_JOINT_TORQUE:
+    case ZD_EFFORT_TORQUE: return of_torques;
     default: return 1;
     }
 }
@@ -34,7 +35,8 @@ int zd_observed_suffices(const zd_planned_uses *uses, const zd_observed *measure
     case ZD_RATES:
     case ZD_EFFORT_VALUE:
     case ZD_EFFORT_POWER:
-    case ZD_EFFORT_FORCE: return 1;
+    case ZD_EFFORT_FORCE:
+    case ZD_EFFORT_TORQUE: return 1;
     case ZD_ACCELERATIONS: return vdot != NULL;
     default: return vdot && (lambda || uses->m == 0);
     }

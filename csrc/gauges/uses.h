@@ -57,14 +57,15 @@ enum zd_quantity {
     ZD_EFFORT_POWER,            /* W: that it puts in */
     ZD_DRIVE_VALUE,             /* of relation `index`: the effort along the gauge of its term `term`, positive where it drives it up */
     ZD_DRIVE_POWER,
-    ZD_EFFORT_FORCE             /* N: what `size` efforts from `index` on do to their second body */
+    ZD_EFFORT_FORCE,            /* N: what `size` efforts from `index` on do to their second body */
+    ZD_EFFORT_TORQUE            /* N m: in space, the moments of such efforts, about the mass centre */
 };
 
 typedef struct zd_observed {
     const char *name, *unit;
     int quantity;               /* enum zd_quantity */
     int index;
-    int size;                   /* of values, rates and accelerations: how many gauges; of effort forces: how many efforts */
+    int size;                   /* of values, rates and accelerations: how many gauges; of effort forces and torques: how many efforts */
     double scale;               /* what it is multiplied with: -1 for tensions of springs */
     int term;                   /* of drive values: which of the relation's terms; else 0 */
 } zd_observed;

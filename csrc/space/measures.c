@@ -65,18 +65,20 @@ static void write_vector(zd_vector3 what, double *to)
     to[0] = what.x, to[1] = what.y, to[2] = what.z;
 }
 
-static int measure_effort_force(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
+/* Of efforts from measure->index on, the force or the moment on their second body */
+static int measure_efforts(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
-    zd_vector3 force = {0, 0, 0};
+    zd_vector3 sum = {0, 0, 0};
     double effort;
     int status = ZD_DONE;
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
         const zd_space_gauge *gauge = self->gauge + self->uses.effort[i].gauge;
         status = zd_effort_say(&self->uses, &readings, self->uses.effort + i, at->t, &effort, NULL);
-        force = zd_plus3(force, zd_times3(effort, zd_space_gauge_read(gauge, frame->pose).second.force));
+        const zd_wrench3 what = zd_space_gauge_read(gauge, frame->pose).second;
+        sum = zd_plus3(sum, zd_times3(effort, measure->quantity == ZD_EFFORT_FORCE ? what.force : what.torque));
     }
-    write_vector(force, value);
+    write_vector(sum, value);
     return status;
 }
 
@@ -88,7 +90,8 @@ static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, con
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
     case ZD_EFFORT_POWER: return zd_observed_effort(&self->uses, &readings, measure, at->t, value);
-    case ZD_EFFORT_FORCE: return measure_effort_force(self, frame, measure, at, value);
+    case ZD_EFFORT_FORCE:
+    case ZD_EFFORT_TORQUE: return measure_efforts(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
     case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
     default: break;

@@ -12,7 +12,7 @@ QUANTITIES = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "effort": lib.ZD_EFFORT_VALUE,
     "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
-    "effort force": lib.ZD_EFFORT_FORCE}
+    "effort force": lib.ZD_EFFORT_FORCE, "effort torque": lib.ZD_EFFORT_TORQUE}
 
 
 class Relation(NamedTuple):

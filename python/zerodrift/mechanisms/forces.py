@@ -180,6 +180,24 @@ class Bushing:
         return f"<bushing {self.name}: {self.first.body.name} - {self.second.body.name}>"
 
 
+class SpaceBushing(Bushing):
+    """A soft joint in space: springs and dampers along and about three directions of the first body, `Mechanism.bushing`.
+
+    Attributes
+    ----------
+    frames : tuple of ndarray (3, 3)
+        The rows are these directions, in the frame of the first body and of the second.
+    """
+
+    torque = vector("torque", "The moment that the first body exerts on the second, about the second's point, in the drawing's "
+                    "axes, in N m.")
+
+    def __init__(self, name: str, first: Point, second: Point, values: dict[str, float],
+                 frames: tuple[np.ndarray, np.ndarray]) -> None:
+        super().__init__(name, first, second, values)
+        self.frames = frames
+
+
 class Force:
     """A force at a point along a direction, `Mechanism.force`."""
 

@@ -8,13 +8,16 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from .._rotations import AXES
 from .bodies import Body, Particle, Point
 from .elements import Elements
 from .force_verbs import force_verb
-from .forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from .forces import Actuator, Bushing, Force, Motor, SpaceBushing, Spring, Torque, TorsionSpring
 from .joints import Joint
 from .made_forces import FORCES_BY_ROW
+from .space import perpendicular
 
+FLAT = 1e-6             # of the sine: what counts as parallel
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
           "force": ("displacement",)}
 
@@ -195,8 +198,8 @@ class ForceVerbs(Elements):
         return self._add(TorsionSpring(name, joint, stiffness, _check.number(f"angle of {name!r}", angle), damping))
 
     def bushing(self, name: str, first: Body | Point | str, second: Body | Point | str, *, at: Any = None,
-                stiffness: Any = (0.0, 0.0), damping: Any = (0.0, 0.0), torsion: float = 0.0,
-                torsion_damping: float = 0.0) -> Bushing:
+                stiffness: Any = 0.0, damping: Any = 0.0, torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None,
+                normal: Any = None) -> Bushing:
         """Join two bodies softly, by springs and dampers along and about the axes of the first.
 
         Parameters
@@ -204,16 +207,24 @@ class ForceVerbs(Elements):
         name : str
         first, second : Body, Point or name
             As of `revolute`. It is slack as drawn.
-        at : array_like (2,)
+        at : array_like (2,) or (3,)
             Where it is in the drawing, in m.
-        stiffness, damping : array_like (2,)
-            Along the first body's x and y axis, in N/m and N s/m, at least 0.
-        torsion, torsion_damping : float
-            In N m/rad and N m s/rad, at least 0.
+        stiffness, damping : array_like (2,) or (3,), or float
+            Along its directions, in N/m and N s/m, at least 0: in the plane the first body's x and y axis.
+        torsion, torsion_damping : float, in space or array_like (3,)
+            About them, in N m/rad and N m s/rad, at least 0.
+        axis, normal : array_like (3,), optional
+            In space its first direction in the drawing, and the second one, which is made perpendicular; the third follows. They
+            turn with the first body. Left out: that body's own axes.
 
         Returns
         -------
         Bushing
+
+        Notes
+        -----
+        In space the angle about a direction is that by which the next one has turned, as seen along it. So a turn about one
+        direction is that angle, and small ones about several are those of a linear model; none may come near half a turn.
 
         Examples
         --------
@@ -223,15 +234,32 @@ class ForceVerbs(Elements):
         >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
         <bushing mount: ground - engine>
         """
-        self._in_the_plane("bushing")
         name = self._new_name(name, "bushing")
         first, second = self._sides(name, first, second, at)
         self._turning(name, "bushing", first.body, second.body)
-        along, across = _pair("stiffness", name, stiffness), _pair("damping", name, damping)
-        values = {"stiffness.x": along[0], "stiffness.y": along[1], "damping.x": across[0], "damping.y": across[1],
-                  "torsion": _least("torsion", name, torsion),
-                  "torsion_damping": _least("torsion_damping", name, torsion_damping)}
+        given = {"stiffness": stiffness, "damping": damping}
+        turning = {"torsion": torsion, "torsion_damping": torsion_damping}
+        values = _of_axes(name, given | turning if self.dimension == 3 else given, self.dimension)
+        if self.dimension == 3:
+            return self._add(SpaceBushing(name, first, second, values, self._space_frames(name, first, second, axis, normal)))
+        if axis is not None or normal is not None:
+            raise ValueError(f"axis and normal of {name!r} are for mechanisms in space")
+        values |= {word: _least(word, name, value) for word, value in turning.items()}
         return self._add(Bushing(name, first, second, values))
+
+    def _space_frames(self, name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Three directions in the frames of both bodies; left out, those of the first body."""
+        if axis is None and normal is not None:
+            raise TypeError(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
+        frame = first.body.pose.rotation.T
+        if axis is not None:
+            axis = self._direction(f"axis of {name!r}", axis)
+            normal = None if normal is None else self._direction(f"normal of {name!r}", normal)
+            if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
+                raise ValueError(f"normal of {name!r} must not be parallel to its axis")
+            normal = perpendicular(axis, normal)
+            frame = np.stack([axis, normal, np.cross(axis, normal)])
+        return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
 
     def force(self, name: str, point: Point | Body | str, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
               frame: Body | str | None = None) -> Force:
@@ -343,6 +371,11 @@ def _least(quantity: str, name: str, value: Any) -> float:
     return _check.number(f"{quantity} of {name!r}", value, least=0)
 
 
-def _pair(quantity: str, name: str, value: Any) -> tuple[float, float]:
-    pair = _check.vector(f"{quantity} of {name!r}", np.broadcast_to(value, 2) if np.ndim(value) == 0 else value, 2)
-    return _least(quantity, name, float(pair[0])), _least(quantity, name, float(pair[1]))
+def _of_axes(name: str, given: dict[str, Any], dimension: int) -> dict[str, float]:
+    """The numbers of quantities along or about each axis, by their paths."""
+    found = {}
+    for quantity, value in given.items():
+        each = np.broadcast_to(value, dimension) if np.ndim(value) == 0 else value
+        for axis, number in zip(AXES, _check.vector(f"{quantity} of {name!r}", each, dimension), strict=False):
+            found[f"{quantity}.{axis}"] = _least(quantity, name, float(number))
+    return found

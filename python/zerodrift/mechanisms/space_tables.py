@@ -15,7 +15,7 @@ from .._rotations import AXES, quaternion_of
 from . import space_tree
 from .bodies import Body, Particle, Point
 from .drawing import Drawing
-from .forces import Actuator, Force, Spring, Torque, TorsionSpring
+from .forces import Actuator, Force, SpaceBushing, Spring, Torque, TorsionSpring
 from .numbers import Numbers
 from .space import triple
 from .space_bodies import SpaceInertias
@@ -146,6 +146,23 @@ class SpaceTables(Tables):
     def _torsion_spring(self, spring: TorsionSpring) -> None:
         gauge = self.coordinate_gauge_of(spring.joint, "angle")
         self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
+
+    def _bushing(self, bushing: SpaceBushing) -> None:     # type: ignore[override]
+        """Along each direction how far it is off, and about it how far the next one has turned, as seen along it."""
+        (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
+        near, far = ([self._direction(side.body, row) for row in frame]
+                     for side, frame in zip((bushing.first, bushing.second), bushing.frames, strict=True))
+        self.observed.append(rows.Observed(f"{bushing.name}.force", "N", "effort force", len(self.efforts), 3))
+        self.observed.append(rows.Observed(f"{bushing.name}.torque", "N m", "effort torque", len(self.efforts) + 3, 3))
+        apart = bushing.frames[0] @ bushing.first.body.pose.local_direction(
+            bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
+        gauges = [Gauge("along", first, second, point1, point2, a=near[i], zero=float(apart[i])) for i in range(3)]
+        gauges += [Gauge("angle", first, second, a=near[i - 2], o=near[i - 1], b=far[i - 2]) for i in range(3)]
+        quantities = [("stiffness", "damping")] * 3 + [("torsion", "torsion_damping")] * 3
+        for (stiffness, damping), gauge, axis in zip(quantities, gauges, (*AXES, *AXES), strict=True):
+            number = self._gauge(f"{bushing.name} {stiffness} {axis}", gauge)
+            values = (self.numbers(bushing, path, bushing.values[path]) for path in (f"{stiffness}.{axis}", f"{damping}.{axis}"))
+            self.efforts.append(rows.Effort("spring", number, *values))
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)
