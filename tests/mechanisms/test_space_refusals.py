@@ -172,3 +172,65 @@ def test_start_and_motor_in_each_others_way():
     m.motor("drive", "A", angle=lambda t: t)
     with pytest.raises(ValueError, match=r"start holds 'A\.speed', which motor 'drive' prescribes"):
         m.start({"A.speed": 1.0})
+
+
+def test_a_disc_that_falls_flat():
+    tilt = about((1, 0, 0), 0.5)
+    m = zd.Mechanism("coin", dimension=3, gravity=(0, 0, -9.81))
+    coin = m.body("coin", 1.0, (0.0125, 0.025, 0.0125), at=(0, 0, 0.1 * np.cos(0.5)), rotation=tilt)
+    m.rolling("floor", m.ground, coin, radius=0.1, axle=tilt @ (0, 1, 0))
+    with pytest.raises(zd.ZerodriftError, match=r"disc 'coin' of 'floor' falls flat: its axle is .* degrees off"):
+        zd.simulate(m, 2.0, step=1e-3)
+
+
+def hinged(bent):
+    """A four-bar whose second and third axes are bent by so many rad."""
+    m = zd.Mechanism("four-bar", dimension=3, gravity=(0, -9.81, 0))
+    places = (0, 0, 0), (0, 0.3, 0), (0.95, 0.6, 0), (1, 0, 0)
+    links = [m.link(f"link{i}", places[i], places[i + 1], 1.0) for i in range(3)]
+    ends = [m.ground.point(places[0]), *(end for link in links for end in (link.start, link.end)), m.ground.point(places[3])]
+    for i, (name, bend) in enumerate(zip("ABCD", (0, bent, -2 * bent, 0), strict=True)):
+        m.revolute(name, ends[2 * i], ends[2 * i + 1], axis=about((1, 0, 0), bend) @ (0, 0, 1))
+    return m
+
+
+def test_hinges_whose_axes_are_skew_are_named():
+    """No assembly moves: which of them, and by how much; and where all are parallel it runs."""
+    with pytest.raises(zd.SingularSystem, match=r"no body any motion.* 'B' 11\.5 degrees off, 'C' 22\.9 degrees off that of 'A'"):
+        zd.simulate(hinged(0.2), 0.1, step=0.01)
+    m = hinged(0.2)
+    m.start({"A.speed": 1.0})
+    with pytest.raises(zd.InconsistentStart, match=r"'A\.speed' asks for a velocity that the joints 'A', 'B', 'C', 'D' do"):
+        zd.simulate(m, 0.1, step=0.01)
+    assert zd.simulate(hinged(0.0), 0.02, step=0.01).success
+
+
+def test_shafts_at_a_right_angle():
+    """Hooke's joint hands no turning on past its singularity."""
+    m = zd.Mechanism("Hooke", dimension=3)
+    one, other = m.link("one", (-1, 0, 0), (0, 0, 0), 1.0), m.link("other", (0, 0, 0), (0, 1, 0), 1.0)
+    m.revolute("in", m.ground, one.start, axis=(1, 0, 0))
+    m.cylindrical("out", m.ground, other.end, axis=(0, 1, 0))
+    m.universal("cross", one.end, other.start, axes=((0, 0, 1), (-1, 0, 0)))
+    m.motor("drive", "in", speed=3.0)
+    with pytest.raises(zd.ZerodriftError, match=r"universal joint 'cross' about the axes of 'in' and 'out' are 90 degrees apart"):
+        zd.simulate(m, 2.0, step=2e-3)
+
+
+def test_a_singular_pose_has_a_way_out():
+    """A parallelogram in line: told apart from redundant rows, refused with what helps, and it runs from beside."""
+    m = zd.Mechanism("parallelogram", dimension=3)
+    places = (0, 0, 0), (1, 0, 0), (3, 0, 0), (2, 0, 0)
+    links = [m.link(f"link{i}", places[i], places[i + 1], 1.0) for i in range(3)]
+    ends = [m.ground.point(places[0]), *(end for link in links for end in (link.start, link.end)), m.ground.point(places[3])]
+    for i, name in enumerate("ABCD"):
+        m.revolute(name, ends[2 * i], ends[2 * i + 1], axis=(0, 0, 1))
+    said = str(m)
+    assert "3 of 20 rows follow from others" in said
+    assert "a singular pose: " in said
+    with pytest.raises(zd.Bifurcation, match=r"zd\.assemble\(m, nudge=True\) starts beside it"):
+        zd.simulate(m, 0.1, step=0.01)
+    p, v = zd.assemble(m, nudge=True)
+    sol = zd.simulate(m.system(), 0.1, p, v, step=0.01)
+    assert sol.success
+    assert np.abs(sol.position_violation).max() < 1e-11

@@ -23,7 +23,8 @@ def at_start(error: str, drawing: Drawing, numbers: Numbers, constraints: Sequen
     """Of an error at the start: bodies without mass, or rows that are singular as drawn."""
     if "mass matrix" in error:
         return _of_mass(drawing, numbers)
-    rows = sorted(set(map(int, re.findall(r"\brow (\d+)", error))))
+    said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one row, or several
+    rows = sorted(set(map(int, re.findall(said, error))))
     if not rows or "follow" not in error:
         return None
     is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor | Actuator) for row in rows)

@@ -17,7 +17,7 @@ from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
 from ..systems.tables import NumberTables, refusals
-from . import advice, cost
+from . import advice, cost, space_advice
 from .arrows import acting, chosen
 from .compiled import Written
 from .describing import described
@@ -275,10 +275,19 @@ class MechanismSystem(BaseSystem):
 
     def _advice(self, error: Exception) -> str | None:
         """What helps where the start is singular."""
+        if isinstance(self._tables, SpaceTables) and "follow" in str(error):
+            tables, assembly, p = self._start.closed(0.0)
+            told = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
+            if told:
+                return told
         return advice.at_start(str(error), self._drawing, self._numbers, self.constraints)
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """Whether a motor has come to a dead centre."""
+        """Whether a motor has come to a dead centre; in space, whether a disc falls flat, or shafts are at a right angle."""
+        if isinstance(self._tables, SpaceTables):
+            told = space_advice.on_failure(self._started_tables, self._interpreted, t, p)
+            if told:
+                return told
         return advice.dead_centre(self._started_tables, self._interpreted, t, p)
 
 
