@@ -1,6 +1,8 @@
 """What happens at the extremes: scales, energies that cannot be corrected, large steps, bifurcations, stiffness. In tables.
 
 Run it with ``python tests/stress/extremes.py``; it prints the tables and writes them to ``tests/bench/results/extremes.md``.
+With names of integrators, ``python tests/stress/extremes.py rk4 dop853``, it draws among these and only prints: a new one changes
+all that is drawn after it, so that tables before and after it compare only where it is left out.
 """
 
 import itertools
@@ -23,6 +25,7 @@ RESULTS = HERE.parent / "bench" / "results" / "extremes.md"
 TRIALS = 4000
 NEARLY = 1000
 DECADES = np.logspace(-3, 3, 13)
+METHODS = sys.argv[1:] or list(zd.integrators())
 
 
 def table(title, columns, rows):
@@ -55,7 +58,7 @@ def scaling():
              "masses * 2^30": Units(mass=2.0**30), "times * 2^10": Units(time=2.0**10)}
     for (what, u), name in itertools.product(units.items(), MECHANISMS):
         found, same = [], 0
-        for formulation, integrator in itertools.product(zd.formulations(), zd.integrators()):
+        for formulation, integrator in itertools.product(zd.formulations(), METHODS):
             one, other = (run(name, each, formulation=formulation, integrator=integrator) for each in (Units(), u))
             found.append(difference(one, other))
             same += all(np.array_equal(one[key], other[key]) for key in one)
@@ -95,7 +98,7 @@ def large_steps():
         bar = zd.systems.four_bar(lengths=LENGTHS[rng.integers(3)], assembly=["open", "crossed"][rng.integers(2)],
                                   crank_angle=rng.uniform(-3, 3), crank_rate=rate)
         h = 10 ** rng.uniform(-2, 0.3)
-        options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(list(zd.integrators()))}
+        options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(METHODS)}
         sol, _ = listened(bar, 30 * h, step=h, **{name: str(value) for name, value in options.items()})
         speed = np.abs(sol.v).max() * h
         count = counts[max(edge for edge in counts if speed >= edge)]
@@ -120,7 +123,7 @@ def bifurcations():
             bar = zd.systems.four_bar(lengths=(1 + off, 0.3, 1, 0.3), gravity=rng.choice([0.0, 9.81]),
                                       crank_angle=rng.uniform(1.2, 1.9), crank_rate=rng.uniform(5, 15))
             chosen = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-11}
-            options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(list(zd.integrators())),
+            options = {"formulation": rng.choice(list(zd.formulations())), "integrator": rng.choice(METHODS),
                        "on_singular": rng.choice(["stop", "continue"])}
             options = {name: str(value) for name, value in options.items()} | {"energy": bool(rng.integers(2)) or None}
             true, _ = listened(bar, 0.5, on_singular="stop" if off else "continue", **chosen)
@@ -138,7 +141,7 @@ def bifurcations():
 
 def stiffness():
     """An oscillator for 1000 steps: the amplitude it ends with, of the true one."""
-    for integrator in zd.integrators():
+    for integrator in METHODS:
         cells = []
         for omega_h in DECADES:
             oscillator = zd.systems.oscillator(mass=1.0, stiffness=100.0)
@@ -166,7 +169,8 @@ def main():
               ("integrator", *(f"{x:.3g}" for x in DECADES)), stiffness()),
     ])
     print(text)
-    RESULTS.write_text(text, encoding="utf-8")
+    if not sys.argv[1:]:
+        RESULTS.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -20,6 +20,8 @@ VCVARSALL = Path("VC", "Auxiliary", "Build", "vcvarsall.bat")
 
 
 def program(path, text="exit 0"):
+    if os.name == "nt":
+        pytest.skip("what stands for a compiler is a script of POSIX' shell")
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/sh\n{text}\n")
     path.chmod(0o755)

@@ -3,6 +3,7 @@
 import functools
 import os
 import pickle
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -275,8 +276,7 @@ def test_progress_is_shown_when_it_takes_long(monkeypatch, capsys):
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     zd.symbolic([R], **(given | {"potential": sp.cos(R) / 2}))
-    said = capsys.readouterr().err
-    assert "zerodrift: slow: compiling (0 s so far)" in said
+    assert re.search(r"zerodrift: slow: compiling \(\d s so far\)", capsys.readouterr().err)
     zd.symbolic([R], **(given | {"potential": sp.cos(R) / 3}), progress=False)
     assert capsys.readouterr().err == ""
 

@@ -155,7 +155,7 @@ def _not_from_positions(holonomic: list[Any], velocity: list[Any], q: Any, u: An
         numbers = np.array(rows.xreplace({x: sympy.Float(value) for x, value in values.items()}), dtype=float)
         basis = list(numbers[: len(holonomic)])
         for i, row in enumerate(numbers[len(holonomic):]):
-            fit = np.linalg.lstsq(np.array(basis).T, row)[0]
+            fit = np.linalg.lstsq(np.array(basis).T, row, rcond=None)[0]
             if np.abs(row - np.array(basis).T @ fit).max() > DEPENDENT * np.abs(row).max():
                 independent.add(i)
                 basis.append(row)
