@@ -30,12 +30,27 @@ static int embed(const void *data, double t, const double *q, double *p)
     return self->system->embed(self->system->data, t, q, p);
 }
 
+/* Of the terms that have been written, perturbed. */
+static void times_A(const void *data, const zd_terms *terms, const double *x, double *y)
+{
+    const zd_system *inner = ((const zd_perturbation *)data)->system;
+    inner->operations->times_A(inner->data, terms, x, y);
+}
+
+static void follow(const void *data, double *p)
+{
+    const zd_system *inner = ((const zd_perturbation *)data)->system;
+    inner->follow(inner->data, p);
+}
+
 zd_system zd_perturbed(const zd_perturbation *perturbation)
 {
     zd_system system = *perturbation->system;
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
-    system.operations = NULL;   /* of the terms as they are */
+    static const zd_operations rates = {.times_A = times_A};
+    system.operations = system.followers ? &rates : NULL;      /* the others are of the terms as they are */
+    system.follow = system.follow ? follow : NULL;
     system.direct = NULL;
     system.directs = 0;
     system.embed = system.embed ? embed : NULL;

@@ -107,3 +107,10 @@ def test_what_is_no_number_or_negative_is_named_by_its_argument(name):
         if argument.rpartition("_")[2] in ("mass", "inertia", "stiffness", "damping", "radius", "length", "arm", "crank", "rod"):
             with pytest.raises(ValueError, match=argument):
                 IN_SPACE[name](**{argument: -0.1})
+
+
+def test_a_motion_in_space_has_a_certified_reference():
+    """Which compares it with one of a system whose terms are off by rounding, with angles that follow as well."""
+    found = zd.reference(zd.models.bennett(), 0.05, error=1e-9)
+    assert found.error <= 1e-9
+    assert np.ptp(found.solution["B.angle"]) > 0.05
