@@ -11,7 +11,7 @@ import zerodrift as zd
 from zerodrift import _gateway
 
 ROOT = Path(__file__).resolve().parent.parent
-FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators())
+FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators(zd.systems.four_bar()))
 
 
 def _instances():

@@ -7,6 +7,7 @@
 typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
+    int takes_series;       /* whether its steps are those of the system's series, in (p, v) and of the constraints as they are: see zd_series */
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
     /* given: the parameters that its card lists */
     void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
@@ -15,6 +16,10 @@ typedef struct zd_integrator {
     int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);
     /* By what the error of the next step will be measured, about: (size,). NULL: it makes no difference to the step. */
     void (*weigh)(void *self, int size, const double *scale);
+    /* What is allowed where steps are chosen, once, before the first. NULL: it makes no difference. */
+    void (*aim)(void *self, double rtol, double atol);
+    /* The longest step from y at t on whose error is allowed, in units of scale, where that is known before it is made; NULL: it is not. */
+    int (*foresee)(void *self, const zd_rate *rate, double t, const double *y, const double *scale, double *h);
     double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* The error of the step just made to y at t1, root mean square in units of scale, and |lambda h| of what changes fastest
      * there, 0: not known; NULL where card.error_order is 0. */

@@ -17,7 +17,7 @@ double zd_root(double x, int k)
     exponent--;
     int whole = exponent / k - (exponent % k < 0), rest = exponent - k * whole;     /* x = mantissa 2^rest (2^whole)^k */
     double reduced = ldexp(mantissa, rest), y = 1 + (rest + mantissa - 1) / k;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < (k > 16 ? 8 : 3); i++) {
         double now = power(y, k);
         y *= ((k - 1) * now + (k + 1) * reduced) / ((k + 1) * now + (k - 1) * reduced);
     }

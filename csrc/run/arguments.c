@@ -154,11 +154,39 @@ int zd_check_system(const zd_system *system, char *message, int size)
     return wrong ? ZD_BAD_ARGUMENT : zd_check_interface(system, message, size);
 }
 
+/* A motion's series is that of p and v, with the constraints as they are. */
+int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
+{
+    const zd_integrator *integrator = zd_integrator_of(settings->integrator);
+    const zd_formulation *formulation = zd_formulation_of(settings->formulation);
+    const size_t room = (size_t)size;
+    int said = 0;
+    if (!integrator || !integrator->takes_series) return ZD_DONE;
+    if (formulation->settle)
+        said = snprintf(message, room, "'%s' makes its steps in all of p and v, and the state of '%s' is part of them: 'schur', 'augmented' and "
+                        "'nullspace' follow the same motion", integrator->card.name, formulation->card.name);
+    for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !said; row++)
+        if (settings->correction[row].given && zd_correction_of(row)->stabilize)
+            said = snprintf(message, room, "'%s' has the series of constraints as they are, which '%s' changes: 'projection' does not",
+                            integrator->card.name, zd_correction_of(row)->card.name);
+    return said ? ZD_UNSUITED_INTEGRATOR : ZD_DONE;
+}
+
+static int check_series(const zd_system *system, const zd_settings *settings, char *message, int size)
+{
+    const zd_integrator *integrator = zd_integrator_of(settings->integrator);
+    if (!integrator->takes_series || system->series) return zd_check_methods_agree(settings, message, size);
+    snprintf(message, (size_t)size, "'%s' takes systems that bring Taylor series, as compiled ones of expressions do, and this one brings none",
+             integrator->card.name);
+    return ZD_UNSUITED_INTEGRATOR;
+}
+
 int zd_check_method(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     int status = zd_check_system(system, message, size);
     if (!status) status = refuse(wrong_rows(settings), message, size);
     if (!status) status = check_given(system, settings, message, size);
+    if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {
         snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: it takes such "

@@ -32,6 +32,11 @@ int zd_takes_embeddings(const zd_settings *settings)
     return zd_formulation_of(settings->formulation)->settle != NULL;
 }
 
+int zd_takes_series(const zd_settings *settings)
+{
+    return zd_integrator_of(settings->integrator)->takes_series;
+}
+
 int zd_may_have_direct(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
@@ -62,6 +67,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_variables dependent = zd_variables_of(motion, integrator, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
                     independent);
+    /* Also of a step that is made again, whose size is given, but whose run chose it. */
+    if (run->stepper.memory && integrator->aim && settings->atol > 0) integrator->aim(run->stepper.memory, settings->rtol, settings->atol);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->course = (zd_course){
         .settings = &run->settings,

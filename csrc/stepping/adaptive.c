@@ -62,6 +62,7 @@ int zd_adaptive_start(zd_course *course, double *work)
     const zd_rate *rate = &course->motion->rate;
     double *f0 = work, *f1 = f0 + n, *y1 = f1 + n, *y = stepper->y, t = stepper->t;
     control->h = settings->first_step;
+    if (!(control->h > 0) && stepper->integrator->foresee) control->h = INFINITY;
     if (control->h > 0) return ZD_DONE;
     set_scale(course, y, y);
     int status = rate->evaluate(rate->context, t, y, f0);
@@ -96,6 +97,19 @@ static void weigh(zd_course *course)
     zd_stepper *stepper = course->stepper;
     set_scale(course, stepper->y, stepper->y);
     stepper->integrator->weigh(stepper->memory, course->motion->rate.size, course->control.scale);
+}
+
+/* No step is begun that is known to be too long. */
+static int foresee(zd_course *course)
+{
+    zd_stepper *stepper = course->stepper;
+    zd_control *control = &course->control;
+    double longest;
+    if (!stepper->integrator->foresee) return ZD_DONE;
+    set_scale(course, stepper->y, stepper->y);
+    int status = stepper->integrator->foresee(stepper->memory, &course->motion->rate, stepper->t, stepper->y, control->scale, &longest);
+    if (!status) control->h = fmin(control->h, longest);
+    return status;
 }
 
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
@@ -150,6 +164,8 @@ int zd_adaptive_step(zd_course *course)
     if (most && course->step > most) return ZD_TOO_MANY_STEPS;
     double t = course->stepper->t, norm = 0, largest = LARGEST;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(course->end));
+    int foreseen = foresee(course);
+    if (foreseen) return foreseen;
     for (;;) {
         double h = bounded(course, course->control.h), t1 = h == course->end - t ? course->end : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;

@@ -53,6 +53,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.follow = system.follow ? follow : NULL;
     system.direct = NULL;
     system.directs = 0;
+    system.series = NULL;
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;
     return system;

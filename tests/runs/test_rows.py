@@ -88,6 +88,8 @@ def test_settings_are_values(argument, card):
 @all_rows
 def test_a_run_takes_settings_and_keeps_them(argument, card, bar, tmp_path):
     """With those that a row has at first, it is the run that its name asks for; and a saved run can be repeated."""
+    if argument == "integrator" and card.name not in zd.integrators(bar):
+        pytest.skip("takes systems of expressions alone")
     how = {"stabilization": None} if argument == "correction" else {}
     by_name = motion(bar, 0.2, 10, **how, **{argument: card.name})
     for i, made in enumerate(settings_of(card)):

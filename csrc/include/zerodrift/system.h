@@ -216,11 +216,12 @@ typedef struct zd_direct {
     const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); of one lane alone */
 } zd_direct;
 
-/* Taylor coefficients of the motion from (t, p, v) on: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being p and v. */
+/* Taylor coefficients of the motion from (t, p, v) on, up to t^order: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being
+ * p and v; and work (order + 1,), NULL: not wanted, of the energy that comes in (28), the first one being 0. Not 0: there are none here. */
 typedef struct zd_series {
-    int scratch;            /* doubles that a call needs, for each order */
+    int scratch;            /* doubles that a call needs, for each order and one more */
     int (*evaluate)(const void *data, int order, double t, const double *p, const double *v, double *p_series, double *v_series,
-                    double *scratch);
+                    double *work, double *scratch);
 } zd_series;
 
 /* Named functions of the motion, such as where a point is or what goes through a joint. */

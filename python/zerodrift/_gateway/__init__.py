@@ -45,12 +45,15 @@ from .runs import (
     accelerations,
     count_steps,
     direct_unit,
+    disagreement,
     project,
     row_bytes,
+    row_takes_series,
     settings,
     states_between,
     takes_direct,
     takes_embeddings,
+    takes_series,
 )
 from .systems import CoreSystem, Kind, kinds
 
@@ -59,9 +62,9 @@ __all__ = [
     "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TAKE_FAR_SINES", "TERMS", "VERSION", "Card", "CoreSystem",
     "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record",
     "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash",
-    "count_steps", "default", "direct_unit", "doubles", "error_of", "find", "hand_far_sines", "in_library", "is_length",
-    "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "required", "row_bytes", "settings",
-    "states_between", "takes_direct", "takes_embeddings", "terms_of",
+    "count_steps", "default", "direct_unit", "disagreement", "doubles", "error_of", "find", "hand_far_sines", "in_library",
+    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "required", "row_bytes",
+    "row_takes_series", "settings", "states_between", "takes_direct", "takes_embeddings", "takes_series", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

@@ -47,6 +47,22 @@ def takes_direct(core: CoreSystem, options: Any) -> bool:
     return bool(lib.zd_takes_direct(options) and lib.zd_may_have_direct(core.c, options))
 
 
+def disagreement(options: Any) -> str:
+    """Why formulation, integrator and corrections of these settings do not go together; empty: they do."""
+    message = ffi.new(MESSAGE)
+    return text(message) if lib.zd_check_methods_agree(options, message, MESSAGE_SIZE) else ""
+
+
+def takes_series(options: Any) -> bool:
+    """Whether the integrator of these settings makes its steps by the series of the system."""
+    return bool(lib.zd_takes_series(options))
+
+
+def row_takes_series(integrator: int) -> bool:
+    """The same of a row of the table of integrators."""
+    return takes_series(settings({"integrator": integrator}))
+
+
 def takes_embeddings(options: Any) -> bool:
     """Whether these are those for formulations in independent velocities."""
     return bool(lib.zd_takes_embeddings(options))

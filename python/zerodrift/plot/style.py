@@ -13,9 +13,10 @@ from matplotlib.figure import Figure
 from .. import _check
 from .._gateway import Variable
 
-# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last three are Tol's wine, olive and
-# indigo. There have to be as many as there are integrators.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255", "#999933", "#332288")
+# Okabe and Ito's colours, told apart with any colour vision, dark ones first; the last four are Tol's wine, olive,
+# indigo and teal. There have to be as many as there are integrators.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9", "#882255", "#999933", "#332288",
+           "#44AA99")
 
 
 def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,

@@ -224,8 +224,16 @@ def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
     table = TABLES["integrators"]
     if system is None:
         return CardTable(table)
-    core = core_of(system_of(system))
-    return CardTable({name: card for row, (name, card) in enumerate(table.items()) if core.suits(row)})
+    system = system_of(system)
+    core = core_of(system)
+    return CardTable({name: card for row, (name, card) in enumerate(table.items())
+                      if core.suits(row) or (_gateway.row_takes_series(row) and system._brings_series)})
+
+
+def evaluating_integrators(system: BaseSystem) -> dict[str, Row]:
+    """Those that take nothing of the system but its terms."""
+    return {name: card for row, (name, card) in enumerate(TABLES["integrators"].items())
+            if core_of(system).suits(row) and not _gateway.row_takes_series(row)}
 
 
 def corrections() -> dict[str, Row]:

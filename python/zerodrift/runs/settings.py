@@ -17,7 +17,8 @@ from .rows import (
     ARGUMENTS,
     TABLES,
     RowSettings,
-    formulations,  # noqa: F401, as studies ask for it here
+    evaluating_integrators,  # noqa: F401, as studies ask for it here
+    formulations,  # noqa: F401
     integrators,
     name_of,
     row_of,
@@ -286,6 +287,11 @@ def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: b
         "formulation": formulation_row(formulation), "integrator": integrator_row(integrator),
         "on_singular": on_singular_row(on_singular), "direct": direct, "vector": vector,
         **given(formulation, integrator, *corrections)})
+
+
+def disagreement(chosen: dict[str, Any]) -> str:
+    """Why methods of a solution's settings do not go together; empty: they do."""
+    return _gateway.disagreement(core_settings((0.0, 0.0), chosen))
 
 
 def given(*chosen: Any) -> dict[str, Any]:

@@ -233,7 +233,8 @@ class _Motion:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
         self.start = system._state_or_start(p0, v0, t=span[0])
         self.bounded = bounds["max_step"] is not None
-        cards = sorted(settings.integrators(system).values(), key=lambda card: -card.order)     # as they stand, where equal
+        taken = settings.evaluating_integrators(system)
+        cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
         self.method, self.other = cards[0].name, cards[1].name
         with unwarned():
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,

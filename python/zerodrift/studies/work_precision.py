@@ -259,6 +259,7 @@ def work_precision(
         for formulation, integrator, stabilization, corrected in itertools.product(
             formulations, integrators, stabilizations, energy)
         for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
+    combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
         raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
     rounds = _check.count("rounds", rounds)
@@ -364,7 +365,7 @@ def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: I
 
 def default_steps(system, span, p0, v0) -> list[float]:
     """Fixed steps around the mean one of an accurate run, in s."""
-    method = max(settings.integrators().values(), key=lambda card: card.order).name
+    method = max(settings.evaluating_integrators(system).values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,
                      formulation=next(iter(settings.formulations(system))))
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

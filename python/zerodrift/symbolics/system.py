@@ -14,12 +14,14 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
-from ..errors import NoCompilerWarning
+from ..errors import NoCompilerWarning, UnsuitedIntegrator
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from ..systems.structure import Structure, checked
 from ..systems.tables import NumberTables, not_finite, refusals
 from . import compilers, compiling
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
+from .series import SERIES
+from .series_functions import SeriesFunctions
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,7 @@ class SymbolicSystem(BaseSystem):
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
         self._direct = direct or DirectFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
+        self._series = SeriesFunctions(code.program, code.sizes)
         self._library = compiling.library(code.c_source, progress, meanwhile=self._direct.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
@@ -110,6 +113,18 @@ class SymbolicSystem(BaseSystem):
 
     def _why_not_direct(self, embeds: bool = False) -> str:
         return self._functions(embeds).why_none if self.compiled else NO_COMPILER
+
+    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        if not self.compiled:
+            return core
+        if self._series.why_none:
+            raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
+        library = self._series.library(vector)
+        return core.with_series(_gateway.address_of(library, SERIES), library)
+
+    @property
+    def _brings_series(self) -> bool:
+        return self.compiled and not self._series.why_none
 
     def _functions(self, embeds: bool) -> DirectFunctions:
         return self._direct.embedding if embeds else self._direct

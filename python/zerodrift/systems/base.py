@@ -318,6 +318,15 @@ class BaseSystem:
             raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
         return self._watching.unique(getattr(name, "name", name), solution)
 
+    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        """That core of the system with the Taylor series of its motion, where there is one."""
+        return core
+
+    @property
+    def _brings_series(self) -> bool:
+        """Whether there is one."""
+        return False
+
     def _what_it_costs(self, steps: int | None) -> str | None:
         """What so many steps (None: nobody knows how many) cost, where they could cost far less; None: they could not."""
         return None
@@ -390,6 +399,9 @@ def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSyste
     core = core_of(system)
     if _gateway.takes_direct(core, options):
         core = system._direct_core(vector, _gateway.takes_embeddings(options))
+        core.name_rows(system)
+    if _gateway.takes_series(options):
+        core = system._with_series(core, vector)
         core.name_rows(system)
     return core
 

@@ -1,0 +1,310 @@
+"""Taylor coefficients of a motion as C: `zd_series` of the core's interface.
+
+Terms of order k have in them the coefficients of order k of what they depend on, times known numbers, and sums over those of
+lower orders. The latter are independent of each other, and are formed for all products at once, side by side in the lanes of a
+vector; the former are a straight line. Then
+
+    [M_0  C_0^T] [a_k     ]   [f_k - d_k - sum_(j < k) (M_(k-j) a_j + C_(k-j)^T lambda_j)]
+    [C_0    0  ] [lambda_k] = [xi_k      - sum_(j < k)  C_(k-j) a_j                      ]        (8)
+
+with one inverse for all orders, v_(k+1) = a_k / (k + 1) and p_(k+1) = (A v)_k / (k + 1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from .elimination import Unwritten
+from .emission import indented
+from .jets import Jet, Jets
+
+TERMS = ("A", "M", "d", "f", "C", "xi", "power", "Phi_t")
+SERIES = "zd_symbolic_series"       # what the descriptor is called in its library
+MOST_STATEMENTS = 2000              # of one order
+TURNS = ("sin", "cos")
+HEAD = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/series.h>",
+        "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
+        "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
+TOGETHER = 8                        # sums are formed of so many products: ZD_SERIES_TOGETHER
+SIGNATURE = ["ZD_SERIES_ON static int evaluate(const void *data, int orders, double t, const double *restrict p,",
+             "    const double *restrict v, double *restrict P, double *restrict V, double *restrict E,",
+             "    double *restrict scratch)"]
+
+Row = tuple[str, int]       # of coefficients: ("jet", number), ("weighted", number), ("a", j), ("lambda", l), ("v", j)
+
+
+class _Sums:
+    """Which pairs of rows are summed over, sum_(0 < j < k) x_j y_(k-j), each once."""
+
+    def __init__(self) -> None:
+        self.pairs: dict[tuple[Row, Row], int] = {}
+
+    def of(self, x: Row, y: Row) -> str:
+        """What such a sum is called."""
+        if x[0] != "weighted" and y < x:
+            x, y = y, x
+        return f"sum[{self.pairs.setdefault((x, y), len(self.pairs))}]"
+
+
+class _Writer:
+    """Both parts of the function: the values, and the coefficients of one order."""
+
+    def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int]) -> None:
+        self.nq, self.nv, mh, mn = sizes
+        self.m, self.jets, self.sums = mh + mn, Jets(program, TERMS), _Sums()
+        self.operations, self.terms = self.jets.operations, self.jets.terms
+
+    # ---- values ----
+
+    def values(self) -> list[str]:
+        """Statements of all operations, at the beginning; sines and cosines side by side."""
+        lines: list[str] = []
+        numbers = list(range(len(self.operations)))
+        while numbers:
+            turns, later, waiting = [], [], set[int]()
+            for number in numbers:
+                if not waiting.isdisjoint(self._needed(number)):
+                    later.append(number)
+                    waiting.add(number)
+                elif self.operations[number].name in TURNS:
+                    turns.append(number)
+                    waiting.add(number)
+                else:
+                    lines.append(f"const double z{number} = {self._value(self.operations[number])};")
+            lines += self._turned(turns) if turns else []
+            numbers = later
+        return lines
+
+    def _needed(self, number: int) -> Iterable[int]:
+        jet = self.operations[number]
+        if jet.kind in ("leaf", "number"):
+            return ()
+        return jet.arguments[:1] if jet.kind in ("along", "against") else jet.arguments
+
+    def _turned(self, turns: list[int]) -> list[str]:
+        angles = list(dict.fromkeys(self.operations[number].arguments[0] for number in turns))
+        first, count = turns[0], len(angles)
+        lines = [f"const double angle{first}[{count}] = {{{', '.join(f'z{angle}' for angle in angles)}}};",
+                 f"double sin{first}[{count}], cos{first}[{count}];", f"zd_sines({count}, angle{first}, sin{first}, cos{first});"]
+        return lines + [f"const double z{number} = {jet.name}{first}[{angles.index(jet.arguments[0])}];"
+                        for number in turns for jet in [self.operations[number]]]
+
+    def _value(self, jet: Jet) -> str:
+        kind, arguments = jet.kind, jet.arguments
+        if kind == "leaf":
+            return {"parameter": f"k[{arguments[1]}]", "t": "t"}.get(arguments[0], f"{arguments[0]}[{arguments[1]}]")
+        if kind == "number":
+            return repr(float(arguments[0]))
+        names = [f"z{argument}" for argument in arguments]
+        if kind in "+-*/":
+            return f"{names[0]} {kind} {names[1]}"
+        named = {"negative": "-{0}", "root": "sqrt({0})", "power": "pow({0}, {1})", "atan2": "atan2({0}, {1})",
+                 "along": f"{jet.name}({{0}})", "against": f"{jet.name}({{0}})"}
+        return named[kind].format(*names) if kind in named else f"{jet.name}({', '.join(names)})"
+
+    # ---- coefficients ----
+
+    def coefficients(self) -> list[str]:
+        """Statements of the coefficients of one order, of all that is not fixed."""
+        return [f"const double y{number} = {self._coefficient(number, jet)};"
+                for number, jet in enumerate(self.operations) if not jet.is_fixed]
+
+    def _coefficient(self, number: int, jet: Jet) -> str:
+        kind, arguments = jet.kind, jet.arguments
+        if kind == "leaf":
+            name, place = arguments
+            return "order == 1" if name == "t" else f"{name.upper()}[order * {self._size(name)} + {place}]"
+        if kind in ("+", "-"):
+            return self._sum(kind, *arguments)
+        return getattr(self, f"_of_{NAMES.get(kind, kind)}")(number, *arguments)
+
+    def _size(self, leaf: str) -> int:
+        return self.nq if leaf == "p" else self.nv
+
+    def _is_fixed(self, number: int) -> bool:
+        return self.operations[number].is_fixed
+
+    def _sum(self, sign: str, a: int, b: int) -> str:
+        if self._is_fixed(a):
+            return f"y{b}" if sign == "+" else f"-y{b}"
+        return f"y{a}" if self._is_fixed(b) else f"y{a} {sign} y{b}"
+
+    def _of_negative(self, number: int, a: int) -> str:
+        return f"-y{a}"
+
+    def _of_product(self, number: int, a: int, b: int) -> str:
+        if self._is_fixed(a) or self._is_fixed(b):
+            return f"z{a} * y{b}" if self._is_fixed(a) else f"y{a} * z{b}"
+        ends = f"2 * z{a} * y{a}" if a == b else f"(z{a} * y{b} + y{a} * z{b})"
+        return f"{self.sums.of(('jet', a), ('jet', b))} + {ends}"
+
+    def _of_quotient(self, number: int, a: int, b: int) -> str:
+        if self._is_fixed(b):
+            return f"y{a} / z{b}"
+        above = f"{self.sums.of(('jet', number), ('jet', b))} + z{number} * y{b}"
+        return f"-({above}) / z{b}" if self._is_fixed(a) else f"(y{a} - ({above})) / z{b}"
+
+    def _of_root(self, number: int, a: int) -> str:
+        return f"0.5 * (y{a} - {self.sums.of(('jet', number), ('jet', number))}) / z{number}"
+
+    def _of_power(self, number: int, a: int, exponent: int) -> str:
+        of_base = self.sums.of(("weighted", a), ("jet", number))
+        of_power = self.sums.of(("weighted", number), ("jet", a))
+        return f"(z{exponent} * (y{a} * z{number} + share * {of_base}) - share * {of_power}) / z{a}"
+
+    def _of_along(self, number: int, u: int, w: int) -> str:
+        sign = "-" if self.operations[number].name == "cos" else ""
+        return f"{sign}(z{w} * y{u} + share * {self.sums.of(('weighted', u), ('jet', w))})"
+
+    def _of_against(self, number: int, u: int, q: int) -> str:
+        sum_, sign = self.sums.of(("weighted", number), ("jet", q)), "-" if self.operations[number].name == "acos" else ""
+        return f"({sign}y{u} - share * {sum_}) / z{q}"
+
+    def _of_atan2(self, number: int, y: int, x: int, q: int) -> str:
+        parts = [f"z{x} * y{y}", f"-z{y} * y{x}"]
+        parts = [part for part, of in zip(parts, (y, x), strict=True) if not self._is_fixed(of)]
+        if not (self._is_fixed(x) or self._is_fixed(y)):
+            parts.append(f"share * ({self.sums.of(('weighted', y), ('jet', x))} - {self.sums.of(('weighted', x), ('jet', y))})")
+        return f"({' + '.join(parts)} - share * {self.sums.of(('weighted', number), ('jet', q))}) / z{q}"
+
+    # ---- the equations ----
+
+    def _entry(self, name: str, place: int) -> int | None:
+        """The operation of an entry of a term; None: the system has no such term, or it is zero."""
+        numbers = self.terms.get(name)
+        if not numbers:
+            return None
+        jet = self.operations[numbers[place]]
+        return None if jet.kind == "number" and jet.arguments[0] == 0 else numbers[place]
+
+    def _varying(self, name: str, place: int) -> int | None:
+        number = self._entry(name, place)
+        return None if number is None or self._is_fixed(number) else number
+
+    def leading(self) -> list[str]:
+        """The matrix of (8) and the right side, at the beginning."""
+        n, size, lines = self.nv, self.nv + self.m, []
+        for i in range(n):
+            lines += [f"G[{i * size + j}] = z{entry};" for j in range(n) if (entry := self._entry("M", i * n + j)) is not None]
+            lines.append(f"right[{i}] = {self._value_of('f', i)} - {self._value_of('d', i)};")
+        for k in range(self.m):
+            for j in range(n):
+                if (entry := self._entry("C", k * n + j)) is not None:
+                    lines.append(f"G[{(n + k) * size + j}] = G[{j * size + n + k}] = z{entry};")
+            lines.append(f"right[{n + k}] = {self._value_of('xi', k)};")
+        return lines
+
+    def _value_of(self, name: str, place: int) -> str:
+        entry = self._entry(name, place)
+        return "0.0" if entry is None else f"z{entry}"
+
+    def right_sides(self) -> list[str]:
+        """Those of one order, from what is known of it and of all orders before."""
+        n, lines = self.nv, []
+        for i in range(n):
+            known = [f"{sign} y{entry}" for sign, name in (("+", "f"), ("-", "d"))
+                     if (entry := self._varying(name, i)) is not None]
+            taken = [self._taken("M", i * n + j, ("a", j)) for j in range(n)]
+            taken += [self._taken("C", k * n + i, ("lambda", k)) for k in range(self.m)]
+            lines.append(f"right[{i}] = 0.0 {' '.join([*known, *filter(None, taken)])};")
+        for k in range(self.m):
+            entry = self._varying("xi", k)
+            taken = [self._taken("C", k * n + j, ("a", j)) for j in range(n)]
+            lines.append(f"right[{n + k}] = {'0.0' if entry is None else f'y{entry}'} {' '.join(filter(None, taken))};")
+        return lines
+
+    def _taken(self, name: str, place: int, row: Row) -> str:
+        entry = self._varying(name, place)
+        return "" if entry is None else f"- ({self.sums.of(('jet', entry), row)} + y{entry} * first[{self._place(row)}])"
+
+    def _place(self, row: Row) -> int:
+        return row[1] if row[0] == "a" else self.nv + row[1]
+
+    def rates_of_positions(self, at_start: bool) -> list[str]:
+        """The next coefficients of p."""
+        if "A" not in self.terms:
+            return [f"P[(order + 1) * {self.nq} + {i}] = next * V[order * {self.nv} + {i}];" for i in range(self.nq)]
+        lines = []
+        for i in range(self.nq):
+            parts = []
+            for j in range(self.nv):
+                entry = self._entry("A", i * self.nv + j)
+                if entry is not None:
+                    parts.append(f"z{entry} * V[order * {self.nv} + {j}]")
+                    if not (at_start or self._is_fixed(entry)):
+                        parts.append(f"{self.sums.of(('jet', entry), ('v', j))} + y{entry} * v[{j}]")
+            lines.append(f"P[(order + 1) * {self.nq} + {i}] = next * ({' + '.join(parts) or '0.0'});")
+        return lines
+
+    def power(self, at_start: bool) -> list[str]:
+        """The next coefficient of the energy that has come in, (28)."""
+        if "power" not in self.terms and "Phi_t" not in self.terms:
+            return []
+        letter, parts = "z" if at_start else "y", ["0.0"]
+        entry = (self._entry if at_start else self._varying)("power", 0)
+        parts += [] if entry is None else [f"{letter}{entry}"]
+        for k in range(self.m):
+            entry = self._entry("Phi_t", k)
+            if entry is not None:
+                parts.append(f"z{entry} * x[{self.nv + k}]")
+                if not (at_start or self._is_fixed(entry)):
+                    parts.append(f"{self.sums.of(('jet', entry), ('lambda', k))} + y{entry} * first[{self.nv + k}]")
+        return [f"if (E) E[order + 1] = next * ({' + '.join(parts)});"]
+
+    # ---- rows ----
+
+    def stored(self) -> list[str]:
+        """What the sums of later orders need of this one."""
+        return [f"{array}[order * ROWS + {place}] = {self._stored(row)};"
+                for pair, place in self.sums.pairs.items() for array, row in zip("XY", pair, strict=True)]
+
+    def _stored(self, row: Row) -> str:
+        kind, number = row
+        if kind in ("jet", "weighted"):
+            value = "0.0" if self._is_fixed(number) else f"y{number}"
+            return f"order * {value}" if kind == "weighted" else value
+        return f"V[order * {self.nv} + {number}]" if kind == "v" else f"x[{self._place(row)}]"
+
+
+NAMES = {"*": "product", "/": "quotient"}
+
+
+def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data: str = "data") -> str:
+    """The C source; raises `Unwritten` where some function has no series, or there are too many operations."""
+    if isinstance(program, str):
+        raise Unwritten(program)
+    writer = _Writer(program, sizes)
+    body = _of_one_order(writer)
+    if len(body) > MOST_STATEMENTS:
+        raise Unwritten(f"their series would have more than {MOST_STATEMENTS} statements")
+    rows = max(TOGETHER, -(-len(writer.sums.pairs) // TOGETHER) * TOGETHER)
+    lines = [f"const double *restrict const k = {data};",
+             "double *restrict const X = scratch, *restrict const Y = X + (orders + 1) * ROWS;",
+             *_of_beginning(writer), "for (int order = 1; order < orders; order++) {",
+             *indented(["const double share = 1.0 / order, next = 1.0 / (order + 1);", "(void)share;",
+                        "zd_series_sum(ROWS, order, X, Y, sum);", *body]), "}", "return ZD_DONE;"]
+    return "\n".join([*HEAD, f"enum {{ ROWS = {rows} }};", "", *SIGNATURE, "{", *indented(lines), "}", "",
+                      f"const zd_series {SERIES} = {{2 * ROWS, evaluate}};", ""])
+
+
+def _of_beginning(writer: _Writer) -> list[str]:
+    """What is computed once: all values, the inverse, and the coefficients of the lowest orders."""
+    n, m = writer.nv, writer.m
+    size = n + m
+    next_ones = [*(f"V[{n + i}] = x[{i}];" for i in range(n)), *writer.power(True), *writer.rates_of_positions(True)]
+    return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}], sum[ROWS];",
+            "(void)k, (void)t, (void)sum;", *writer.values(), *writer.leading(),
+            f"if (zd_series_invert({n}, {m}, G, x)) return ZD_NOT_DEFINITE;", f"zd_series_solve({size}, G, right, x);",
+            f"for (int i = 0; i < {size}; i++) first[i] = x[i];", f"for (int i = 0; i < {writer.nq}; i++) P[i] = p[i];",
+            f"for (int i = 0; i < {n}; i++) V[i] = v[i];", "if (E) E[0] = 0;",
+            "{", *indented(["const int order = 0;", "const double next = 1.0;", *next_ones]), "}"]
+
+
+def _of_one_order(writer: _Writer) -> list[str]:
+    """From the coefficients of p and v of an order to those of the next."""
+    n, size = writer.nv, writer.nv + writer.m
+    body = [*writer.coefficients(), *writer.right_sides(), f"zd_series_solve({size}, G, right, x);",
+            *(f"V[(order + 1) * {n} + {i}] = next * x[{i}];" for i in range(n)), *writer.power(False),
+            *writer.rates_of_positions(False)]
+    return body + writer.stored()
