@@ -43,7 +43,7 @@ class Squeezer:
     def terms(self):
         """Symbols p and v, and in them M, f - d, C and b of C vdot = b."""
         p, v = sp.symbols("p:7"), sp.symbols("v:7")
-        bodies, loops, potential = _drawn(*p)
+        bodies, loops, potential = drawn(*p)
         kinetic = sum(m * sum(rate**2 for rate in _rate(centre, p, v)) + J * _rate([angle], p, v)[0] ** 2
                       for m, J, centre, angle in bodies) / 2
         momenta = [sp.diff(kinetic, rate) for rate in v]
@@ -113,7 +113,7 @@ def _turned(angle, x, y=0):
     return np.array([x * sp.cos(angle) - y * sp.sin(angle), x * sp.sin(angle) + y * sp.cos(angle)])
 
 
-def _drawn(beta, theta, gamma, phi, delta, omega, epsilon):
+def drawn(beta, theta, gamma, phi, delta, omega, epsilon):
     """Bodies (mass, moment of inertia, centre of mass, angle), what is zero where loops are closed, and the spring's energy."""
     a, b, c = np.array([-0.06934, -0.00227]), np.array([-0.03635, 0.03273]), np.array([0.014, 0.072])
     crank = _turned(beta, 0.007)
