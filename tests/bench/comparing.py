@@ -22,8 +22,9 @@ import matplotlib  # noqa: E402
 import numpy as np  # noqa: E402
 
 RESULTS = Path(__file__).resolve().parent / "results"
-PEERS = {"zerodrift": "zerodrift", "scipy": "SciPy", "sundials": "SUNDIALS", "casadi": "CasADi", "exudyn": "Exudyn", "pinocchio": "Pinocchio",
-         "mujoco": "MuJoCo", "heyoka": "heyoka.py", "numba": "numba", "numbalsoda": "numbalsoda", "pymunk": "pymunk"}
+PEERS = {"zerodrift": "zerodrift", "scipy": "SciPy", "sundials": "SUNDIALS", "casadi": "CasADi", "exudyn": "Exudyn",
+         "pinocchio": "Pinocchio", "mujoco": "MuJoCo", "heyoka": "heyoka.py", "numba": "numba", "numbalsoda": "numbalsoda",
+         "pymunk": "pymunk"}
 DISTRIBUTIONS = {"sundials": "scikit-sundae", "pinocchio": "pin"}
 KINDS = {"Python system": ":", "absolute": "--"}      # how lines of zerodrift that run another kind of system are drawn
 ROUNDS = 3

@@ -3,6 +3,7 @@
 The equations are M vdot = f - C^T lambda with C vdot = b. Where a force is stiff, so are these.
 """
 
+import itertools
 import sys
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -85,13 +86,13 @@ def governor():
     and starts with the balls swung out.
     """
     p, v = symbols(3)
-    (turn, swing, sleeve), (spin, swinging, sliding) = p, v
+    (_turn, swing, sleeve), (spin, swinging, sliding) = p, v
     rod, ball, collar, spindle, stiffness, damping = 0.3, 5.0, 10.0, 1.0, 8e5, 4e4
     drawn = 2 * rod * np.cos(0.6)
     kinetic = (spindle * spin**2 + collar * sliding**2) / 2 + ball * rod**2 * (swinging**2 + (sp.sin(swing) * spin) ** 2)
     potential = -2 * ball * G * rod * sp.cos(swing) - collar * G * sleeve + stiffness * (sleeve - drawn) ** 2 / 2
-    return Problem("governor", 5.0, p, v, kinetic, potential, [sleeve - 2 * rod * sp.cos(swing)], [0.0, 0.7, 2 * rod * np.cos(0.7)],
-                   damping * sliding**2 / 2, [2.0, 0, 0])
+    return Problem("governor", 5.0, p, v, kinetic, potential, [sleeve - 2 * rod * sp.cos(swing)],
+                   [0.0, 0.7, 2 * rod * np.cos(0.7)], damping * sliding**2 / 2, [2.0, 0, 0])
 
 
 def bushings():
@@ -122,7 +123,7 @@ def flexible():
         kinetic += _bar(0.0375, 0.0375 * length**2 / 12, [x + dx / 2, y + dy / 2], angle, p, v)
         potential += 0.0375 * G * (y + dy / 2)
         x, y = x + dx, y + dy
-    bends = [second - first for first, second in zip(angles, angles[1:], strict=False)]
+    bends = [second - first for first, second in itertools.pairwise(angles)]
     potential += stiffness * sum(bend**2 for bend in bends) / 2
     lost = damping * sum(_speed([bend], p, v)[0] ** 2 for bend in bends) / 2
     return Problem("flexible rod", 0.5, p, v, kinetic, potential, [x - slide, y], [0.0, 0.0, 0.0, 0.0, 0.0, 0.45], lost,

@@ -1,7 +1,7 @@
 """CVODES and IDAS of SUNDIALS through CasADi: expressions evaluated in C, and exact Jacobians of them.
 
-CVODES has the index-1 equations with accelerations solved for, IDAS the same with accelerations and multipliers as algebraic unknowns. Neither is
-stabilized.
+CVODES has the index-1 equations with accelerations solved for, IDAS the same with accelerations and multipliers as algebraic
+unknowns. Neither is stabilized.
 """
 
 import functools
@@ -43,7 +43,7 @@ def integrator_of(problem, name, tolerance):
         dae = {"x": y, "z": z, "ode": ca.vertcat(y[n:], z[:n]), "alg": matrix @ z - right}
     options = {"reltol": tolerance, "abstol": tolerance, "max_num_steps": 200_000}
     if name == "IDAS":
-        options["suppress_algebraic"] = True        # in errors of steps: multipliers are large, and noise in them costs IDAS all progress
+        options["suppress_algebraic"] = True    # multipliers are large, and their noise would reject every step of IDAS
     return ca.integrator("run", name.lower(), dae, 0.0, list(problem.times[1:]), options)
 
 
