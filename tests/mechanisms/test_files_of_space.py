@@ -57,6 +57,9 @@ def everything():
     m.motor("turn", hinge, speed=sp.sin(sp.Symbol("t") / 3) + sp.pi)
     m.actuator("pump", eye, bead, force=x * 3, of={"x": bead.position.x})
     m.spring("coil", eye, bead, stiffness=10.1, damping=0.3)
+    m.torsion_spring("clock", hinge, stiffness=0.7, angle=0.1, damping=1 / 30)
+    m.bushing("mount", bodies[0], bodies[4], at=(0.3, 0.2, 0.1), axis=(1, 2, 0.3), stiffness=(10, 1 / 3, 20), damping=0.3,
+              torsion=(1, 2, 1 / 7), torsion_damping=0.01)
     m.force("wind", bodies[3], along=(1, 3, 0.1), value=0.1 * x, of={"x": bob.position.x}, frame=bodies[3])
     m.torque("air", bodies[3], value=0.3, against=bodies[2], axis=(0.2, 1, 0.1))
     m.torque("twist", bodies[5], value=0.3, axis=(0.2, 1, 0.1), frame=bodies[5])

@@ -7,6 +7,7 @@ import sympy as sp
 import zerodrift as zd
 from every_model import MECHANISMS
 from support import assert_close
+from zerodrift.mechanisms.lifting import LIFTED
 
 ROUGH = {"jansen", "klann", "stephenson"}       # sketches: the two assemblies stop within 1e-6 of each other
 
@@ -96,10 +97,26 @@ def test_a_wheel_and_a_belt():
     assert plane["rack.velocity.x"][-1] < -0.1
 
 
-def test_what_cannot_be_lifted_is_named():
-    m = zd.Mechanism("mount")
-    body = m.body("body", 1.0, 0.1)
-    m.bushing("mount", m.ground, body, at=(0, 0), stiffness=(10.0, 10.0))
+def mounted():
+    m = zd.Mechanism("mount", gravity=(0, -9.81))
+    body = m.body("body", 1.0, 0.1, at=(0.2, 0.1), angle=0.3)
+    m.bushing("mount", m.ground.point((0.1, 0)), body, stiffness=(100.0, 300.0), damping=(1.0, 2.0), torsion=5.0,
+              torsion_damping=0.1)
+    return m
+
+
+def test_a_soft_joint():
+    m = mounted()
+    plane, space = (zd.simulate(each, 0.5, step=1e-3) for each in (m, m.lifted()))
+    assert np.ptp(plane["body.angle"]) > 0.01
+    assert_close(space["body.position"][:, :2], plane["body.position"], 1e-9)
+    assert_close(space["mount.force"][:, :2], plane["mount.force"], 1e-8)
+    assert_close(space["mount.torque"][:, 2], plane["mount.torque"], 1e-8)
+
+
+def test_what_cannot_be_lifted_is_named(monkeypatch):
+    monkeypatch.delitem(LIFTED, "bushing")      # as if it were a kind that somebody adds
+    m = mounted()
     with pytest.raises(ValueError, match="'mount' cannot be lifted: a bushing has no counterpart in space"):
         m.lifted()
     m = zd.Mechanism("sail")

@@ -231,6 +231,15 @@ def _torsion_spring(m: Any, spring: Any) -> None:
     m.torsion_spring(spring.name, spring.joint.name, stiffness=spring.stiffness, angle=spring.angle, damping=spring.damping)
 
 
+def _bushing(m: Any, bushing: Any) -> None:
+    along, about = {}, {}
+    for word in ("stiffness", "damping"):
+        along[word] = *(bushing.values[f"{word}.{axis}"] for axis in "xy"), 0.0
+    for word in ("torsion", "torsion_damping"):
+        about[word] = 0.0, 0.0, bushing.values[word]
+    m.bushing(bushing.name, *_sides(m, bushing), **along, **about)
+
+
 def _force(m: Any, force: Any) -> None:
     m.force(force.name, _point(m, force.point), along=_raised(force.frame.pose.direction(force.along)),
             frame=m[force.frame.name], **_law(m, force.law))
@@ -244,5 +253,5 @@ LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _named_point, "revolute": _revolute, "prismatic": _prismatic,
     "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "force": _force,
-    "torque": _torque}
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque}

@@ -90,6 +90,13 @@ def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damp
     joint.first, joint.frames = point_of_body(m, first), frames
 
 
+def _bushing(m: Any, name: str, *, first: Any, second: Any, frames: Any, stiffness: Any, damping: Any, torsion: Any,
+             torsion_damping: Any) -> None:
+    bushing = m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+                        torsion_damping=torsion_damping)
+    bushing.frames = _frames(m, bushing.first, bushing.second, frames)
+
+
 def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any, value: Any) -> None:
     value, of = law_and_of(value, "value")
     axis, against, frame = told_direction("axis", axis, 3), m._body("against", against), m._body("frame", frame)
@@ -101,4 +108,4 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any
 
 IN_SPACE: Mapping[str, Callable[..., None]] = {
     **{kind: _joint(kind) for kind in BY_KIND}, "rolling": _rolling, "knife_edge": _knife_edge, "body": _body, "link": _link,
-    "torque": _torque}
+    "bushing": _bushing, "torque": _torque}
