@@ -8,7 +8,7 @@ import zerodrift as zd
 from every_model import IN_SPACE
 from support import assert_close
 from zerodrift.mechanisms.space import about
-from zerodrift.plot.space_picture import FACES, GLYPHS
+from zerodrift.plot.space_picture import DOTS, FACES, GLYPHS
 
 
 def artist(ax, kind):
@@ -94,6 +94,7 @@ def everything():
     m.particle("load", 0.1, at=other.point((0.2, 0, 0)))
     m.spring("spring", bob, other.center, stiffness=1.0)
     m.actuator("jack", bob, m.ground.point((3, 0, 0)), force=1.0)
+    m.bushing("mount", m.ground, star, at=(0, 2, -0.1), stiffness=1.0)
     m.knife_edge("blade", other.point((0, 0, -0.2)), along=(1, 0, 0))
     return m
 
@@ -101,7 +102,7 @@ def everything():
 def test_every_shape_there_is():
     kinds = {shape.kind for m in (everything(), *(model() for model in IN_SPACE.values() if model is not zd.models.chain))
              for shape in m.system()._sketches([m.p0])[0]}
-    assert kinds >= set(GLYPHS)
+    assert kinds >= {*GLYPHS, *DOTS}
     ax = zd.plot.mechanism(everything())
     assert len(artist(ax, "spring")._segments3d) == 1
     plt.close(ax.figure)

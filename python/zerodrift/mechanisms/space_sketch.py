@@ -14,7 +14,7 @@ from .._rotations import rotation_of
 from ..systems.shapes import Shape
 from .bodies import Body, Link, Particle, Point
 from .drawing import Drawing
-from .forces import Actuator, Spring
+from .forces import Actuator, Bushing, Spring
 from .numbers import Numbers
 from .space_bodies import SpaceInertias
 from .space_joints import SpaceJoint, SpaceRolling
@@ -136,6 +136,11 @@ class SpaceSketch:
         for spring in self.drawing.of((Spring, Actuator)):
             ends = np.array([self._placed(spring.first, at), self._placed(spring.second, at)])
             yield Shape("spring" if isinstance(spring, Spring) else "rod", ends, spring.name)
+        for bushing in self.drawing.of(Bushing):
+            yield Shape("bushing", self._placed(bushing.second, at)[None], bushing.name)
+            for side in (bushing.first, bushing.second):
+                if side.body is self.drawing.ground:
+                    yield Shape("ground", self._placed(side, at)[None], bushing.name)
 
     def _placed(self, point: Point, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
         centre, R = at[point.body.name]

@@ -84,6 +84,7 @@ GLYPHS = {
 }
 DOTS = {"dot": {"marker": "o", "color": "#40505F", "markersize": 7}, "weld": {"marker": "s", "color": "black", "markersize": 4},
         "ball": {"marker": "o", "color": COLOURS[1], "markersize": 4.5},
+        "bushing": {"marker": "o", "color": COLOURS[1], "markersize": 7, "markerfacecolor": "none", "markeredgewidth": 2},
         "ground": {"marker": "^", "color": "black", "markersize": 6}}
 FAINT = ("bar", "rod", "disc", "ring")      # what other positions show
 FAINTLY = 0.36      # and how opaque they are
