@@ -59,15 +59,19 @@ static int is_wanted_before(const zd_output *self, double t)
     return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
 }
 
-/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step. A step that an event has cut
- * short has made such steps already. */
+/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step: that is made, too, where the
+ * polynomial fails, unless a callable did. A step that an event has cut short has made such steps already. */
 static int move_to_next(zd_output *self, int is_end)
 {
     const double t = self->t_eval[self->next++];
-    if (!self->is_away) self->is_spread = self->has_polynomial && !is_end && zd_stepper_spread(self->stepper, self->before.t);
+    const int is_first = !self->is_away;
+    int status = ZD_DONE;
+    if (is_first) self->is_spread = self->has_polynomial && !is_end && zd_stepper_may_spread(self->stepper, self->before.t);
     self->is_away = 1;
-    self->is_spread = self->is_spread && !zd_stepper_land_between(self->stepper, t);
-    return self->is_spread ? ZD_DONE : zd_output_move(self, t);
+    if (is_first && self->is_spread) status = zd_stepper_spread(self->stepper);
+    if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t);
+    self->is_spread = self->is_spread && !status;
+    return self->is_spread || status == ZD_CALLBACK ? status : zd_output_move(self, t);
 }
 
 /* Saves those times that lie within the step. */

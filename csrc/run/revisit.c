@@ -83,31 +83,49 @@ static int make_general_step(zd_revisit *self, int64_t row)
 }
 
 /* A run may have left the direct road in the step: that road is taken which leads to the row after, to the last bit, if one does. */
-static void make_again(zd_revisit *self, int64_t row)
+static int make_again(zd_revisit *self, int64_t row)
 {
-    const zd_stepper *stepper = &self->run->stepper;
-    const int may_interpolate = may_have_polynomial(self, row), has_roads = self->run->motion.road.direct != NULL;
-    self->row = row;
-    self->is_general = self->has_polynomial = 0;
-    if (!may_interpolate && !has_roads) return;
+    const int has_roads = self->run->motion.road.direct != NULL;
     int status = begin_from_before(self, row);
     if (!status) status = make_step(self, row);
-    if (has_roads && (status || !is_at(self, row + 1))) {
-        const int general_status = make_general_step(self, row);
-        self->is_general = status || (!general_status && is_at(self, row + 1));
-        status = self->is_general ? general_status : begin(self, row, 0);
-        if (!status && !self->is_general) status = make_step(self, row);
+    if (status == ZD_CALLBACK || !has_roads || (!status && is_at(self, row + 1))) return status;
+    const int general_status = make_general_step(self, row);
+    if (general_status == ZD_CALLBACK) return ZD_CALLBACK;
+    self->is_general = status || (!general_status && is_at(self, row + 1));
+    if (self->is_general) return general_status;
+    status = begin(self, row, 0);
+    return status ? status : make_step(self, row);
+}
+
+/* Finds the road of the step from a row, and its polynomial if there is one; what fails is no matter, as a shorter step may do, but for
+ * callables. */
+static int find_road(zd_revisit *self, int64_t row)
+{
+    zd_stepper *stepper = &self->run->stepper;
+    const int may_interpolate = may_have_polynomial(self, row);
+    self->row = row;
+    self->is_general = self->has_polynomial = 0;
+    int status = may_interpolate || self->run->motion.road.direct ? make_again(self, row) : ZD_DONE;
+    if (!status && may_interpolate && zd_stepper_may_spread(stepper, stepper->last.t)) {
+        status = zd_stepper_spread(stepper);
+        self->has_polynomial = !status;
     }
-    self->has_polynomial = !status && may_interpolate && zd_stepper_spread(&self->run->stepper, stepper->last.t);
+    if (status != ZD_CALLBACK) return ZD_DONE;
+    self->row = -1;
+    return status;
 }
 
 int zd_revisit_move(zd_revisit *self, double t)
 {
     const int64_t row = row_before(self->saved, t);
     if (t == self->saved->t[row]) return place(self, row);
-    if (row != self->row) make_again(self, row);
-    if (self->has_polynomial && !zd_stepper_land_between(&self->run->stepper, t)) return ZD_DONE;
+    int status = row == self->row ? ZD_DONE : find_road(self, row);
+    if (status) return status;
+    if (self->has_polynomial) {
+        status = zd_stepper_land_between(&self->run->stepper, t);
+        if (!status || status == ZD_CALLBACK) return status;
+    }
     self->has_polynomial = 0;
-    int status = begin(self, row, self->is_general);
+    status = begin(self, row, self->is_general);
     return status ? status : zd_stepper_make_substep(&self->run->stepper, t);
 }

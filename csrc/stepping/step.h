@@ -38,8 +38,10 @@ int zd_stepper_integrate(zd_stepper *self, double h);
 int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
 /* The same at any time within the step just made, its ends being believed, from the state that the integrator says there is. */
 int zd_stepper_land_between(zd_stepper *self, double t);
-/* Whether the integrator says so: then its polynomial is ready, until another step is made. */
-int zd_stepper_spread(zd_stepper *self, double t0);
+/* Whether the integrator can say so of the step from t0, which is the one just made; and for that its polynomial, which serves until another
+ * step is made. */
+int zd_stepper_may_spread(const zd_stepper *self, double t0);
+int zd_stepper_spread(zd_stepper *self);
 /* A shorter step to a time between steps, at which all corrections are made. */
 int zd_stepper_make_substep(zd_stepper *self, double t);
 /* Point and y to where the step began. */

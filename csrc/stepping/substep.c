@@ -8,14 +8,16 @@ static int integrate_and_land(zd_stepper *self, double h, double t1)
     return status ? status : zd_stepper_land(self, t1, 0, 1);
 }
 
-int zd_stepper_spread(zd_stepper *self, double t0)
+int zd_stepper_may_spread(const zd_stepper *self, double t0)
 {
-    const zd_integrator *integrator = self->integrator;
-    const zd_last *last = &self->last;
-    const zd_motion *motion = self->motion;
     /* Where v follows from the state, variables may be chosen anew at each place. */
-    if (!integrator->spread || motion->formulation->settle || last->t != t0 || last->h != self->t - t0) return 0;
-    return !integrator->spread(self->memory, &motion->rate, last->t, last->h, last->y, self->y);
+    return self->integrator->spread && !self->motion->formulation->settle && self->last.t == t0 && self->last.h == self->t - t0;
+}
+
+int zd_stepper_spread(zd_stepper *self)
+{
+    const zd_last *last = &self->last;
+    return self->integrator->spread(self->memory, &self->motion->rate, last->t, last->h, last->y, self->y);
 }
 
 int zd_stepper_land_between(zd_stepper *self, double t)

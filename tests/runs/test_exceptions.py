@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 import zerodrift as zd
-from support import assert_same_bits, motion
+from support import assert_close, assert_same_bits, motion
 from watched import At, pendulum, throw
 from zerodrift.runs import simulate as simulation
 
@@ -36,6 +36,23 @@ def test_an_exception_at_any_call_leaves_what_was_computed(formulation, options)
             assert_beginning(error.solution, whole)
             assert repr(error) in error.solution.message
     assert carried > calls - 30       # before, there was nothing
+
+
+@pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
+def test_an_exception_at_any_call_between_rows_surfaces(method):
+    watch = At(-1, None)
+    sol = zd.simulate(pendulum(watch), 0.3, rtol=1e-4, integrator=method)
+    watch.calls = 0
+    there, calls = sol(0.11), watch.calls
+    for k in range(1, calls + 1):
+        sol(sol.t[0])       # so that the step is made again
+        sol(0.29)
+        error = ArithmeticError(k)
+        watch.k, watch.action, watch.calls = k, throw(error), 0
+        with pytest.raises(ArithmeticError) as caught:
+            sol(0.11)
+        assert caught.value is error
+        assert_close(sol(0.11)[0], there[0], 1e-13)
 
 
 def test_an_exception_of_the_progress_callable_leaves_what_was_computed(bar, monkeypatch):
