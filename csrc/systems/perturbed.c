@@ -49,7 +49,8 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
     static const zd_operations rates = {.times_A = times_A};
-    system.operations = system.followers ? &rates : NULL;      /* the others are of the terms as they are */
+    /* The rates of followers may be nowhere else; the other operations are of the terms as they are. */
+    system.operations = system.followers && system.operations && system.operations->times_A ? &rates : NULL;
     system.follow = system.follow ? follow : NULL;
     system.direct = NULL;
     system.directs = 0;

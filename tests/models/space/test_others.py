@@ -109,8 +109,9 @@ def test_what_is_no_number_or_negative_is_named_by_its_argument(name):
                 IN_SPACE[name](**{argument: -0.1})
 
 
-def test_a_motion_in_space_has_a_certified_reference():
+@pytest.mark.parametrize("layout", ["absolute", "joint"])
+def test_a_motion_in_space_has_a_certified_reference(layout):
     """Which compares it with one of a system whose terms are off by rounding, with angles that follow as well."""
-    found = zd.reference(zd.models.bennett(), 0.05, error=1e-9)
+    found = zd.reference(zd.models.bennett().system(layout), 0.05, error=1e-9)
     assert found.error <= 1e-9
     assert np.ptp(found.solution["B.angle"]) > 0.05
