@@ -10,9 +10,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from .._gateway.consistent import nearest_velocities
 from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
-from .many_bodies import LEAST_MASS, Target, are_met, least_velocities
+from .many_bodies import SparseRows, Target, are_met, sparse_rows
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
 SMALLEST = 1e-3         # of the largest row, and of the length: what counts as the size of a smaller row
@@ -21,7 +22,10 @@ NEARER = 50             # steps towards the drawing
 TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
 NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
+LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so much
 RANK = 1e-9             # of the largest singular value: what counts as dependent
+MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
+MOST_TOLD = 8           # names in a sentence
 MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
 
 
@@ -75,7 +79,14 @@ class Assembly:
         """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
         if not self._is_closed(p, held):
             p = self._nearest(p, self._track(self._close(p), held), held)
+        if wished:
+            self._check_wishes()
         return self._approach(p, held, wished) if wished else p
+
+    def _check_wishes(self) -> None:
+        if self.is_of_many:
+            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities hold what their start holds, and "
+                                    "know no wishes: hold what is wished")
 
     def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """Whether all rows and held targets are met."""
@@ -101,8 +112,7 @@ class Assembly:
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
         if self.is_of_many:
-            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities start from positions as they are "
-                                    "drawn: draw the joints closed, and what is held where it is held; velocities are found")
+            return self._sparse_residual(p, targets)
         terms = self._evaluate(p)
         values = terms["Phi"][self.kept] if self.core.mh else np.zeros(0)
         rows = terms["C"][self.kept] if self.core.mh else np.zeros((0, self.core.nv))
@@ -114,11 +124,21 @@ class Assembly:
         size = self._sizes(rows, targets)
         return values / size, rows / size[:, None]
 
-    def _sizes(self, rows: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
+    def _sparse_residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, SparseRows]:
+        """The same of many bodies."""
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        rows, off = sparse_rows(self.core, stored, self.t, p, targets)
+        is_kept = np.ones(self.core.m + len(targets), dtype=bool)
+        is_kept[: self.core.m] = np.isin(np.arange(self.core.m), self.kept)
+        rows = rows[is_kept] * self.scale
+        size = self._sizes(rows, targets)
+        return np.concatenate([stored["Phi"][self.kept] if self.core.mh else [], off]) / size, rows / size
+
+    def _sizes(self, rows: np.ndarray | SparseRows, targets: Sequence[Target]) -> np.ndarray:
         """The size of each row, as it was where it was first met: units must not change while squares are made least."""
         known = self._size.get(len(targets))
         if known is None:
-            known = np.linalg.norm(rows, axis=1)
+            known = rows.lengths() if isinstance(rows, SparseRows) else np.linalg.norm(rows, axis=1)
             known = self._size[len(targets)] = np.maximum(known, SMALLEST * known.max(initial=self.length))
         return known
 
@@ -238,12 +258,16 @@ class Assembly:
             p, residual, rows, best = tried, tried_residual, tried_rows, error
         return p if best <= CLOSED else None
 
-    def _least_step(self, rows: np.ndarray, right: np.ndarray) -> np.ndarray:
+    def _least_step(self, rows: np.ndarray | SparseRows, right: np.ndarray) -> np.ndarray:
         """The least solution of rows @ step = right in the mass metric, in scaled coordinates."""
+        if isinstance(rows, SparseRows):
+            return (rows * (1 / self.weight)).least(right) / self.weight
         return np.linalg.lstsq(rows / self.weight, right, rcond=RANK)[0] / self.weight
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Levenberg's and Marquardt's method, then Newton's: positions, and the residual that remains."""
+        if self.is_of_many:
+            return self._by_newton(p, system)
         residual, rows = system(p)
         damping, size = 1e-2, float(residual @ residual)
         for _ in range(ATTEMPTS):
@@ -268,6 +292,14 @@ class Assembly:
         polished = self._newton(p, system)
         p = p if polished is None else polished
         return p, system(p)[0]
+
+    def _by_newton(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
+        """What is found of many bodies, for which there are no damped steps."""
+        found = self._newton(p, system)
+        if found is None:
+            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities start near to where they are "
+                                    "drawn, and from there the joints, the drives and what is held are not met: draw it nearer")
+        return found, system(found)[0]
 
     def _approach(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
         """Comes as near to the wishes as what is held allows."""
@@ -324,8 +356,10 @@ class Assembly:
         """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
         if self._may_rest(p) and not held and not wished:
             return np.zeros(self.core.nv)
-        if self.is_of_many and not wished:
-            return least_velocities(self.core, self.t, p, held)
+        if wished:
+            self._check_wishes()
+        elif self.is_of_many:
+            return self._least_velocities(p, held)
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)
@@ -334,13 +368,28 @@ class Assembly:
         rows, right = rows / size[:, None], right / size
         scaled = self._least_step(rows, right)
         left = rows @ scaled - right
-        if np.abs(left).max(initial=0.0) > 1e-9 * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
+        if np.abs(left).max(initial=0.0) > MET * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
             raise self._contradiction(left, size, names)
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = _nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
+
+    def _least_velocities(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+        """Those of many bodies."""
+        if not held:
+            return nearest_velocities(self.core, self.t, p, np.zeros(self.core.nv))
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        rows, off = sparse_rows(self.core, stored, self.t, p, held)
+        rows, right = rows * (self.scale / self.weight), np.concatenate([-stored.get("Phi_t", np.zeros(self.core.m)), -off])
+        size = rows.lengths()
+        size[size == 0.0] = 1.0
+        x = rows.least(right)
+        left = (rows @ x - right) / size
+        if np.abs(left).max() > MET * max(np.abs(right / size).max(), np.abs(x).max()):
+            raise self._contradiction(left, size, self._asked(held))
+        return x / self.weight * self.scale
 
     def _may_rest(self, p: np.ndarray) -> bool:
         """Whether no row asks for a velocity."""
@@ -357,12 +406,12 @@ class Assembly:
         worst = [int(i) for i in np.argsort(-np.abs(left)) if abs(left[i]) > least]
         moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
         if len(moved) > 1:
-            told, off = " and ".join(map(repr, moved)), np.abs(left * size).max()
+            told, off = _told(moved, " and "), np.abs(left * size).max()
             return InconsistentStart(f"start: the velocities of {told} contradict each other, by {off:.3g}")
         row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
         off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
         told = f"; it is off by {off:.3g}" if off else ""
-        joints = ", ".join(repr(name) for name in sorted({self.rows[i] for i in worst if not names[i]}))
+        joints = _told(sorted({self.rows[i] for i in worst if not names[i]}), ", ")
         blocking = f"the joints {joints} do" if joints else "the mechanism does"
         return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
                                  "At a dead centre, start a little aside, or drive another joint")
@@ -377,9 +426,19 @@ class Assembly:
             found = self.core.measure_at(target.measure, self.t, p, zero)
             rows.append(found["row"][target.component : target.component + 1] * self.scale)
             right.append(np.array([target.value - found["value"][target.component]]))
-        owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(m)]
         stacked = np.vstack(rows) if rows else np.zeros((0, self.core.nv))
-        return stacked, np.concatenate([*right, []]), [*owners, *(target.name for target in held)]
+        return stacked, np.concatenate([*right, []]), self._asked(held)[self.core.m - m:]
+
+    def _asked(self, held: Sequence[Target]) -> list[str]:
+        """What each row asks a velocity for, nothing where it is a joint's, and each target."""
+        owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(self.core.m)]
+        return [*owners, *(target.name for target in held)]
+
+
+def _told(names: Sequence[str], between: str) -> str:
+    """Names, not all of many."""
+    others = [f"{len(names) - MOST_TOLD} others"] if len(names) > MOST_TOLD else []
+    return between.join([*map(repr, names[:MOST_TOLD]), *others])
 
 
 def _least_along(rows: np.ndarray, free: np.ndarray, right: np.ndarray) -> np.ndarray:

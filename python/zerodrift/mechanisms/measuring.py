@@ -40,7 +40,7 @@ def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gaug
     """The gauges of the tables and those that such measures read, and these measures."""
     gauges, observed = list(tables.gauges), []
     wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
-    for position in _positions(tables):
+    for position in _positions(tables, wanted):
         if wanted is not None and position.name not in wanted and position.rate not in wanted:
             continue
         reads = position.gauges()
@@ -56,8 +56,11 @@ def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gaug
     return gauges, observed
 
 
-def _positions(tables: Tables) -> Iterator[Position]:
-    """What can be read of bodies, named points, joints and springs."""
+def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Position]:
+    """What can be read of bodies, named points, joints and springs.
+
+    Transmission angles are looked for where they are wanted: each among all joints of two bodies.
+    """
     if isinstance(tables, SpaceTables):
         yield from _positions_in_space(tables)
         return
@@ -78,8 +81,9 @@ def _positions(tables: Tables) -> Iterator[Position]:
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
                            lambda i=i: (tables.coordinate_gauge(i),))
-        if transmission.has_one(joint, tables.joints_by_body):
-            yield Position(f"{joint.name}.transmission_angle", "rad", None, None,
+        between = f"{joint.name}.transmission_angle"
+        if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
+            yield Position(between, "rad", None, None,
                            lambda joint=joint: (tables.transmission_gauge(joint),))
         if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)

@@ -58,8 +58,8 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     SingularSystem
         If what is held leaves no way to satisfy the constraints.
     InconsistentStart
-        If what a mechanism is to hold cannot be met; the error names it. One of more than 1000 rows has to be drawn closed,
-        with positions that it holds where they are held.
+        If what a mechanism is to hold cannot be met; the error names it. One of more than 1000 rows or
+        velocities has to be drawn nearly as it starts, and cannot wish.
 
     Examples
     --------
