@@ -1,13 +1,32 @@
 /* A law is handed the gauges of its row or effort, and takes what it says. */
+#include <math.h>
+
 #include "laws.h"
 
-static int ask(const zd_planned_uses *uses, const zd_readings *at, int law, int first, int terms, double t)
+static int all_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(values[i])) return 0;
+    return 1;
+}
+
+/* Whether a law has a compiled function that has said it. */
+static int has_said(const zd_compiled_law *compiled, const zd_readings *at, double t, int count)
+{
+    if (!compiled->function) return 0;
+    compiled->function(compiled->numbers, t, at->x, at->xdot, at->out);
+    return all_finite(at->out, count);
+}
+
+/* out <- `count` numbers. Where a compiled function has none that are finite, whoever it was compiled for is asked, and says why. */
+static int ask(const zd_planned_uses *uses, const zd_readings *at, int law, int first, int terms, double t, int count)
 {
     for (int i = 0; i < terms; i++) {
         const int gauge = uses->term[first + i].gauge;
         at->x[i] = zd_value_of(at, gauge);
         at->xdot[i] = zd_rate_of(at, gauge);
     }
+    if (uses->compiled && has_said(uses->compiled + law, at, t, count)) return ZD_DONE;
     return uses->law(uses->owner, law, t, at->x, at->xdot, at->out) ? ZD_CALLBACK : ZD_DONE;
 }
 
@@ -24,7 +43,7 @@ int zd_combine(const zd_planned_uses *uses, const zd_readings *at, const zd_rela
         *all = combine_linearly(uses, row, t);
         return ZD_DONE;
     }
-    const int k = row->terms, status = ask(uses, at, row->law, row->first, k, t);
+    const int k = row->terms, status = ask(uses, at, row->law, row->first, k, t, k + 3);
     *all = (zd_combined){at->out[0], at->out[k + 1], at->out[k + 2], at->out + 1};
     return status;
 }
@@ -36,7 +55,7 @@ int zd_effort_say(const zd_planned_uses *uses, const zd_readings *at, const zd_e
     if (rate) *rate = speed;
     *value = effort->value;
     if (effort->kind == ZD_EFFORT_LAW) {
-        status = ask(uses, at, effort->law, effort->first, effort->terms, t);
+        status = ask(uses, at, effort->law, effort->first, effort->terms, t, 1);
         *value = at->out[0];
     } else if (effort->kind == ZD_EFFORT_SPRING) {
         *value = -effort->stiffness * zd_value_of(at, effort->gauge) - effort->damping * speed;

@@ -17,6 +17,7 @@ typedef struct zd_planned_uses {
     const zd_observed *observed;
     zd_law *law;
     void *owner;
+    const zd_compiled_law *compiled;    /* by the laws' numbers: those that need no `law`. NULL: there are none */
     int has_velocity_forces;        /* whether an effort depends on velocities, and is to be told them */
 } zd_planned_uses;
 

@@ -75,6 +75,14 @@ typedef struct zd_observed {
  * Returns ZD_DONE, or ZD_CALLBACK where it failed. */
 typedef int zd_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
 
+/* The same, compiled, of numbers that are its own. */
+typedef void zd_law_function(const double *numbers, double t, const double *x, const double *xdot, double *out);
+
+typedef struct zd_compiled_law {
+    zd_law_function *function;  /* NULL: there is none */
+    const double *numbers;
+} zd_compiled_law;
+
 typedef struct zd_uses {
     int terms, relations, efforts, measures;
     const zd_gauge_term *term;

@@ -316,11 +316,13 @@ const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return me
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism) { return mechanism->coordinate; }
 int zd_mechanism_data_size(void) { return (int)sizeof(zd_mechanism); }
 
-void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double *numbers, void *data)
+void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const zd_compiled_law *compiled, const double *numbers,
+                       void *data)
 {
     zd_mechanism *mine = data;
     *mine = *mechanism;
     mine->uses.owner = owner;
+    mine->uses.compiled = compiled;
     mine->numbers = numbers;
 }
 

@@ -66,9 +66,10 @@ const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism);           
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism);         /* (nq,) */
 /* Size in bytes of the data of the system, for a copy of it: see zd_mechanism_with(). */
 int zd_mechanism_data_size(void);
-/* Writes into `data` what the system's data is, but for the owner of the laws, as each run may have its own, and for the numbers of
- * functions that were written out from the plan: the pointer to these is what the data begins with. */
-void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const double *numbers, void *data);
+/* Writes into `data` what the system's data is, but for the owner of the laws, as each run may have its own, for those of them that are
+ * compiled (NULL: none), and for the numbers of functions that were written out from the plan: the pointer to these is what the data
+ * begins with. */
+void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
 
 /* A component of a measure that the start holds: of positions, or of velocities. */
 typedef struct zd_target {

@@ -226,9 +226,10 @@ int zd_space_angles(const zd_space *space, int *place)
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 
-void zd_space_with(const zd_space *space, void *owner, void *data)
+void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, void *data)
 {
     zd_space copied = *space;
     copied.uses.owner = owner;
+    copied.uses.compiled = compiled;
     memcpy(data, &copied, sizeof copied);
 }

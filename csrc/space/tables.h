@@ -63,8 +63,9 @@ const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
 int zd_space_angles(const zd_space *space, int *place);
 /* The gauge that reads a coordinate of a joint, which its kind has to have; the joints before it have so many angles. */
 zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);
-/* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own. */
+/* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own, and for those of
+ * them that are compiled; NULL: none. */
 int zd_space_data_size(void);
-void zd_space_with(const zd_space *space, void *owner, void *data);
+void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, void *data);
 
 #endif

@@ -1,4 +1,4 @@
-"""Laws of mechanisms that are written in Python: how the core calls them, and what becomes of what they raise."""
+"""Laws of mechanisms: how the core calls those written in Python, what becomes of what they raise, and those compiled."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import CALLBACK, DONE
+from .base import CALLBACK, DONE, doubles
 
 Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
 
@@ -33,6 +33,21 @@ class LawOwner:
             self.error = error
             return CALLBACK
         return DONE
+
+
+def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
+    """The core's array of the laws that are compiled, NULL where none is; and what has to live as long.
+
+    Where `law` has a method `compiled`, this gives for each law the address of a `zd_law_function`, its numbers, and the library
+    that it lives in; or None.
+    """
+    found = law.compiled(sizes) if hasattr(law, "compiled") else []
+    if not any(found):
+        return ffi.NULL, None
+    kept = [each and doubles(each[1], each[1].size) for each in found]
+    rows = [(ffi.cast("zd_law_function *", each[0]), numbers) if each else (ffi.NULL, ffi.NULL)
+            for each, numbers in zip(found, kept, strict=True)]
+    return ffi.new("zd_compiled_law[]", rows), (kept, found)
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK)

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, TERMS, Card, card_of, doubles, text
-from .law_owner import Law, LawOwner
+from .law_owner import Law, LawOwner, compiled_table
 from .measures import given
 from .systems import CoreSystem
 from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
@@ -208,17 +208,20 @@ class MechanismCore(CoreSystem):
         """The same system; with laws, one that keeps what they raise for itself."""
         if self._law is None:
             return self
-        owner = LawOwner(self._law, law_sizes(self.tables))
-        mine = self._with_data(ffi.new_handle(owner), self._numbers)
+        sizes = law_sizes(self.tables)
+        owner = LawOwner(self._law, sizes)
+        is_written_out = self._numbers != ffi.NULL      # which leaves laws to measures
+        compiled = (ffi.NULL, None) if is_written_out else compiled_table(self._law, sizes)
+        mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
         mine._owner = owner
         return mine
 
-    def _with_data(self, handle: Any, numbers: Any) -> MechanismCore:
+    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)
         data = ffi.new("char[]", lib.zd_mechanism_data_size())
-        lib.zd_mechanism_with(self._mechanism, handle, numbers, data)
+        lib.zd_mechanism_with(self._mechanism, handle, compiled[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, numbers, data), numbers
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
 
     def written(self, address: int, numbers: np.ndarray, terms: Iterable[str], *, timeless: bool, scratch: int,

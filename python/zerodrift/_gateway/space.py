@@ -12,7 +12,7 @@ import numpy as np
 from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
-from .law_owner import Law, LawOwner
+from .law_owner import Law, LawOwner, compiled_table
 from .mechanisms import Coordinate
 from .systems import CoreSystem
 from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
@@ -180,12 +180,13 @@ class SpaceCore(CoreSystem):
         """The same system; with laws, one that keeps what they raise for itself."""
         if self._law is None:
             return self
-        owner = LawOwner(self._law, law_sizes(self.tables))
+        sizes = law_sizes(self.tables)
+        owner, compiled = LawOwner(self._law, sizes), compiled_table(self._law, sizes)
         handle, data = ffi.new_handle(owner), ffi.new("char[]", lib.zd_space_data_size())
-        lib.zd_space_with(self._mechanism, handle, data)
+        lib.zd_space_with(self._mechanism, handle, compiled[0], data)
         mine = copy.copy(self)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data, mine._owner = data, (*self._data, handle, data), owner
+        mine.c.data, mine._data, mine._owner = data, (*self._data, handle, *compiled, data), owner
         return mine
 
     @property

@@ -1,4 +1,4 @@
-"""How the core calls laws: rows and efforts that are written in Python, with exact derivatives."""
+"""How the core calls laws: rows and efforts, with exact derivatives, in Python or as nodes of a graph."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from ..systems.jets import Jet
+from . import law_functions
 from .laws import Law
 
 
-class _Call:
+class Call:
     """A law with where its measures are: `picks` has, for each, the number of its gauge and whether its rate is meant."""
 
     def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
@@ -25,15 +26,22 @@ class _Call:
         """The node of the row, or of the effort; `values` and `rates` are those of its gauges."""
         return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
 
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        """What a call gives, as nodes, where that is the node of the row or of the effort: of a holonomic row."""
+        return leaves.holonomic(node)
 
-class Effort(_Call):
+
+class Effort(Call):
     """A force or torque."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         return (self._numbers(t, x, xdot),)
 
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return (node,)
 
-class Motion(_Call):
+
+class Motion(Call):
     """The row x = f(t) of a drive."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
@@ -44,7 +52,7 @@ class Motion(_Call):
         return equations.difference(values[0], super().written(equations, values, rates))
 
 
-class Speed(_Call):
+class Speed(Call):
     """The nonholonomic row xdot = f(t, x) of a drive."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
@@ -55,8 +63,11 @@ class Speed(_Call):
     def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
         return equations.difference(rates[0], super().written(equations, values, rates))
 
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return leaves.nonholonomic(node)
 
-class Holonomic(_Call):
+
+class Holonomic(Call):
     """A row g(t, x) = 0."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
@@ -66,13 +77,16 @@ class Holonomic(_Call):
         return np.concatenate([[g.value], np.broadcast_to(g.gradient, len(axes)), [g.second]])
 
 
-class Nonholonomic(_Call):
+class Nonholonomic(Call):
     """A row h(t, x, xdot) = 0 that is linear in xdot."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         h = self.at(t, x, xdot)
         slopes = np.broadcast_to(h.gradient, len(x))
         return np.concatenate([[0.0], slopes, [h.value - slopes @ xdot, h.first]])
+
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return leaves.nonholonomic(node)
 
     def at(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Jet:
         """The value of h, its gradient in the rates, and its derivative along the motion while the rates stay."""
@@ -94,15 +108,22 @@ class Laws:
     """All laws of a mechanism, as the core calls them."""
 
     def __init__(self) -> None:
-        self.rows: list[_Call] = []
+        self.rows: list[Call] = []
+        self._compiled: list[Any] = []
 
-    def add(self, row: _Call) -> int:
+    def add(self, row: Call) -> int:
         """The number under which the core calls it."""
         self.rows.append(row)
         return len(self.rows) - 1
 
     def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         return self.rows[number](t, x, xdot)
+
+    def compiled(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
+        """Of each law the function that it is compiled to, as of `law_functions`, or None; they are handed so many gauges."""
+        if len(self._compiled) != len(self.rows):
+            self._compiled = [law_functions.compiled(row, sizes[i][0]) for i, row in enumerate(self.rows)]
+        return self._compiled
 
     def check_written(self) -> None:
         """Refuses callables, which cannot be written out."""

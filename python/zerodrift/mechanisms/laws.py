@@ -88,9 +88,24 @@ class Law:
         return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
 
     @property
+    def inner_expression(self) -> Any:
+        """The one SymPy expression that it is, or is made with; None: there is none."""
+        return getattr(self._function, "inner_expression", None) if self.expression is None else self.expression
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What it is a function of: t, parameters, and measures by what it calls them."""
+        return tuple(self._names)
+
+    @property
+    def kind(self) -> tuple[Any, ...]:
+        """All that its node depends on but that expression and its measures: what it calls, and its names."""
+        return type(self._function), self.names, tuple(self._bound)
+
+    @property
     def has_expression(self) -> bool:
         """Whether SymPy has to read it before it can be written out."""
-        return self.expression is not None or getattr(self._function, "has_expression", False)
+        return self.inner_expression is not None
 
     def check_written(self) -> None:
         """Refuses a callable, of which nobody but Python knows what it computes."""

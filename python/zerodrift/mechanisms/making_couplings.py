@@ -272,7 +272,7 @@ class _Follows:
 
     def __init__(self, profile: Any) -> None:
         self.profile = profile
-        self.has_expression = isinstance(profile, _Expression)
+        self.inner_expression = profile.expression if isinstance(profile, _Expression) else None
 
     def __call__(self, angle: Any, follower: Any) -> Any:
         return follower - self.profile(angle)
@@ -293,13 +293,17 @@ class _Expression:
                              f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}")
         self._law = Law(f"profile of {name!r}", expression.subs(next(iter(expression.free_symbols)), _time()))
 
+    @property
+    def expression(self) -> Any:
+        """In t as its symbol."""
+        return self._law.expression
+
     def __call__(self, angle: Any) -> Any:
         return self._law.value(angle, (), {})
 
     def written(self, equations: Any, angle: Any) -> Any:
         """As a node, of a node."""
-        expression = self._law.expression
-        return equations.read(self._law.what, expression, dict.fromkeys(expression.free_symbols, angle))
+        return equations.read(self._law.what, self.expression, dict.fromkeys(self.expression.free_symbols, angle))
 
 
 def _time() -> Any:

@@ -16,11 +16,11 @@ HEADING = ["/* Written by zerodrift. */", "#include <math.h>", "#include <zerodr
            "", "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
 
 
-class _Program:
+class Program:
     """What a writer has to know: all operations are needed, and none is kept."""
 
-    def __init__(self, lowering: Lowering, result: int) -> None:
-        self.lowering, self.outputs, self.stored = lowering, {"result": [result]}, {}
+    def __init__(self, lowering: Lowering, results: Sequence[int]) -> None:
+        self.lowering, self.outputs, self.stored = lowering, {"results": list(results)}, {}
         self.users = [True] * len(lowering.operations)
 
 
@@ -46,10 +46,14 @@ def compiled(what: str, expression: Any, atoms: Sequence[Any]) -> tuple[int, Any
 _compiled: dict[tuple[Any, ...], tuple[int, Any]] = {}     # by expression and atoms: reading takes as long as a short run
 
 
+def computed(writer: CWriter) -> list[str]:
+    """The statements of all operations."""
+    numbers = [number for number, operation in enumerate(writer.operations) if operation.code not in SIMPLE]
+    return writer.statements(numbers, "x{}".format, "const double ")
+
+
 def _source(lowering: Lowering, node: Any) -> str:
     result = lowering.lower(node)
-    writer = CWriter(_Program(lowering, result))
-    numbers = [number for number, operation in enumerate(lowering.operations) if operation.code not in SIMPLE]
-    lines = writer.statements(numbers, "x{}".format, "const double ")
-    body = ["(void)k;", *lines, f"return {unwrapped(writer.value(result))};"]
+    writer = CWriter(Program(lowering, [result]))
+    body = ["(void)k;", *computed(writer), f"return {unwrapped(writer.value(result))};"]
     return "\n".join([*HEADING, f"double {SYMBOL}(const double *k)", "{", *indented(body), "}", ""])

@@ -1,0 +1,63 @@
+"""What a law says as a compiled function of time, of measures and their rates, and of numbers of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from .. import _gateway
+from . import compiling
+from .emission import CWriter, indented, unwrapped
+from .graph import Graph, Node
+from .lowering import Lowering
+from .number import HEADING, Program, computed
+
+SYMBOL = "zd_symbolic_law"
+TAKES = "const double *k, double t, const double *p, const double *v, double *out"     # a `zd_law_function` of csrc/gauges/uses.h
+
+
+class Leaves:
+    """What the nodes of a law of k measures depend on: the measures are the leaves p, their rates the leaves v."""
+
+    def __init__(self, graph: Graph, k: int) -> None:
+        self.graph, self.t = graph, graph.leaf("t", 0)
+        self.x, self.xdot = ([graph.leaf(kind, i) for i in range(k)] for kind in "pv")
+
+    def holonomic(self, g: Node) -> list[Node]:
+        """Of a row g(t, x) = 0: g, dg/dx_i, dg/dt, and what (6) has besides the measures' second derivatives."""
+        along = self._along()
+        return [g, *self._slopes(g, self.x), self.graph.derivative_along({self.t: self.graph.one})(g), along(along(g))]
+
+    def nonholonomic(self, h: Node) -> list[Node]:
+        """Of a row h = a_i(t, x) xdot_i + a_0(t, x) = 0: nothing, a_i, a_0, and da_i/dt xdot_i + da_0/dt."""
+        at_rest = self.graph.substitution(dict.fromkeys(self.xdot, self.graph.zero))
+        return [self.graph.zero, *self._slopes(h, self.xdot), at_rest(h), self._along()(h)]
+
+    def _along(self) -> Any:
+        """The derivative along the motion, while the rates stay."""
+        return self.graph.derivative_along({self.t: self.graph.one, **dict(zip(self.x, self.xdot, strict=True))})
+
+    def _slopes(self, node: Node, leaves: Sequence[Node]) -> list[Node]:
+        return [self.graph.derivative_along({leaf: self.graph.one})(node) for leaf in leaves]
+
+
+class _LawWriter(CWriter):
+    """C99 with measures and rates in arrays."""
+
+    state = "{kind}[{index}]"
+
+
+def compiled(graph: Graph, said: Sequence[Node]) -> tuple[int, Any] | None:
+    """The address of a function that writes these, and the library that it lives in; None: there is no compiler."""
+    library = compiling.library(_source(graph, said), symbols=(SYMBOL,))
+    return None if library is None else (_gateway.address_of(library, SYMBOL), library)
+
+
+def _source(graph: Graph, said: Sequence[Node]) -> str:
+    lowering = Lowering(graph)
+    results = [lowering.lower(node) for node in said]
+    writer = _LawWriter(Program(lowering, results))
+    lines = computed(writer)
+    body = ["(void)k, (void)t, (void)p, (void)v;", *lines,
+            *(f"out[{i}] = {unwrapped(writer.value(result))};" for i, result in enumerate(results))]
+    return "\n".join([*HEADING, f"void {SYMBOL}({TAKES})", "{", *indented(body), "}", ""])
