@@ -9,6 +9,7 @@ double zd_count_steps(double t0, double t1, double step)
 {
     if (!(step > 0)) return 0;
     double ratio = (t1 - t0) / step, rounded = round(ratio);
+    if (t1 > t0 && ratio == 0) return 1;        /* where the part of the step that is made is too small for a double */
     return fabs(ratio - rounded) <= 1e-9 * rounded ? rounded : ceil(ratio);
 }
 

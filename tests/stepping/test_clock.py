@@ -37,3 +37,10 @@ def test_a_whole_number_of_steps_is_recognized(end, step, steps):
     sol = zd.simulate(zd.systems.oscillator(), end, step=step)
     assert sol.stats["steps"] == steps == len(sol.t) - 1
     assert sol.t[-1] == end
+
+
+@pytest.mark.parametrize("step", [1.0, 1e30])
+def test_the_smallest_part_of_a_step(bar, step):
+    """Also where it is so small that as a double it is zero."""
+    sol = zd.simulate(bar, 1e-300, step=step)
+    assert list(sol.t) == [0.0, 1e-300]
