@@ -159,6 +159,59 @@ def test_where_the_cache_is(monkeypatch):
     assert kept._chosen() == Path.home() / ".cache" / "zerodrift"
 
 
+# ---- as on Windows ----
+
+
+@pytest.fixture
+def as_windows(cache_folder, monkeypatch):
+    """Where nothing is reached through an open folder; on other systems, made to believe so."""
+    monkeypatch.setattr(kept, "AS_WINDOWS", True)
+    return cache_folder
+
+
+def test_on_windows_files_are_reached_by_their_paths(as_windows):
+    kept.put("some", b"first")
+    kept.put("some", b"second")
+    assert kept.get("some") == b"second"
+    assert [path.name for path in as_windows.iterdir()] == ["some"]
+    with kept.place("some", b"second") as path, kept.place("some", b"other") as nowhere:
+        assert (Path(path), nowhere) == (as_windows / "some", None)
+    kept.drop("some")
+    assert (kept.get("some"), list(as_windows.iterdir())) == (None, [])
+
+
+def test_on_windows_libraries_are_loaded_from_where_they_are_kept(as_windows, monkeypatch):
+    """Nobody changes them there while they are loaded, and nobody could remove a copy."""
+    load, loaded = ctypes.CDLL, []
+    monkeypatch.setattr(compiling._gateway.functions.ctypes, "CDLL", lambda path: loaded.append(Path(path)) or load(path))
+    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
+    assert made().compiled
+    assert loaded
+    assert all(path.parent == as_windows for path in loaded)
+
+
+def test_on_windows_what_somebody_has_loaded_is_not_replaced(as_windows, monkeypatch):
+    def refusing(*paths, **folders):
+        raise PermissionError(13, "Access is denied")
+
+    kept.put("some", b"first")
+    monkeypatch.setattr(kept.os, "replace", refusing)
+    kept.put("some", b"first")      # from another process, and the same
+    with pytest.warns(zd.CacheWarning, match=r"cannot be written \(Access is denied\)"):
+        kept.put("some", b"second")
+    assert [path.read_bytes() for path in as_windows.iterdir()] == [b"first"]
+    assert kept.get("some") == b"second"
+
+
+def test_where_the_cache_is_on_windows(as_windows, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "platform", "win32")
+    monkeypatch.delenv("ZERODRIFT_CACHE")
+    monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
+    assert kept._chosen() == tmp_path / "zerodrift"
+    monkeypatch.delenv("LOCALAPPDATA")
+    assert kept._chosen() == Path.home() / "AppData" / "Local" / "zerodrift"
+
+
 def test_direct_functions_are_written_once(cache_folder, monkeypatch):
     """Their text is found by what it depends on: the operations, numbers at which orders were chosen, and the limits."""
     system = made()

@@ -6,6 +6,9 @@ folder above it, or a symbolic link to it, cannot put another in its place meanw
 access control lists give others the right to write, the permissions of the group show it. What can be changed by others is left
 alone, and what this process makes is then kept in its memory.
 
+On Windows none of this is looked at, and files are reached by their paths: the user's own place is closed to other users there.
+Whoever lets ZERODRIFT_CACHE name another folder has to see to that.
+
 Files are written beside their place and moved there, so that no process sees half of one; what a file holds is bound to its name
 by a digest, and what is damaged is made anew.
 """
@@ -118,7 +121,7 @@ def _own() -> Path:
     home = Path(os.path.expanduser("~"))    # unlike Path.home() this never fails
     if sys.platform == "darwin":
         base = home / "Library" / "Caches"
-    elif os.name == "nt":
+    elif AS_WINDOWS:
         base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
     else:
         said = os.environ.get("XDG_CACHE_HOME", "")

@@ -183,10 +183,16 @@ def _end(process: subprocess.Popen[bytes]) -> None:
             if hasattr(os, "killpg"):
                 os.killpg(process.pid, signal.SIGKILL)
             else:       # Windows
-                subprocess.run(["taskkill", "/t", "/f", "/pid", str(process.pid)], capture_output=True, check=False,
+                subprocess.run([_taskkill(), "/t", "/f", "/pid", str(process.pid)], capture_output=True, check=False,
                                creationflags=compilers.QUIETLY)
-                process.kill()
+        with suppress(OSError):     # itself at least, where there is no such program
+            process.kill()
         process.wait()
+
+
+def _taskkill() -> str:
+    """Windows' program that ends a process with all it started, by its path: by name alone the current folder's comes first."""
+    return os.path.join(os.environ.get("SYSTEMROOT", r"C:\Windows"), "System32", "taskkill.exe")
 
 
 def _complaint(line: list[str], status: int, said: str, source: str) -> CompilationFailed:

@@ -94,9 +94,10 @@ def symbolic(
 
     What was derived and compiled is kept in the folder that the environment variable ZERODRIFT_CACHE names, or else the
     user's cache folder. As what is in it is executed, folder and files have to belong to the user or to root, and nobody else may
-    write them; otherwise a `CacheWarning` says so, and the folder is left alone. Administrators may fill one for everybody: as
-    root, in a folder that all can read. The compiler is the command in CC, or else cc, gcc or clang, on Windows Visual Studio's
-    or MinGW's, or that of the package ziglang; where there is none, the system is evaluated in Python, and a
+    write them; otherwise a `CacheWarning` says so, and the folder is left alone. Windows' own rights are not looked at: let
+    ZERODRIFT_CACHE name there what is closed to other users, as the user's cache folder is. Administrators may fill a folder for
+    everybody: as root, where all can read it. The compiler is the command in CC, or else cc, gcc or clang, on Windows Visual
+    Studio's or MinGW's, or that of the package ziglang; where there is none, the system is evaluated in Python, and a
     `NoCompilerWarning` says so. CFLAGS is not looked at: flags can stand in CC.
 
     Examples
