@@ -319,7 +319,7 @@ static int are_finite(const double *x, int64_t n)
 
 static void check_rows(const zd_system *system, const zd_settings *settings, const double *sizes, const zd_record *record, double *last)
 {
-    const double rounding = 1 + 0x1p-51;        /* of the division by the size */
+    const double rounding = 1 + 0x1p-51, smallest = 0x1p-1074;      /* of the division by the size, and where that underflows */
     const int row_of_projection = zd_row_named(ZD_CORRECTIONS, "projection");
     const zd_card *card = zd_row(ZD_CORRECTIONS, row_of_projection);
     zd_given projection = settings->correction[row_of_projection];
@@ -332,7 +332,8 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);
         *last = record->t[row];
         for (int k = 0; corrected && *last > settings->t0 && k < system->mh; k++)
-            EXPECT(fabs(record->position_violation[row * system->mh + k]) <= *zd_value_named(&projection, card, "tol") * sizes[k] * rounding);
+            EXPECT(fabs(record->position_violation[row * system->mh + k])
+                   <= (*zd_value_named(&projection, card, "tol") * rounding + smallest) * sizes[k]);
     }
 }
 
