@@ -308,6 +308,8 @@ void zd_batch_derive(void (*derive)(double *data), int64_t runs, int64_t doubles
 
 /* Factors near 1 of what the system is evaluated at, and of what it then writes. Entries of M come in equal pairs. */
 typedef struct zd_perturbation {
+    const double *numbers;      /* what its series read, which find them here: the first member; NULL: it has none */
+    const zd_series *series;    /* of the motion that follows from all of this; NULL: it has none */
     const zd_system *system;
     double t;
     const double *p, *v;    /* (nq,), (nv,) */

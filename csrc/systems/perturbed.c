@@ -54,7 +54,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.follow = system.follow ? follow : NULL;
     system.direct = NULL;
     system.directs = 0;
-    system.series = NULL;
+    system.series = perturbation->series;      /* of the terms as they are perturbed */
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;
     return system;

@@ -189,3 +189,29 @@ def test_parameters_change_and_pickles_keep_it():
     other = pickle.loads(pickle.dumps(system)).with_parameters(w=5.0)
     np.testing.assert_array_equal(zd.simulate(other, 1.0, **FINE).p, zd.simulate(system.with_parameters(w=5.0), 1.0, **FINE).p)
     assert np.abs(zd.simulate(other, 1.0, **FINE).p[-1] - zd.simulate(system, 1.0, **FINE).p[-1]).max() > 0.1
+
+
+@pytest.mark.parametrize("steps", [{"step": 0.01}, {"rtol": 1e-10, "atol": 1e-10}], ids=["fixed", "chosen"])
+def test_runs_of_an_ensemble_are_those_that_simulate_makes(steps):
+    """Of one start, so that nothing of a run may be left for the next one."""
+    gravity, times = np.linspace(5, 15, 5), np.linspace(0, 2, 5)
+    system, options = swinging(w, parameters={w: 9.81}), {"integrator": "taylor", "t_eval": times, **steps}
+    ens = zd.ensemble(system, 2.0, parameters={"w": gravity}, threads=1, **options)
+    assert not ens.failed.any()
+    assert np.ptp(ens["x"][:, -1]) > 0.1
+    for i, each in enumerate(gravity):
+        sol = zd.simulate(system.with_parameters(w=each), 2.0, **options)
+        np.testing.assert_array_equal(ens["x"][i], sol.p[:, 0])
+        np.testing.assert_array_equal(ens[i].p, sol.p)
+
+
+def test_an_ensemble_says_what_it_does_not_take(pendulum, bar):
+    def made(system, **options):
+        return zd.ensemble(system, 1.0, v0=[system.v0] * 2, step=0.01, integrator="taylor", **options)
+
+    assert all("'taylor' takes systems that bring Taylor series" in said for said in made(bar).messages)
+    other = made(pendulum, formulation="independent")
+    assert other.failed.all()
+    assert all("'independent' is part of them" in said for said in other.messages)
+    with pytest.raises(zd.UnsuitedIntegrator, match=r"has no Taylor series: .*Abs"):
+        made(swinging(force=[sympy.Abs(y), 0]))

@@ -34,7 +34,7 @@ from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .known_events import KnownEvent
 from .measures import Outputs
 from .packing import CONSTANT, DIAGONAL, PACKED, Packing
-from .perturbed import perturbed
+from .perturbed import PerturbedCore, perturbed
 from .runs import (
     COUNTS,
     Record,
@@ -59,12 +59,13 @@ from .systems import CoreSystem, Kind, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
-    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TAKE_FAR_SINES", "TERMS", "VERSION", "Card", "CoreSystem",
-    "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter", "PythonCore", "Record",
-    "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration", "accelerations", "address_of", "cards", "clash",
-    "count_steps", "default", "direct_unit", "disagreement", "doubles", "error_of", "find", "hand_far_sines", "in_library",
-    "is_length", "kind_at", "kinds", "load_data", "numba_signature", "perturbed", "probe", "project", "required", "row_bytes",
-    "row_takes_series", "settings", "states_between", "takes_direct", "takes_embeddings", "takes_series", "terms_of",
+    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TAKE_FAR_SINES", "TERMS", "VERSION", "Card",
+    "CoreSystem", "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter",
+    "PerturbedCore", "PythonCore", "Record", "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration",
+    "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "disagreement", "doubles",
+    "error_of", "find", "hand_far_sines", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
+    "perturbed", "probe", "project", "required", "row_bytes", "row_takes_series", "settings", "states_between", "takes_direct",
+    "takes_embeddings", "takes_series", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

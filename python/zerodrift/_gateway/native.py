@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
-from .base import MESSAGE_SIZE, TERMS, Variable, doubles, error_of, lengths, set_quaternions, text
+from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
 from .packing import Packing, declare
 from .systems import CoreSystem, Kind
 
@@ -65,17 +65,6 @@ class NativeCore(CoreSystem):
         other.c.series = ffi.cast("const zd_series *", address)
         other._data = (*self._data, keep)
         return other
-
-    def series(self, order: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Taylor coefficients (order + 1, ...) of p, v, and of the energy that comes in, where the system has its series."""
-        size, brought = order + 1, self.c.series
-        found = np.zeros((size, self.nq)), np.zeros((size, self.nv)), np.zeros(size)
-        scratch = ffi.new("double[]", max(1, size * brought.scratch))
-        to = [doubles(each, each.size, writable=True) for each in found]
-        status = brought.evaluate(self.c.data, order, t, doubles(p, self.nq), doubles(v, self.nv), *to, scratch)
-        if status:
-            raise error_of(status, "the series failed")
-        return found
 
     def with_lanes(self, address: int, keep: Any) -> NativeCore:
         """The same system with one `zd_direct` more, at `address`, behind the one that it has; not where that is for one

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from .._core import ffi, lib
@@ -14,18 +16,37 @@ NAMES = ("A", "M", "d", "f", "C", "Phi_t", "xi")    # the terms that are perturb
 class PerturbedCore(CoreSystem):
     """Another system, whose arguments t (1,), p (nq,), v (nv,) and terms are multiplied by factors, one for each entry."""
 
-    def __init__(self, inner: CoreSystem, factors: dict[str, np.ndarray]) -> None:
-        self.inner, self.factors = inner, factors
+    def __init__(self, inner: CoreSystem, factors: dict[str, np.ndarray],
+                 series: tuple[int, np.ndarray, Any] | None = None) -> None:
+        self.inner, self.factors, self._brought = inner, factors, series
         memory = {name: doubles(array, array.size) for name, array in factors.items()}
         terms = ffi.new("zd_terms *", {name: ffi.cast("double *", memory[name]) for name in NAMES if name in memory})
         self._kept = memory, inner
         self._perturbation = ffi.new("zd_perturbation *", {
             "system": inner.c, "t": factors["t"][0], "p": memory["p"], "v": memory["v"], "terms": terms[0]})
+        if series:
+            address, numbers, _ = series
+            memory["numbers"] = self._perturbation.numbers = doubles(numbers, numbers.size)
+            self._perturbation.series = ffi.cast("const zd_series *", address)
         super().__init__(ffi.new("zd_system *", lib.zd_perturbed(self._perturbation)), self._kept)
 
     def for_run(self) -> PerturbedCore:
         """The same with the inner system for one run."""
-        return PerturbedCore(self.inner.for_run(), self.factors)
+        return PerturbedCore(self.inner.for_run(), self.factors, self._brought)
+
+    @property
+    def shapes(self) -> dict[str, tuple[int, ...]]:
+        """Of the factors, those of stored matrices with their zeros."""
+        return {name: self._dense(name).shape for name in self.factors}
+
+    def _dense(self, name: str) -> np.ndarray:
+        packing, factors = self.inner.packing, self.factors[name]
+        return packing.expand(name, factors) if packing and name in packing.shapes else factors
+
+    def with_series(self, address: int, parameters: np.ndarray, keep: Any) -> PerturbedCore:
+        """The same system with the series of its motion, a `zd_series` at `address`, of the parameters and all factors."""
+        numbers = np.concatenate([parameters, *(self._dense(name).ravel() for name in self.factors)])
+        return PerturbedCore(self.inner, self.factors, (address, numbers, keep))
 
     @property
     def error(self) -> BaseException | None:

@@ -98,6 +98,17 @@ class CoreSystem(Measuring):
         """The system for one run; one written in Python needs memory of its own for each."""
         return self
 
+    def series(self, order: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Taylor coefficients (order + 1, ...) of p, v, and of the energy that comes in, where the system has its series."""
+        size, brought = order + 1, self.c.series
+        found = np.zeros((size, self.nq)), np.zeros((size, self.nv)), np.zeros(size)
+        scratch = ffi.new("double[]", max(1, size * brought.scratch))
+        to = [doubles(each, each.size, writable=True) for each in found]
+        status = brought.evaluate(self.c.data, order, t, doubles(p, self.nq), doubles(v, self.nv), *to, scratch)
+        if status:
+            raise error_of(status, "the series failed")
+        return found
+
     def suits(self, integrator: int) -> bool:
         """Whether that row of the table of integrators can take the system."""
         return bool(lib.zd_suits(self.c, integrator))

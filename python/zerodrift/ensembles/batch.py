@@ -35,6 +35,11 @@ class Batch(NamedTuple):
     chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
     events: _gateway.Watcher | None         # which the core knows
     numbers: int                            # of the tables of one run, about
+    series: str | None                      # the vector unit of the series that steps are made by; None: they are made otherwise
+
+    def core_of(self, tables: NumberTables) -> _gateway.CoreSystem:
+        """Whose functions all runs have."""
+        return tables.core if self.series is None else self.system._with_series(tables.core, self.series)
 
     @property
     def runs_at_once(self) -> int:
@@ -73,10 +78,14 @@ def _batch(plan: Plan) -> Batch | None:
     is_family = tables is not None and tables.family is not None
     if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
         return None
-    return Batch(system, found.options, found.rows, *found_columns, direct,
-                 assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
-                 None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
-                 tables.family.numbers if is_family else 0)
+    batch = Batch(system, found.options, found.rows, *found_columns, direct,
+                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
+                  None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
+                  tables.family.numbers if is_family else 0,
+                  found.chosen["vector"] if _gateway.takes_series(found.options) else None)
+    if tables is not None:
+        batch.core_of(tables)       # a system without series is refused before anything runs
+    return batch
 
 
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
@@ -131,7 +140,7 @@ def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int,
     p0, v0 = plan.runs.starts(tables, first, last)
     room = plan.remembered.setdefault("events", FEW_EVENTS)
     while True:
-        made = _gateway.run_batch(tables.core, batch.options, tables.data, tables.size, p0, v0, batch.rows,
+        made = _gateway.run_batch(batch.core_of(tables), batch.options, tables.data, tables.size, p0, v0, batch.rows,
                                   tuple(dict.fromkeys(wanted)), batch.assembly, stop, family=tables.family, count=last - first,
                                   outputs=batch.outputs, events=batch.events, room=room)
         most = 0 if made.events is None else int(made.events.count.max(initial=0))

@@ -14,9 +14,12 @@ another reason to disagree:
   In time, its points of evaluation are more than three times as dense as those of the first.
 
 Each is compared with the motion at all rows that both have. The differences cannot all be small by luck, as they are not
-rounded alike. To this is added what no run shows: times are doubles, and the steps and coefficients that are multiplied by
-rates are, too, which may shift the motion by two roundings of the time that has passed. What none of this can exclude is
-said in `Reference.caveats`.
+rounded alike. Where a system has a Taylor series and that is not enough, the motion is computed once more by this, with some
+tenth of the steps, so that less is rounded. The integrator of highest order among the others then is the other method, with as
+many steps as bring it nearest.
+
+To this is added what no run shows: times are doubles, and the steps and coefficients that are multiplied by rates are, too, which
+may shift the motion by two roundings of the time that has passed. What none of this can exclude is said in `Reference.caveats`.
 """
 
 from __future__ import annotations
@@ -26,29 +29,25 @@ import dataclasses
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
+from .. import _check
 from ..errors import UnreachableTolerance, ZerodriftError
 from ..runs import settings
-from ..runs.diagnosis import unwarned
-from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, system_of
+from .motions import ROUNDING, UNIT, Difference, Motion, Way
 
 SAFETY = 10         # the certified error, in units of the largest difference
-ROUNDING = np.finfo(float).eps
 STALL_RATIO = 4     # halving the step has stalled where it divides the difference by less than this, perhaps for rounding
 SMOOTH_RATIO = 8    # where it divides the difference by less than this, far above rounding, terms are not smooth for the steps
 MOST_STALLS = 2     # refinement ends after so many stalls that rounding does not explain, unless a smaller error is wanted
 EXPLAINED = 30      # a difference of at most so many times what rounding was seen to do is rounding
 RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
-PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
 REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
 FORGOTTEN = 3       # a motion has forgotten its start where rounding alone makes another one of it, so many refinements in a row
-UNIT = 3            # numbers of steps are multiples of this, as two and five thirds of them are taken
 GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
 LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
 SPACING = 4 * ROUNDING      # part of the motion's size; doubles cannot express a smaller error
@@ -58,7 +57,7 @@ TIME = ("terms depend on t, and no max_step was said: what acts for less than th
 ROUNDED = ("the difference between runs stops falling at round-off and at the tolerance of corrections, which this motion "
            "multiplies")
 SLOWLY = "halving the steps divides the differences"
-SMOOTH = (SLOWLY + " by {ratio:.2g} only, where smooth terms give up to 256: the terms jump or "
+SMOOTH = (SLOWLY + " by {ratio:.2g} only, where smooth terms give up to {most:.3g}: the terms jump or "
           "have corners, or change faster than the steps, and the error is a multiple of the differences that were seen")
 SENSITIVE = ("the motion multiplies roundings by some {growth:.1g}: the error follows the growth that was seen in these runs, "
              "and no bound of it was proved")
@@ -98,17 +97,6 @@ class Reference:
         return "\n".join(lines + [f"  not excluded: {caveat}" for caveat in self.caveats])
 
 
-class Difference(NamedTuple):
-    """How far a run is from the solution."""
-
-    steps: int
-    formulation: str
-    p: float
-    v: float
-    integrator: str
-    rounded: bool
-
-
 def reference(
     system: BaseSystem,
     t_span: float | tuple[float, float],
@@ -126,7 +114,8 @@ def reference(
 
     The integrator of the highest order halves its fixed step until the runs agree. Runs with other steps, by another method, in
     another formulation, and with everything off by rounding are compared with it; the error certified is ten times the
-    largest difference, and what the rounding of time may add.
+    largest difference, and what the rounding of time may add. Where that is more than `error`, or none was asked for, systems
+    of expressions are taken by `taylor`, too, whose fewer steps are rounded less, and the better of both is returned.
 
     Parameters
     ----------
@@ -179,11 +168,14 @@ def reference(
     system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step}
-    motion = _Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
+    motion = Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
     if wanted is not None and wanted < SPACING * motion.size:
         raise UnreachableTolerance(f"error must be at least {SPACING * motion.size:.2g}, the spacing of doubles at the size of "
                                    f"this motion, not {wanted:g}")
     found = _Search(motion, pairs, wanted).found()
+    if (wanted is None or found.error > wanted) and motion.follows_series(pairs[0][0]):
+        with contextlib.suppress(ZerodriftError):
+            found = min(found, _SearchBySeries(motion, pairs, wanted).found(), key=lambda each: each.error)
     if wanted is not None and not found.error <= wanted:
         why = next((caveat for caveat in found.caveats if caveat.startswith(SLOWLY)), ROUNDED)
         raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: {why}; what can be certified is {found.error:.2g}")
@@ -203,85 +195,10 @@ def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
     return [names]
 
 
-class _Perturbed(BaseSystem):
-    """A system that is off by rounding."""
-
-    def __init__(self, system: BaseSystem, seed: int) -> None:
-        self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
-        self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
-        self._core = _gateway.perturbed(core_of(system), ROUNDING, seed)
-
-    def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
-        """A state off by a rounding or two."""
-        return x * (1.0 + ROUNDING * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
-
-
-@dataclass(frozen=True)
-class _Way:
-    """How a run is made: its steps, equations and method, and how it is rounded (0: as it comes)."""
-
-    steps: int
-    formulation: str
-    integrator: str
-    rounding: int = 0
-
-
-class _Motion:
-    """What is to be known: runs of it, and how large and fast it is."""
-
-    def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
-        self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
-        self.start = system._state_or_start(p0, v0, t=span[0])
-        self.bounded = bounds["max_step"] is not None
-        taken = settings.evaluating_integrators(system)
-        cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
-        self.method, self.other = cards[0].name, cards[1].name
-        with unwarned():
-            probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
-                             stabilization=stabilization, direct=False, **bounds)
-        self.size = float(np.abs(probe.p).max())
-        most = math.ceil((span[1] - span[0]) / bounds["max_step"]) if self.bounded else 1
-        self.steps = UNIT * math.ceil(max(probe.stats["steps"], most) / UNIT)
-        self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
-
-    def run(self, way: _Way, rows: int | None = None) -> Solution | None:
-        """A run, of which so many rows after the first are saved; None where its steps were too long for it."""
-        system, (p0, v0) = self.system, self.start
-        if way.rounding:
-            system = _Perturbed(system, way.rounding)
-            p0, v0 = (system.shifted(x, way.rounding + i) for i, x in enumerate((p0, v0)))
-        saved = {"save_every": way.steps // (rows or way.steps)} if self.t_eval is None else {"t_eval": self.t_eval}
-        try:
-            with unwarned():
-                return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
-                                formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
-                                direct=False, **saved)
-        except ZerodriftError as error:
-            if error.solution is None:      # it did not even start
-                raise
-            return None
-
-    def difference(self, way: _Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
-        """How far that run is from the motion of so many steps, at the rows that both have."""
-        rows = math.gcd(steps, way.steps)
-        run = run or self.run(way, rows)
-        apart = [math.inf, math.inf]
-        if run is not None:
-            every, its = (1, 1) if self.t_eval is not None else (steps // rows, (len(run.t) - 1) // rows)
-            apart = [float(np.abs(getattr(motion, name)[::every] - getattr(run, name)[::its]).max()) for name in "pv"]
-        return Difference(way.steps, way.formulation, *apart, way.integrator, way.rounding > 0)
-
-
-def _shift(t: np.ndarray, x: np.ndarray) -> float:
-    """The most that a rounding of the time, and of the time that has passed, makes of x."""
-    rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
-    return float(ROUNDING * (rates * (np.abs(t) + t - t[0])[1:]).max())
-
-
 class _Search:
     """Halves the step until the error is certified, or does not fall any more."""
 
-    def __init__(self, motion: _Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
+    def __init__(self, motion: Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
         self.motion, self.pairs, self.wanted = motion, pairs, wanted or 0.0
 
     def found(self) -> Reference:
@@ -309,15 +226,15 @@ class _Search:
                                        "shorter ones, or multiplies round-off until nothing is left. Ask for a shorter t_span")
         return best
 
-    def _way(self, steps: int) -> _Way:
-        return _Way(steps, self.pairs[0][0], self.motion.method)
+    def _way(self, steps: int) -> Way:
+        return Way(steps, self.pairs[0][0], self.motion.method)
 
     def _certified(self, fine: Solution, steps: int, halved: Difference, previous: float) -> Reference:
         """What all runs say of that of so many steps."""
         motion, method = self.motion, self.motion.method
-        differences = [halved, motion.difference(_Way(steps, self.pairs[0][0], method, rounding=1), fine, steps),
+        differences = [halved, motion.difference(Way(steps, self.pairs[0][0], method, rounding=1), fine, steps),
                        self._by_other_method(fine, steps)]
-        differences.append(motion.difference(_Way(5 * steps // UNIT, self.pairs[0][1], method, rounding=3), fine, steps))
+        differences.append(motion.difference(Way(5 * steps // UNIT, self._of_finer(), method, rounding=3), fine, steps))
         errors = [SAFETY * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
                   for name, shift in zip("pv", motion.shift, strict=True)]
         found = Reference(fine, *errors, tuple(differences))
@@ -334,11 +251,19 @@ class _Search:
         return self._other_method(fine, steps)
 
     def _other_method(self, fine: Solution, steps: int) -> Difference:
-        return self.motion.difference(_Way(2 * steps // UNIT, self.pairs[0][1], self.motion.other, rounding=2), fine, steps)
+        return self.motion.difference(Way(2 * steps // UNIT, self.pairs[0][1], self.motion.other, rounding=2), fine, steps)
+
+    def _of_finer(self) -> str:
+        """The formulation of the run with the shortest steps."""
+        return self.pairs[0][1]
+
+    def _of_instants(self, found: Reference, steps: int) -> int:
+        """In so many steps of the integrator of highest order were the terms evaluated."""
+        return steps
 
     def _is_forgotten(self, fine: Solution, steps: int) -> bool:
         """Whether rounding alone makes another motion of it. With steps that are much too long, it may by chance."""
-        rounded = self.motion.difference(_Way(steps, self.pairs[0][0], self.motion.method, rounding=1), fine, steps)
+        rounded = self.motion.difference(Way(steps, self.pairs[0][0], self.motion.method, rounding=1), fine, steps)
         return RESOLVED * self.motion.size < rounded.p < math.inf
 
     def _is_final(self, found: Reference, stalls: int) -> bool:
@@ -356,10 +281,41 @@ class _Search:
         motion = self.motion
         halved, rounded, _, finer = (d.p for d in found.differences)
         if not (core_of(motion.system).timeless or motion.bounded):
-            yield TIME.format(apart=(motion.span[1] - motion.span[0]) / steps * LARGEST_GAP)
+            step = (motion.span[1] - motion.span[0]) / self._of_instants(found, steps)
+            yield TIME.format(apart=step * LARGEST_GAP)
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
         if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
-            yield SMOOTH.format(ratio=min(ratios))
+            yield SMOOTH.format(ratio=min(ratios), most=2.0**settings.integrators()[motion.method].order)
         own = ROUNDING * motion.size + motion.shift[0]
         if rounded > GROWTH * own:
             yield SENSITIVE.format(growth=rounded / own)
+
+
+class _SearchBySeries(_Search):
+    """The same by Taylor's method, whose steps are so few that hardly anything is rounded."""
+
+    def __init__(self, motion: Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
+        super().__init__(motion.by_series(pairs[0][0]), pairs, wanted)
+        self.least = motion.steps
+
+    def _other_method(self, fine: Solution, steps: int) -> Difference:
+        """With as many steps as bring it nearest, of all those that are 2/3 of the motion's, doubled."""
+        steps_of_other, nearest = 2 * steps // UNIT, None
+        while steps_of_other < self.least:
+            steps_of_other *= 2
+        for _ in range(REFINEMENTS):
+            found = self.motion.difference(Way(steps_of_other, self.pairs[0][1], self.motion.other, rounding=2), fine, steps)
+            is_resolved = nearest is not None and nearest.p <= RESOLVED * self.motion.size
+            nearest, before = min(nearest or found, found, key=lambda each: each.p), nearest
+            if SAFETY * found.p <= self.wanted or found.p == math.inf or (is_resolved and STALL_RATIO * found.p >= before.p):
+                break
+            steps_of_other *= 2
+        return nearest
+
+    def _of_instants(self, found: Reference, steps: int) -> int:
+        """In those of the check: the terms of a series are evaluated once in a step."""
+        return found.differences[2].steps
+
+    def _of_finer(self) -> str:
+        """The formulation of the check, or the next of which there is a series."""
+        return next((other for _, other in self.pairs if self.motion.follows_series(other)), self.pairs[0][0])

@@ -15,8 +15,8 @@ UNITS = {"baseline": 0, "avx2": 1, "avx512": 2}     # as zerodrift/series.h coun
 class SeriesFunctions:
     """The series of a system, and of those that differ from it in parameters and start alone."""
 
-    def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int]) -> None:
-        self._definition = program, sizes
+    def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data: str = "data") -> None:
+        self._definition = program, sizes, data
         self._source: str | None = None
         self._why_none = ""
         self._libraries: dict[str, ctypes.CDLL | None] = {}

@@ -18,7 +18,7 @@ from ..errors import NoCompilerWarning, UnsuitedIntegrator
 from ..systems.base import BaseSystem, quaternion_places, with_units
 from ..systems.structure import Structure, checked
 from ..systems.tables import NumberTables, not_finite, refusals
-from . import compilers, compiling
+from . import compilers, compiling, perturbing
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
 from .series import SERIES
 from .series_functions import SeriesFunctions
@@ -79,6 +79,7 @@ class SymbolicSystem(BaseSystem):
         self._direct = direct or DirectFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
+        self._perturbed: SeriesFunctions | None = None      # of the same off by rounding
         self._library = compiling.library(code.c_source, progress, meanwhile=self._direct.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
@@ -121,6 +122,16 @@ class SymbolicSystem(BaseSystem):
             raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
         library = self._series.library(vector)
         return core.with_series(_gateway.address_of(library, SERIES), library)
+
+    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
+        if not self._brings_series:
+            return core
+        parameters = self._values
+        if self._perturbed is None:
+            program = perturbing.perturbed(self._code.program, core.shapes, len(parameters))
+            self._perturbed = SeriesFunctions(program, self._code.sizes, perturbing.NUMBERS)
+        library = self._perturbed.library(vector)
+        return core if library is None else core.with_series(_gateway.address_of(library, SERIES), parameters, library)
 
     @property
     def _brings_series(self) -> bool:

@@ -322,6 +322,10 @@ class BaseSystem:
         """That core of the system with the Taylor series of its motion, where there is one."""
         return core
 
+    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
+        """That core, of the system off by rounding, with the series of what moves so."""
+        return core
+
     @property
     def _brings_series(self) -> bool:
         """Whether there is one."""
