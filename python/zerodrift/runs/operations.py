@@ -59,7 +59,7 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         If what is held leaves no way to satisfy the constraints.
     InconsistentStart
         If what a mechanism is to hold cannot be met; the error names it. One of more than 1000 rows or
-        velocities has to be drawn nearly as it starts, and cannot wish.
+        velocities has to be drawn nearly as it starts, as positions that are held are found by undamped steps, and cannot wish.
 
     Examples
     --------
