@@ -198,6 +198,7 @@ static int find_positions(rattle *self)
     zd_motion *motion = self->motion;
     int iterations, status = zd_motion_accelerate(motion);    /* what is recorded there, and needed for a first w */
     double left;
+    if (!status) status = zd_motion_factor(motion);     /* the acceleration may be one that was kept, and its matrix another */
     if (status) return status;
     times_mass(self, 1, motion->point->terms.M, self->v0, 0, self->start);
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
