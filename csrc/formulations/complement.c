@@ -169,7 +169,7 @@ int zd_complement_review(zd_complement *self, zd_point *point)
     if (self->own || !was_chosen || !is_bad) return status;
     point->statistics->repartitions++;
     self->chosen = 0;
-    point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);
+    point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
     return zd_complement_at(self, point);
 }
 

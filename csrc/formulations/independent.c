@@ -70,7 +70,7 @@ static int leave(void *memory, zd_point *point, double *y)
     if (status) return status;
     if (changed && !point->system->mn && (!point->terms.A || point->system->quaternions || point->system->followers)) {     /* (19): u is qdot */
         zd_complement_prefer(&self->minimal.complement, embedding->index);
-        point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED);
+        point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
     }
     zd_embedding_coordinates(embedding, point, y);
     return zd_minimal_leave(&self->minimal, point, y + embedding->k);

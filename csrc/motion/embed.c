@@ -178,6 +178,7 @@ static void move_there(zd_motion *motion, double t)
 {
     zd_point_move(motion->point, t, motion->road.p, motion->road.v);
     if (!motion->is_stabilized) motion->point->known |= ZD_ACCELERATED;
+    else motion->point->known &= ~ZD_ACCELERATED;       /* what is added to (6) is missing */
 }
 
 int zd_embed_enter(zd_motion *motion, double t, const double *y)
