@@ -42,6 +42,11 @@ void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes)
     return here;
 }
 
+zd_span zd_span_since(const zd_arena *arena, size_t used)
+{
+    return (zd_span){arena->base ? arena->base + used : NULL, arena->used - used};
+}
+
 void *zd_allocate(size_t bytes)
 {
     size_t size = round_up(bytes ? bytes : 1);

@@ -14,6 +14,14 @@ double *zd_take_doubles(zd_arena *arena, size_t count);
 /* A structure in the arena, filled with what was laid out beside it: `*here = *filled`. */
 void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes);
 
+/* All that has been laid out since that much was used */
+typedef struct zd_span {
+    void *at;
+    size_t bytes;
+} zd_span;
+
+zd_span zd_span_since(const zd_arena *arena, size_t used);
+
 void *zd_allocate(size_t bytes);    /* zeroed, aligned to a cache line; NULL if there is no memory */
 void zd_release(void *memory);
 

@@ -102,7 +102,8 @@ struct zd_motion {
     zd_tally *tally;        /* of the run */
     zd_point *point;        /* where the motion is */
     const zd_formulation *formulation;
-    void *solver;           /* the formulation's memory */
+    void *solver;           /* the formulation's memory, */
+    zd_span memory_of_chosen;   /* and all that was laid out for that of the settings */
     int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
     int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
     zd_hold hold;           /* what they promise of both */

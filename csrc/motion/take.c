@@ -29,6 +29,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
 {
     const int has_products = system->operations && system->operations->add_weighted;
     const int matrices = has_products && formulation->has_matrices_evaluated && zd_takes_many_rows(formulation, system) ? 0 : ZD_M | ZD_C;
+    const size_t used = arena->used;
+    void *solver = formulation->take(arena, independent, given);
     *motion = (zd_motion){
         .system = *system,
         .formulation = formulation,
@@ -38,7 +40,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         /* A is for the rates of p, which always go with it: so it comes in the same evaluation, unless the system multiplies by it. */
         .acceleration_needs = (zd_brings_times_A(system) ? 0 : ZD_A) | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
-        .solver = formulation->take(arena, independent, given),
+        .solver = solver,
+        .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
     zd_rank *rank = take_rank(motion, arena, independent);

@@ -19,6 +19,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_steppe
         self.before = zd_place_take(arena, stepper->motion);
         self.after = zd_place_take(arena, stepper->motion);
         self.rates = zd_rates_take(arena, stepper->motion);
+        self.aside = zd_aside_take(arena, stepper);
     }
     return self;
 }
@@ -32,19 +33,29 @@ void zd_output_keep_end(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->after);
     zd_stepper_keep_rates(self->stepper, &self->rates);
+    const zd_motion *motion = self->stepper->motion;
+    self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->settle;
+    self->aside.is_set = 0;
 }
 
-/* Where the next step begins */
-static int return_to_end(zd_output *self)
+void zd_output_leave_end(zd_output *self)
 {
-    int status = zd_stepper_return_to(self->stepper, &self->after);
+    if (!self->aside.is_set) zd_aside_set(&self->aside, self->stepper);
+}
+
+int zd_output_return_to_end(zd_output *self)
+{
+    int status = self->aside.is_set ? zd_aside_return(&self->aside, self->stepper, &self->after)
+                                    : zd_stepper_return_to(self->stepper, &self->after);
     if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
-    return status;
+    /* A matrix that is factored for a right side is solved for that in other operations. */
+    return !status && self->is_factored ? zd_motion_factor(self->stepper->motion) : status;
 }
 
 int zd_output_move(zd_output *self, double t)
 {
-    if (t == self->after.t) return return_to_end(self);
+    if (t == self->after.t) return zd_output_return_to_end(self);
+    zd_output_leave_end(self);
     int status = zd_stepper_return_to(self->stepper, &self->before);
     return status ? status : zd_stepper_make_substep(self->stepper, t);
 }
@@ -70,8 +81,10 @@ static int move_to_next(zd_output *self, int is_end)
     self->is_away = 1;
     if (is_first && self->is_spread) status = zd_stepper_spread(self->stepper);
     if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t);
-    self->is_spread = self->is_spread && !status;
-    return self->is_spread || status == ZD_CALLBACK ? status : zd_output_move(self, t);
+    if (status == ZD_CALLBACK || (self->is_spread && !status)) return status;
+    status = self->is_spread ? zd_output_return_to_end(self) : ZD_DONE;     /* from where shorter steps are made */
+    self->is_spread = 0;
+    return status ? status : zd_output_move(self, t);
 }
 
 /* Saves those times that lie within the step. */

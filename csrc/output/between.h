@@ -2,7 +2,7 @@
 #ifndef ZD_BETWEEN_H
 #define ZD_BETWEEN_H
 
-#include "../stepping/step.h"
+#include "../stepping/aside.h"
 #include "record.h"
 
 typedef struct zd_output {
@@ -13,7 +13,9 @@ typedef struct zd_output {
     int64_t next;              /* of them */
     int has_polynomial;     /* whether that of the method is taken */
     zd_place before, after; /* the step: where it began and where it has ended, */
-    zd_rates_there rates;   /* with the acceleration there */
+    zd_rates_there rates;   /* with the acceleration there, */
+    int is_factored;        /* or else the leading matrix; */
+    zd_aside aside;         /* and what goes into the next step besides */
     int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
     int is_open;            /* whether its end is kept, */
     int is_away;            /* the motion is elsewhere, */
@@ -23,6 +25,9 @@ typedef struct zd_output {
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
 void zd_output_keep_beginning(zd_output *self);
 void zd_output_keep_end(zd_output *self);
+/* Before the motion leaves the end; and back to it, so that the next step is what it would have been. */
+void zd_output_leave_end(zd_output *self);
+int zd_output_return_to_end(zd_output *self);
 int zd_output_move(zd_output *self, double t);      /* to any time of the step, once its end is kept */
 /* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. ZD_FULL: it goes on where it was
  * when it is called again, with room. */

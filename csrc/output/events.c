@@ -175,6 +175,7 @@ static int find_all(zd_watch *self, double *end)
 {
     double first_end;
     zd_stepper_keep_place(self->output->stepper, &self->end);
+    zd_output_leave_end(self->output);
     int status = locate_all(self, &first_end);
     if (!status) status = report(self, first_end);
     if (self->ended) *end = first_end;
@@ -195,6 +196,7 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
     int happening = 0, status = ZD_DONE;
     if (!corrected) {
         zd_output_keep_end(self->output);
+        zd_output_leave_end(self->output);
         status = correct(stepper);
     }
     if (!status) status = find_happening(self, &happening);
@@ -202,7 +204,7 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
         if (corrected) zd_output_keep_end(self->output);
         status = find_all(self, end);
     }
-    if (!status && (happening || !corrected) && !self->ended) status = zd_stepper_return_to(stepper, &self->output->after);
+    if (!status && (happening || !corrected) && !self->ended) status = zd_output_return_to_end(self->output);
     double *now = self->now;
     self->now = self->before;
     self->before = now;

@@ -16,6 +16,9 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
     int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
     size_t size = (size_t)(motion->rate.size + more);
     double *y = zd_take_doubles(arena, size), *last = zd_take_doubles(arena, size);
+    const size_t used = arena->used;
+    void *memory = integrator->take(arena, integrator->table, system, (int)size, given);
+    const zd_span memory_of_integrator = zd_span_since(arena, used);
     const int is_whole = !motion->formulation->settle;     /* then the state begins with p and v */
     *self = (zd_stepper){
         .motion = motion,
@@ -24,7 +27,8 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .independent = *independent,
         .capacity = (int)size,
         .integrator = integrator,
-        .memory = integrator->take(arena, integrator->table, system, (int)size, given),
+        .memory = memory,
+        .memory_of_integrator = memory_of_integrator,
         .y = y,
         .last = {
             .y = last,

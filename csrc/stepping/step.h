@@ -21,7 +21,8 @@ typedef struct zd_stepper {
     zd_system independent;  /* the sizes that its solver is laid out for */
     int capacity;           /* the largest size of the state */
     const zd_integrator *integrator;
-    void *memory;           /* the integrator's */
+    void *memory;           /* the integrator's, */
+    zd_span memory_of_integrator;   /* and all that was laid out for it */
     double *y;              /* the integrated state: the formulation's, what corrections add, the energy input (28) */
     double t;               /* where the motion has got to */
     zd_last last;           /* the step being made */

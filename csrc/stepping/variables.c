@@ -64,6 +64,11 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);
 }
 
+void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation)
+{
+    if (stepper->motion->formulation != formulation) use(stepper, &stepper->chosen, stepper->y + stepper->motion->formulation_size);
+}
+
 int zd_variables_change_back(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;

@@ -16,6 +16,8 @@ static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status
 }
 /* From where the step began. */
 int zd_variables_use_dependent(zd_stepper *stepper);
+/* Where the motion is about to be placed: that of the two which it was in before. */
+void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation);
 /* From where the motion is, if it is no longer near a bifurcation. */
 int zd_variables_change_back(zd_stepper *stepper);
 static inline int zd_variables_use_chosen(zd_stepper *stepper)

@@ -1,0 +1,51 @@
+/* A method may remember a Jacobian and where its iteration has led, and a formulation which variables it has chosen. Both do so in memory
+ * that is laid out in one piece, which is copied whole: so nothing has to be known of either. It is about as large as what a step writes.
+ * What is taken from the store once something rare has happened stays as it is.
+ */
+#include "aside.h"
+
+#include <string.h>
+
+#include "../constraints/rank.h"
+#include "../linalg/small.h"
+#include "variables.h"
+
+zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper)
+{
+    return (zd_aside){
+        .of_integrator = zd_take(arena, stepper->memory_of_integrator.bytes),
+        .of_chosen = zd_take(arena, stepper->motion->memory_of_chosen.bytes),
+        .y = zd_take_doubles(arena, (size_t)stepper->capacity),
+    };
+}
+
+void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
+{
+    const zd_motion *motion = stepper->motion;
+    const zd_rank *rank = motion->point->rank;
+    memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
+    memcpy(self->of_chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
+    zd_copy(motion->rate.size, stepper->y, self->y);
+    self->formulation = motion->formulation;
+    self->was_ill_conditioned = rank->was_ill_conditioned;
+    self->was_deficient = rank->was_deficient;
+    self->was_doubtful = rank->was_doubtful;
+    self->is_set = 1;
+}
+
+int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
+{
+    zd_motion *motion = stepper->motion;
+    zd_rank *rank = motion->point->rank;
+    memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
+    memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
+    zd_variables_restore(stepper, self->formulation);
+    motion->point->known &= motion->point->constant;    /* it may be there already, with other factors */
+    int status = zd_stepper_return_to(stepper, end);
+    zd_copy(motion->rate.size, self->y, stepper->y);
+    rank->was_ill_conditioned = self->was_ill_conditioned;
+    rank->was_deficient = self->was_deficient;
+    rank->was_doubtful = self->was_doubtful;
+    self->is_set = 0;
+    return status;
+}

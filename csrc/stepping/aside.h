@@ -1,0 +1,21 @@
+/* What goes from one step of a run into the next besides where it ends, set aside while steps are made that are none of the run's. */
+#ifndef ZD_ASIDE_H
+#define ZD_ASIDE_H
+
+#include "step.h"
+
+typedef struct zd_aside {
+    int is_set;
+    void *of_integrator, *of_chosen;    /* copies of the memories that the stepper and the motion name */
+    double *y;              /* (size,): an own D gives u of v = D u back but for rounding */
+    const zd_formulation *formulation;
+    int was_ill_conditioned, was_deficient, was_doubtful;   /* as the rank has them */
+} zd_aside;
+
+zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper);
+/* At the end of a step of the run */
+void zd_aside_set(zd_aside *self, const zd_stepper *stepper);
+/* Back to it, where the place says it is */
+int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end);
+
+#endif
