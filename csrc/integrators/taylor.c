@@ -64,7 +64,8 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
 static void aim(void *memory, double rtol, double atol)
 {
     taylor *self = memory;
-    const double order = ceil(1 - log(fmax(rtol, atol)) / 2);
+    const double ten = 2.302585092994045684;    /* its logarithm; C libraries' own natural one ties the library to newer ones */
+    const double order = ceil(1 - ten * log10(fmax(rtol, atol)) / 2);
     self->order = (int)fmax(LEAST_ORDER, fmin(order, self->highest));
 }
 
