@@ -182,6 +182,9 @@ void zd_direct_measure(zd_motion *motion);
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);
 static inline int zd_is_direct(const zd_motion *motion) { return motion->road.order != NULL; }
+
+/* Whether functions failed that nothing can take the place of: a direct one that does leaves its work to the others. */
+static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
 /* Whether a step begins where a glance at the one before has seen that it may be made likewise. */
 static inline int zd_direct_continues(zd_motion *motion)
 {

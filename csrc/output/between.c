@@ -81,7 +81,7 @@ static int move_to_next(zd_output *self, int is_end)
     self->is_away = 1;
     if (is_first && self->is_spread) status = zd_stepper_spread(self->stepper);
     if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t);
-    if (status == ZD_CALLBACK || (self->is_spread && !status)) return status;
+    if (zd_callable_failed(self->stepper->motion, status) || (self->is_spread && !status)) return status;
     status = self->is_spread ? zd_output_return_to_end(self) : ZD_DONE;     /* from where shorter steps are made */
     self->is_spread = 0;
     return status ? status : zd_output_move(self, t);

@@ -88,9 +88,8 @@ static int make_again(zd_revisit *self, int64_t row)
     const int has_roads = self->run->motion.road.direct != NULL;
     int status = begin_from_before(self, row);
     if (!status) status = make_step(self, row);
-    if (status == ZD_CALLBACK || !has_roads || (!status && is_at(self, row + 1))) return status;
+    if (!has_roads || (!status && is_at(self, row + 1))) return status;
     const int general_status = make_general_step(self, row);
-    if (general_status == ZD_CALLBACK) return ZD_CALLBACK;
     self->is_general = status || (!general_status && is_at(self, row + 1));
     if (self->is_general) return general_status;
     status = begin(self, row, 0);
@@ -110,7 +109,7 @@ static int find_road(zd_revisit *self, int64_t row)
         status = zd_stepper_spread(stepper);
         self->has_polynomial = !status;
     }
-    if (status != ZD_CALLBACK) return ZD_DONE;
+    if (!zd_callable_failed(&self->run->motion, status)) return ZD_DONE;
     self->row = -1;
     return status;
 }
@@ -123,7 +122,7 @@ int zd_revisit_move(zd_revisit *self, double t)
     if (status) return status;
     if (self->has_polynomial) {
         status = zd_stepper_land_between(&self->run->stepper, t);
-        if (!status || status == ZD_CALLBACK) return status;
+        if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;
     status = begin(self, row, self->is_general);
