@@ -53,23 +53,23 @@ static zd_link3 hang_on(const zd_space_joint *joint, int is_second, int turns)
     for (int i = 0; i < kind->freedoms; i++) {
         const zd_space_freedom *freedom = kind->freedom + (is_second ? i : kind->freedoms - 1 - i);
         if (freedom->kind == ZD_SPACE_SWINGS && !turns) continue;
-        link.step[link.steps++] = (zd_step3){.kind = freedom->kind, .direction = freedom->direction, .sign = is_second ? 1 : -1,
+        link.freedom[link.freedoms++] = (zd_freedom3){.kind = freedom->kind, .direction = freedom->direction, .sign = is_second ? 1 : -1,
                                              .zero = freedom->zero == ZD_SPACE_ZERO_ALONG ? joint->along : 0, .length = joint->length};
     }
     return link;
 }
 
 /* Coordinates of a body are numbered in the order of its joint's table, whichever way it is taken. */
-static void number_steps(zd_link3 *link, parts *to)
+static void number_freedoms(zd_link3 *link, parts *to)
 {
-    const int is_backwards = link->steps && link->step[0].sign < 0;
-    for (int i = 0; i < link->steps; i++) {
-        zd_step3 *step = link->step + (is_backwards ? link->steps - 1 - i : i);
-        step->p = link->p + link->nq;
-        step->v = link->v + link->nv;
-        if (step->kind == ZD_SPACE_SWINGS) to->quaternion[to->quaternions++] = step->p;
-        link->nq += coordinates_of(step->kind);
-        link->nv += velocities_of(step->kind);
+    const int is_backwards = link->freedoms && link->freedom[0].sign < 0;
+    for (int i = 0; i < link->freedoms; i++) {
+        zd_freedom3 *freedom = link->freedom + (is_backwards ? link->freedoms - 1 - i : i);
+        freedom->p = link->p + link->nq;
+        freedom->v = link->v + link->nv;
+        if (freedom->kind == ZD_SPACE_SWINGS) to->quaternion[to->quaternions++] = freedom->p;
+        link->nq += coordinates_of(freedom->kind);
+        link->nv += velocities_of(freedom->kind);
     }
 }
 
@@ -92,7 +92,7 @@ static void plan_links(const zd_space_tables *tables, parts *to)
         link->p = p;
         link->v = v;
         if (link->is_free) number_free(link, to);
-        else number_steps(link, to);
+        else number_freedoms(link, to);
         p += link->nq;
         v += link->nv;
     }
@@ -124,8 +124,8 @@ static void write_lengths(const zd_tree3 *tree, int *lengths)
 {
     for (const zd_link3 *link = tree->link + 1; link <= tree->link + tree->bodies; link++) {
         for (int k = 0; link->is_free && k < ZD_POINT_COORDINATES; k++) lengths[link->p + k] = lengths[tree->nq + link->v + k] = 1;
-        for (int i = 0; i < link->steps; i++)
-            if (link->step[i].kind == ZD_SPACE_SLIDES) lengths[link->step[i].p] = lengths[tree->nq + link->step[i].v] = 1;
+        for (int i = 0; i < link->freedoms; i++)
+            if (link->freedom[i].kind == ZD_SPACE_SLIDES) lengths[link->freedom[i].p] = lengths[tree->nq + link->freedom[i].v] = 1;
     }
 }
 
@@ -134,11 +134,11 @@ static void write_lengths(const zd_tree3 *tree, int *lengths)
 /* Which coordinate of a link is its joint's angle of that number, in the order of the joint's table. */
 static int place_of_angle(const zd_link3 *link, int number)
 {
-    const int is_backwards = link->steps && link->step[0].sign < 0;
-    for (int i = 0; i < link->steps; i++) {
-        const zd_step3 *step = link->step + (is_backwards ? link->steps - 1 - i : i);
-        const int turns = step->kind == ZD_SPACE_TURNS || step->kind == ZD_SPACE_ADVANCES;
-        if (turns && number-- == 0) return step->p;
+    const int is_backwards = link->freedoms && link->freedom[0].sign < 0;
+    for (int i = 0; i < link->freedoms; i++) {
+        const zd_freedom3 *freedom = link->freedom + (is_backwards ? link->freedoms - 1 - i : i);
+        const int turns = freedom->kind == ZD_SPACE_TURNS || freedom->kind == ZD_SPACE_ADVANCES;
+        if (turns && number-- == 0) return freedom->p;
     }
     return -1;
 }

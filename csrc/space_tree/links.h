@@ -9,27 +9,28 @@ typedef struct zd_axes3 {
     zd_vector3 d[ZD_SPACE_AXES];
 } zd_axes3;
 
-typedef struct zd_step3 {
+/* One of the freedoms of the joint that carries a body, in the order in which the joint's frame makes them on its way outwards. */
+typedef struct zd_freedom3 {
     enum zd_space_freedom_kind kind;
     int direction;          /* of the frame that comes along */
     double sign;            /* -1 where the joint is taken backwards */
     double zero;            /* m: the distance along the direction where the coordinate is zero */
     double length;          /* m for each rad of what advances */
     int p, v;               /* its coordinates and velocities, from the first of all */
-} zd_step3;
+} zd_freedom3;
 
 typedef struct zd_link3 {
     int inner;              /* the body that it hangs on; of a free one the ground, whatever that is */
     int is_free, turns;     /* turns: it has an orientation */
     int depth;              /* how many bodies there are from it down to the ground, itself included */
     int p, v, nq, nv;       /* its own coordinates and velocities */
-    int steps;
-    zd_step3 step[ZD_SPACE_FREEDOMS];
+    int freedoms;
+    zd_freedom3 freedom[ZD_SPACE_FREEDOMS];
     zd_vector3 near, far;   /* the joint's point in the inner body's axes, and in its own */
     zd_axes3 near_axes, far_axes;   /* the joint's frame, in the same */
 } zd_link3;
 
-/* Where a step begins, and at the end of all where these lead. */
+/* Where the origin of the joint's frame is in the drawing before each freedom, and after the last. */
 typedef struct zd_way3 {
     zd_vector3 at[ZD_SPACE_FREEDOMS + 1];
 } zd_way3;

@@ -1,4 +1,4 @@
-/* A frame goes along the steps of each joint, from a point of the inner body to the joint's point of the outer one.
+/* A frame goes along the freedoms of each joint, from a point of the inner body to the joint's point of the outer one.
  *
  * In it stands what moves so far. With omega its angular velocity, a direction e of it has the rate omega x e, also where it turns about e; so
  * where vdot is zero, a turn at the rate s adds omega x (s e) to the angular acceleration, and a slide by the way d at the rate s adds
@@ -30,24 +30,24 @@ static void swing_axes(zd_axes3 *F, const double *q)
     *F = (zd_axes3){{zd_rotated3(&all, R.x), zd_rotated3(&all, R.y), zd_rotated3(&all, R.z)}};
 }
 
-/* Goes a step: the frame and its point, and the directions that its velocities are along, which are angular velocities but of slides. */
-static void go(const zd_step3 *step, const double *p, zd_axes3 *F, zd_vector3 *at, zd_twist3 *column)
+/* Moves the joint's frame and its origin by one freedom, and says along which directions its velocities are: angular ones, but of slides. */
+static void go(const zd_freedom3 *freedom, const double *p, zd_axes3 *F, zd_vector3 *at, zd_twist3 *column)
 {
-    const double *x = p + step->p;
-    const zd_vector3 e = F->d[step->direction], none = {0, 0, 0}, signed_e = zd_times3(step->sign, e);
-    zd_twist3 *own = column + step->v;
-    switch (step->kind) {
+    const double *x = p + freedom->p;
+    const zd_vector3 e = F->d[freedom->direction], none = {0, 0, 0}, signed_e = zd_times3(freedom->sign, e);
+    zd_twist3 *own = column + freedom->v;
+    switch (freedom->kind) {
     case ZD_SPACE_SLIDES:
-        *at = zd_plus3(*at, zd_times3(step->zero + x[0], signed_e));
+        *at = zd_plus3(*at, zd_times3(freedom->zero + x[0], signed_e));
         own[0] = (zd_twist3){signed_e, none};
         break;
     case ZD_SPACE_ADVANCES:
-        *at = zd_plus3(*at, zd_times3(step->zero + step->length * x[0], signed_e));
-        zd_tree3_turn_axes(F, step->direction, step->sign * x[0]);
-        own[0] = (zd_twist3){zd_times3(step->length, signed_e), signed_e};
+        *at = zd_plus3(*at, zd_times3(freedom->zero + freedom->length * x[0], signed_e));
+        zd_tree3_turn_axes(F, freedom->direction, freedom->sign * x[0]);
+        own[0] = (zd_twist3){zd_times3(freedom->length, signed_e), signed_e};
         break;
     case ZD_SPACE_TURNS:
-        zd_tree3_turn_axes(F, step->direction, step->sign * x[0]);
+        zd_tree3_turn_axes(F, freedom->direction, freedom->sign * x[0]);
         own[0] = (zd_twist3){none, signed_e};
         break;
     case ZD_SPACE_SWINGS:
@@ -72,17 +72,17 @@ static void place_hanging(const zd_link3 *link, const double *p, const zd_pose3 
 {
     zd_axes3 F = turned_axes(&inner->turned, &link->near_axes);
     zd_vector3 at = zd_plus3(inner->at, zd_rotated3(&inner->turned, link->near));
-    for (int i = 0; i < link->steps; i++) {
+    for (int i = 0; i < link->freedoms; i++) {
         way->at[i] = at;
-        go(link->step + i, p, &F, &at, column);
+        go(link->freedom + i, p, &F, &at, column);
     }
-    way->at[link->steps] = at;
+    way->at[link->freedoms] = at;
     pose->turned = link->turns ? rotation_from(&F, &link->far_axes) : AS_DRAWN;
     pose->at = zd_minus3(at, zd_rotated3(&pose->turned, link->far));
-    for (int i = 0; i < link->steps; i++) {     /* what turns moves the mass centre, too */
-        const zd_step3 *step = link->step + i;
+    for (int i = 0; i < link->freedoms; i++) {     /* what turns moves the mass centre, too */
+        const zd_freedom3 *freedom = link->freedom + i;
         const zd_vector3 arm = zd_minus3(pose->at, way->at[i]);
-        for (zd_twist3 *own = column + step->v; own < column + step->v + (step->kind == ZD_SPACE_SWINGS ? 3 : 1); own++)
+        for (zd_twist3 *own = column + freedom->v; own < column + freedom->v + (freedom->kind == ZD_SPACE_SWINGS ? 3 : 1); own++)
             own->speed = zd_plus3(own->speed, zd_cross3(own->spin, arm));
     }
 }
@@ -118,9 +118,9 @@ zd_rotation zd_tree3_attitude(const zd_tree3 *tree, int body, const double *p)
     if (link->is_free) return zd_rotation_of(p + link->p + 3);
     const zd_rotation inner = zd_tree3_attitude(tree, link->inner, p);
     zd_axes3 F = turned_axes(&inner, &link->near_axes);
-    for (const zd_step3 *step = link->step; step < link->step + link->steps; step++) {
-        if (step->kind == ZD_SPACE_SWINGS) swing_axes(&F, p + step->p);
-        else if (step->kind != ZD_SPACE_SLIDES) zd_tree3_turn_axes(&F, step->direction, step->sign * p[step->p]);
+    for (const zd_freedom3 *freedom = link->freedom; freedom < link->freedom + link->freedoms; freedom++) {
+        if (freedom->kind == ZD_SPACE_SWINGS) swing_axes(&F, p + freedom->p);
+        else if (freedom->kind != ZD_SPACE_SLIDES) zd_tree3_turn_axes(&F, freedom->direction, freedom->sign * p[freedom->p]);
     }
     return rotation_from(&F, &link->far_axes);
 }
@@ -153,15 +153,15 @@ static void turn(traveller *to, zd_vector3 rate)
     to->turning.spin = zd_plus3(to->turning.spin, rate);
 }
 
-/* A step, whose velocities are along `column`: of a slide the direction is in its speed, else in its spin. */
-static void travel(traveller *to, const zd_step3 *step, const zd_twist3 *column, const double *v, zd_vector3 arm)
+/* A freedom, whose velocities are along `column`: of a slide the direction is in its speed, else in its spin. */
+static void travel(traveller *to, const zd_freedom3 *freedom, const zd_twist3 *column, const double *v, zd_vector3 arm)
 {
-    const double *rate = v + step->v;
-    const zd_twist3 *own = column + step->v;
+    const double *rate = v + freedom->v;
+    const zd_twist3 *own = column + freedom->v;
     carry(to, arm);
-    switch (step->kind) {
+    switch (freedom->kind) {
     case ZD_SPACE_SLIDES: slide(to, zd_times3(rate[0], own->speed)); break;
-    case ZD_SPACE_ADVANCES: slide(to, zd_times3(step->length * rate[0], own->spin));   /* fall through */
+    case ZD_SPACE_ADVANCES: slide(to, zd_times3(freedom->length * rate[0], own->spin));   /* fall through */
     case ZD_SPACE_TURNS: turn(to, zd_times3(rate[0], own->spin)); break;
     case ZD_SPACE_SWINGS:
         turn(to, zd_plus3(zd_plus3(zd_times3(rate[0], own[0].spin), zd_times3(rate[1], own[1].spin)), zd_times3(rate[2], own[2].spin)));
@@ -176,8 +176,8 @@ static void move_hanging(const zd_space *space, const zd_frame3 *frame, const zd
     const zd_vector3 *at = own->way[body].at, none = {0, 0, 0};
     traveller to = {.speed = inner->speed, .change = bias->speed, .turning = {.speed = bias->spin, .spin = inner->spin}};
     carry(&to, zd_minus3(at[0], frame->pose[link->inner].at));
-    for (int i = 0; i < link->steps; i++) travel(&to, link->step + i, own->column, v, zd_minus3(at[i + 1], at[i]));
-    carry(&to, zd_minus3(frame->pose[body].at, at[link->steps]));
+    for (int i = 0; i < link->freedoms; i++) travel(&to, link->freedom + i, own->column, v, zd_minus3(at[i + 1], at[i]));
+    carry(&to, zd_minus3(frame->pose[body].at, at[link->freedoms]));
     frame->twist[body] = (zd_twist3){to.speed, link->turns ? to.turning.spin : none};
     frame->bias[body] = (zd_twist3){to.change, link->turns ? to.turning.speed : none};
 }
@@ -250,9 +250,9 @@ void zd_tree3_write_A(const zd_tree3 *tree, const double *p, double *A)
             if (link->turns) zd_write_turns(p + link->p + 3, nv, A + (link->p + 3) * nv + link->v + 3);
             continue;
         }
-        for (const zd_step3 *step = link->step; step < link->step + link->steps; step++) {
-            if (step->kind == ZD_SPACE_SWINGS) zd_write_turns(p + step->p, nv, A + step->p * nv + step->v);
-            else write_ones(step->p, step->v, 1, nv, A);
+        for (const zd_freedom3 *freedom = link->freedom; freedom < link->freedom + link->freedoms; freedom++) {
+            if (freedom->kind == ZD_SPACE_SWINGS) zd_write_turns(p + freedom->p, nv, A + freedom->p * nv + freedom->v);
+            else write_ones(freedom->p, freedom->v, 1, nv, A);
         }
     }
 }

@@ -44,11 +44,11 @@ static zd_vector3 across(zd_vector3 a, zd_vector3 e) { return zd_minus3(a, zd_ti
 /* Along its own freedoms a joint does nothing; what is left there is rounding. */
 static zd_wrench3 without_freedoms(const zd_link3 *link, const zd_twist3 *column, zd_wrench3 through)
 {
-    for (const zd_step3 *step = link->step; step < link->step + link->steps; step++) {
-        const zd_twist3 *own = column + step->v;
-        if (step->kind == ZD_SPACE_SLIDES) through.force = across(through.force, own->speed);
-        if (step->kind == ZD_SPACE_TURNS) through.torque = across(through.torque, own->spin);
-        if (step->kind == ZD_SPACE_SWINGS) through.torque = (zd_vector3){0, 0, 0};
+    for (const zd_freedom3 *freedom = link->freedom; freedom < link->freedom + link->freedoms; freedom++) {
+        const zd_twist3 *own = column + freedom->v;
+        if (freedom->kind == ZD_SPACE_SLIDES) through.force = across(through.force, own->speed);
+        if (freedom->kind == ZD_SPACE_TURNS) through.torque = across(through.torque, own->spin);
+        if (freedom->kind == ZD_SPACE_SWINGS) through.torque = (zd_vector3){0, 0, 0};
     }
     if (!link->turns) through.torque = (zd_vector3){0, 0, 0};
     return through;

@@ -82,37 +82,37 @@ static double angle_between(const zd_axes3 *F, const zd_axes3 *outer, int direct
     return atan2(seen == i ? y : -x, seen == i ? x : y);
 }
 
-/* The direction about which the frame turns next after a step; that of the step where it does not. */
+/* The direction about which the frame turns next after a freedom; that of the freedom where it does not. */
 static int next_turn(const zd_link3 *link, int i)
 {
-    for (int k = i + 1; k < link->steps; k++)
-        if (link->step[k].kind == ZD_SPACE_TURNS || link->step[k].kind == ZD_SPACE_ADVANCES) return link->step[k].direction;
-    return link->step[i].direction;
+    for (int k = i + 1; k < link->freedoms; k++)
+        if (link->freedom[k].kind == ZD_SPACE_TURNS || link->freedom[k].kind == ZD_SPACE_ADVANCES) return link->freedom[k].direction;
+    return link->freedom[i].direction;
 }
 
 /* An angle that says the same, and is nearest to what the displacement of a screw says. */
 static double nearest_turn(double angle, double wished) { return angle + TURN * nearbyint((wished - angle) / TURN); }
 
-/* A step's coordinates and velocities, from the inner side, as far as the frame has come, to the outer one; then it comes along. */
-static void read_step(const zd_link3 *link, int i, const side *outer, side *now, double *p, double *v)
+/* A freedom's coordinates and velocities, from the inner side, as far as the frame has come, to the outer one; then it comes along. */
+static void read_freedom(const zd_link3 *link, int i, const side *outer, side *now, double *p, double *v)
 {
-    const zd_step3 *step = link->step + i;
-    const zd_vector3 e = now->F.d[step->direction], apart = zd_minus3(outer->at, now->at), turning = zd_minus3(outer->spin, now->spin);
-    const double along = step->sign * zd_inner3(apart, e) - step->zero;
-    if (step->kind == ZD_SPACE_SLIDES) {
+    const zd_freedom3 *freedom = link->freedom + i;
+    const zd_vector3 e = now->F.d[freedom->direction], apart = zd_minus3(outer->at, now->at), turning = zd_minus3(outer->spin, now->spin);
+    const double along = freedom->sign * zd_inner3(apart, e) - freedom->zero;
+    if (freedom->kind == ZD_SPACE_SLIDES) {
         const double rate = zd_inner3(zd_minus3(outer->speed, now->speed), e) + zd_inner3(apart, zd_cross3(now->spin, e));
-        p[step->p] = along;
-        v[step->v] = step->sign * rate;
-    } else if (step->kind == ZD_SPACE_SWINGS) {
-        write_quaternion(&now->F, &outer->F, p + step->p);
-        for (int k = 0; k < 3; k++) v[step->v + k] = zd_inner3(turning, outer->F.d[k]);
+        p[freedom->p] = along;
+        v[freedom->v] = freedom->sign * rate;
+    } else if (freedom->kind == ZD_SPACE_SWINGS) {
+        write_quaternion(&now->F, &outer->F, p + freedom->p);
+        for (int k = 0; k < 3; k++) v[freedom->v + k] = zd_inner3(turning, outer->F.d[k]);
         now->F = outer->F;
         now->spin = outer->spin;
     } else {
-        const double angle = angle_between(&now->F, &outer->F, step->direction, next_turn(link, i)), own = step->sign * angle;
-        p[step->p] = step->kind == ZD_SPACE_ADVANCES ? nearest_turn(own, along / step->length) : own;
-        v[step->v] = step->sign * zd_inner3(turning, e);
-        zd_tree3_turn_axes(&now->F, step->direction, angle);
+        const double angle = angle_between(&now->F, &outer->F, freedom->direction, next_turn(link, i)), own = freedom->sign * angle;
+        p[freedom->p] = freedom->kind == ZD_SPACE_ADVANCES ? nearest_turn(own, along / freedom->length) : own;
+        v[freedom->v] = freedom->sign * zd_inner3(turning, e);
+        zd_tree3_turn_axes(&now->F, freedom->direction, angle);
         now->spin = zd_plus3(now->spin, zd_times3(zd_inner3(turning, e), e));
     }
 }
@@ -141,7 +141,7 @@ void zd_space_tree_state(const zd_space *space, const double *poses, const doubl
         }
         const side outer = side_of(pose, twist, link->far, &link->far_axes);
         side now = side_of(given_pose(poses, link->inner), given_twist(twists, link->inner), link->near, &link->near_axes);
-        for (int i = 0; i < link->steps; i++) read_step(link, i, &outer, &now, p, v);
+        for (int i = 0; i < link->freedoms; i++) read_freedom(link, i, &outer, &now, p, v);
     }
     zd_tree3_follow(space, p);
 }

@@ -1,8 +1,8 @@
 /* Joint coordinates in space: bodies that joints carry, one on the other, from the ground or from bodies that are free.
  *
- * A joint leaves its freedoms in the order of its table (../space_joints/joint.h), which are steps here: a frame that begins on the inner body
- * slides, turns or swings its way to the outer one, which is the second body where the joint is taken forwards, and the first where it is taken
- * backwards, by the same coordinates. Coordinates are those of the steps, a distance, an angle or a unit quaternion; velocities are their rates,
+ * What a joint leaves free is listed in its table (../space_joints/joint.h). In that order a frame that begins on the inner body slides, turns
+ * or swings until it is that of the outer one, which is the joint's second body; or, where the joint is taken backwards, the first, by the same
+ * coordinates. Each freedom has a distance, an angle or a unit quaternion for its coordinates; velocities are their rates,
  * and of a quaternion the angular velocity of the outer frame against the inner one, in the outer one's axes. Angles count turns; those of joints that
  * carry nothing follow the others, and are the last of p. A body that is
  * free has the coordinates and velocities that it has in absolute coordinates.

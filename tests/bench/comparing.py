@@ -58,6 +58,21 @@ def installed(names, prefix="with_"):
     return there
 
 
+def reference(drawing, peers, steps):
+    """The motion at the outputs, certified; and it says how far from it Exudyn's is, which shares no code.
+
+    Exudyn's motion is extrapolated to steps of no length, from runs with two numbers of `steps` between outputs.
+    """
+    exact, error = peers["zerodrift"].reference(drawing)
+    print(f"{drawing.name}: reference known to {error:.1e}")
+    if "exudyn" in peers:
+        coarse, fine = (peers["exudyn"].solve(drawing, ("Newmark, index 2", "dense", each))[0] for each in steps)
+        apart = np.abs(exact - (4 * fine - coarse) / 3).max()       # the method has order two
+        print(f"{drawing.name}: Exudyn's runs, extrapolated, are {apart:.1e} away")
+        assert apart < 1e-5, "two programs that share no code do not agree"
+    return exact
+
+
 def measured(chain, exact, peers, every):
     """All rows of one problem, whose exact numbers at the outputs are given, of every so many settings."""
     rows = {}
