@@ -257,7 +257,7 @@ def test_sizes_in_words(size, words):
 
 
 def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch):
-    monkeypatch.setattr("zerodrift.runs.simulate.SMALL", 1000)
+    monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
     monkeypatch.setattr(room, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning, match=r"101 saved rows take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
         zd.simulate(bar, 1.0, step=0.01)
@@ -270,8 +270,8 @@ def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch)
 
 
 def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
-    monkeypatch.setattr("zerodrift.runs.simulate.SMALL", 1000)
-    monkeypatch.setattr("zerodrift.runs.simulate.FIRST_BLOCK", 16)
+    monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
+    monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
     monkeypatch.setattr(room, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 saved rows take") as caught:
         zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import importlib
 import itertools
 import time
 import warnings
@@ -16,7 +15,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import CostWarning, Interrupted, SingularSystem
 from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
-from . import diagnosis, road, settings
+from . import diagnosis, recording, road, settings
 from . import events as _events
 from . import outputs as _outputs
 from .keyboard import Keyboard
@@ -25,8 +24,6 @@ from .saving import EVENTS
 from .solution import Solution
 
 SLICE = 0.03        # seconds that the core runs before Python looks at the keyboard and shows the progress again
-FIRST_BLOCK = 1024  # rows of the record to begin with, where the number of steps is not known beforehand
-SMALL = 2**26       # bytes of a record, for which nobody looks whether they are there: to look takes as long as a short run
 
 
 def simulate(
@@ -212,50 +209,22 @@ def simulate(
         plan.chosen["outputs"] = _outputs.names(outputs, system)
         recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
-    path = None if save_to is None else _file_of_rows().checked(save_to)
+    path = None if save_to is None else recording.file_of_rows().checked(save_to)
     watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
     if told := system._what_it_costs(plan.steps):
         warnings.warn(told, CostWarning, stacklevel=2)
     with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
         more = recorded.core if recorded else None
         run = _created(system, core, plan.options, p0, v0, watcher, more)
-        record = _record(core, more, plan.rows, path)
+        record = recording.record_of(core, more, plan.rows, path)
         if path:
-            _begin_file(record, run, system, span, plan.chosen, recorded)
+            recording.begin_file(record, run, system, span, plan.chosen, recorded)
         outcome = _drive(run, record, progress, keyboard)
         results = run.results()
         solution = _solution(system, span, plan.chosen, run, record, results, watcher, outcome, recorded)
         if path:
             _finish_file(record, solution, outcome)
     return _finished(solution, run, results, outcome, on_failure, keyboard)
-
-
-def _record(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None, path: Any) -> Any:
-    """What the core writes rows into, in memory or in a file."""
-    if path:
-        return _file_of_rows().RowFile(path, core, outputs, rows)
-    _check_memory(rows or 0, _gateway.row_bytes(core, outputs), stacklevel=3)
-    return _gateway.Record(core, rows or FIRST_BLOCK, outputs)
-
-
-def _check_memory(rows: int, row: int, stacklevel: int) -> None:
-    """Whether memory has room for so many rows of so many bytes."""
-    if rows * row > SMALL:
-        from . import room  # slow to import
-
-        room.check_memory(rows, row, stacklevel + 1)
-
-
-def _file_of_rows() -> Any:
-    """The module of files that rows are written to; slow to import."""
-    return importlib.import_module(".row_file", __package__)
-
-
-def _begin_file(record: Any, run: _gateway.Run, system: BaseSystem, span: tuple[float, float],
-                chosen: dict[str, Any], recorded: _outputs.Recorded | None) -> None:
-    """What the file says of the run before it has ended."""
-    sizes = dict(zip(recorded.names, recorded.core.sizes, strict=True)) if recorded and recorded.core else {}
-    record.begin({"settings": chosen, "system": system, "t_span": span}, run.results().sizes, sizes)
 
 
 def _finish_file(record: Any, solution: Solution, outcome: _Outcome) -> None:
@@ -284,7 +253,7 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
             if keyboard.pressed:
                 raise KeyboardInterrupt
             if status == _gateway.FULL:
-                _check_memory(record.next_rows, record.row_bytes, stacklevel=4)
+                recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
             status = run.advance(record, SLICE)
             record.keep()

@@ -15,9 +15,10 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning, UnsuitedIntegrator
-from ..systems.base import BaseSystem, quaternion_places, with_units
+from ..systems.base import BaseSystem
 from ..systems.structure import Structure, checked
 from ..systems.tables import NumberTables, not_finite, refusals
+from ..systems.variables import quaternion_places, with_units
 from . import compilers, compiling, perturbing
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
 from .series import SERIES

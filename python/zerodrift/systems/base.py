@@ -14,26 +14,10 @@ from .._gateway.known_events import Reading
 from .shapes import Shape
 from .structure import Structure, of_core
 from .tables import NumberTables
+from .terms import Terms
 from .watching import Place, Watching
 
 FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
-
-
-class Terms:
-    __doc__ = "\n".join([
-        "The terms of the equations of motion at one (t, p, v); what a system does not have is None.", "",
-        "Attributes", "----------",
-        *(f"{name} : ndarray {term.sizes}\n    {term.text[0].upper()}{term.text[1:]}." for name, term in _gateway.TERMS.items())])
-
-    __slots__ = tuple(_gateway.TERMS)
-
-    def __init__(self, **arrays: np.ndarray) -> None:
-        for name in self.__slots__:
-            setattr(self, name, arrays.get(name))
-
-    def __repr__(self) -> str:
-        present = (f"{name} {array.shape}" for name in self.__slots__ if (array := getattr(self, name)) is not None)
-        return f"Terms({', '.join(present)})"
 
 
 class BaseSystem:
@@ -382,19 +366,6 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     return core
 
 
-def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) -> tuple[int, ...]:
-    """Where unit quaternions begin in p, each given by the index or the name of its first coordinate; increasing."""
-    listed = _check.instance("quaternions", given, Sequence, "a sequence of indices or names of coordinates")
-    places = sorted(list(names).index(_check.choice("quaternions", first, names)) if isinstance(first, str) else
-                    _check.count("quaternions", first, least=0) for first in listed)
-    if places and not has_kinematics:
-        raise ValueError("quaternions need kinematics: their rates are no velocities")
-    for k, place in enumerate(places):
-        if place + 4 > min([*places[k + 1:k + 2], len(names)]):
-            raise ValueError(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")
-    return tuple(places)
-
-
 def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSystem:
     """The same with the system's direct functions for a vector unit, where it has any that serve a run with this `zd_settings`.
 
@@ -408,20 +379,3 @@ def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSyste
         core = system._with_series(core, vector)
         core.name_rows(system)
     return core
-
-
-def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
-               are_rates: bool, quaternions: Sequence[int] = ()) -> tuple[tuple[Variable, ...], tuple[Variable, ...]]:
-    """Coordinates and velocities with their units; velocities that are rates of coordinates have the units of rates."""
-    size = len(names) if are_rates else len(names) + len(rates)
-    all_units = [""] * size if units is None else units
-    listed = isinstance(all_units, Sequence) and not isinstance(all_units, str)
-    if not listed or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
-        raise ValueError(f"units must be {size} strings, one for each coordinate"
-                         f"{'' if are_rates else ' and each velocity'}, not {units!r}")
-    coordinates = tuple(map(Variable, names, all_units))
-    for variable in (coordinates[first + i] for first in quaternions for i in range(4)):
-        if _gateway.is_length(variable):
-            raise ValueError(f"units of a quaternion must be those of pure numbers, and {variable.name} has {variable.unit!r}")
-    rate_units = [f"{unit}/s" if unit else "" for unit in all_units] if are_rates else all_units[len(names):]
-    return coordinates, tuple(map(Variable, rates, rate_units))

@@ -13,9 +13,10 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from . import jets as _jets
-from .base import BaseSystem, quaternion_places, with_units
+from .base import BaseSystem
 from .packed import PackedWriter
 from .structure import Structure, checked
+from .variables import quaternion_places, with_units
 
 BIT = {name: term.bit for name, term in TERMS.items()}
 

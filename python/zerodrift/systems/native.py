@@ -12,9 +12,10 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import ZerodriftError
-from .base import BaseSystem, quaternion_places, with_units
+from .base import BaseSystem
 from .builtin import SystemOfKind
 from .structure import Structure, checked
+from .variables import quaternion_places, with_units
 
 BIT = namedtuple("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
