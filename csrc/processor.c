@@ -1,7 +1,8 @@
 /* Which vector unit the processor has, and its system lets it use.
  *
  * The processor itself is asked: what compilers offer for it reads a variable of their own libraries, which zig's leaves zero. Bits
- * are numbered as in Intel's Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 for those of XCR0.
+ * are numbered as in Intel's Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 for those of XCR0. In a virtual machine each
+ * question takes a microsecond and more: where the variable says that a unit is there, none is asked as a run is created.
  */
 #include "zerodrift.h"
 
@@ -39,11 +40,29 @@ enum zd_unit zd_processor_unit(void)
     return has_all(saved, of_avx512) && has_all(b, BIT(AVX512F) | BIT(AVX512DQ) | BIT(AVX512VL)) ? ZD_AVX512 : ZD_AVX2;
 }
 
+/* As the compiler's library has found when it was loaded; baseline: there is none, or it does not know. */
+static enum zd_unit known_unit(void)
+{
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return ZD_BASELINE;
+    const int has_512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return has_512 ? ZD_AVX512 : ZD_AVX2;
+}
+
+int zd_processor_has(enum zd_unit unit)
+{
+    return unit <= known_unit() || unit <= zd_processor_unit();
+}
+
 #else
 
 enum zd_unit zd_processor_unit(void)
 {
     return ZD_BASELINE;
+}
+
+int zd_processor_has(enum zd_unit unit)
+{
+    return unit == ZD_BASELINE;
 }
 
 #endif

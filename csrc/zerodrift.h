@@ -150,6 +150,7 @@ double *zd_value_named(zd_given *given, const zd_card *card, const char *name);
 int zd_check_given(enum zd_table table, int row, const zd_given *given, char *message, int message_size);
 
 enum zd_unit zd_processor_unit(void);       /* the last that this processor has */
+int zd_processor_has(enum zd_unit unit);
 
 /* What libraries are handed that were compiled with ZD_FAR_SINES_OF_CORE: see zerodrift/sines.h. */
 void zd_far_sines(int n, const double *angle, double *s, double *c);

@@ -53,7 +53,7 @@ static const char *wrong_rows(const zd_settings *settings)
     const rule rules[] = {
         {!zd_formulation_of(settings->formulation), "there is no such formulation"},
         {!zd_integrator_of(settings->integrator), "there is no such integrator"},
-        {settings->vector > zd_processor_unit(), "this processor does not have the vector unit"},
+        {!zd_processor_has(settings->vector), "this processor does not have the vector unit"},
     };
     return FIRST_BROKEN(rules);
 }

@@ -52,6 +52,11 @@ def test_the_environment_is_asked_where_the_argument_says_nothing(monkeypatch):
     assert run("built in").settings["vector"] == UNITS[-1]
 
 
+def test_the_core_knows_which_units_there_are():
+    assert [lib.zd_processor_has(unit) != 0 for unit in range(len(settings.VECTOR_UNITS))] == [
+        unit <= lib.zd_processor_unit() for unit in range(len(settings.VECTOR_UNITS))]
+
+
 def test_what_there_is_not_is_refused(monkeypatch):
     with pytest.raises(ValueError, match=r"^vector must be "):
         run("built in", vector="neon")
