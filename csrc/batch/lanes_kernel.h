@@ -10,6 +10,7 @@
 #define LARGER(a, b) ZD_WHERE((a) > (b), a, b)
 #define SMALLER(a, b) ZD_WHERE((a) < (b), a, b)
 #define ZD_KERNEL ZD_ON_UNIT static
+#define ZD_SUMS 6       /* beside each other, as each waits for its own last product */
 
 static const double LARGE = 0x1p-3, LARGE_ENOUGH = 0x1p-5, SMALL = 0x1p-6, SHRUNK = 0x1p-4;     /* pivots: see motion/direct.c, */
 static const double TRUSTED_SHARE = 0.25, LONG = 0.25;      /* motion.h, guard.h */
@@ -30,23 +31,38 @@ ZD_KERNEL void ZD_NAMED(take_where)(zd_condition condition, int n, const double 
 
 /* ---- sums over stages ---- */
 
+/* What goes into a sum over stages: rates and weights. */
+typedef struct ZD_NAMED(summands) {
+    int count;
+    const zd_stored *k[ZD_MOST_STAGES];
+    zd_real factor[ZD_MOST_STAGES];
+} ZD_NAMED(summands);
+
+/* n sums beside each other, of the numbers from i on; with n written out they stay in registers. */
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(add)(const int n, const ZD_NAMED(summands) *of, int i, const zd_stored *from, zd_stored *to)
+{
+    zd_real sum[ZD_SUMS];
+    for (int j = 0; j < n; j++) sum[j] = from ? (zd_real)from[i + j] : ZD_SPLAT(0.0);
+    for (int term = 0; term < of->count; term++) {
+        const zd_stored *k = of->k[term] + i;
+        const zd_real factor = of->factor[term];
+        for (int j = 0; j < n; j++) sum[j] = ZD_FMA(factor, k[j], sum[j]);
+    }
+    for (int j = 0; j < n; j++) to[i + j] = sum[j];
+}
+
 /* to <- from + h sum_j weight_j k_j, of `count` of the size's numbers from `begin` on; from NULL: 0 */
 ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, const zd_weights *w, zd_real h, const double *from, double *to)
 {
-    const int size = self->size;
-    const zd_stored *k = REAL(self->k);
-    zd_real factor[ZD_MOST_STAGES];
-    for (int j = 0; j < w->count; j++) factor[j] = h * w->weight[j];
-    for (int i = begin; i < begin + count; i += 2) {
-        const int next = i + 1 < begin + count ? i + 1 : i;
-        zd_real a = from ? (zd_real)REAL(from)[i] : ZD_SPLAT(0.0), b = from ? (zd_real)REAL(from)[next] : ZD_SPLAT(0.0);
-        for (int j = 0; j < w->count; j++) {
-            a = ZD_FMA(factor[j], k[w->stage[j] * size + i], a);
-            b = ZD_FMA(factor[j], k[w->stage[j] * size + next], b);
-        }
-        REAL(to)[i] = a;
-        REAL(to)[next] = b;
+    ZD_NAMED(summands) of;
+    of.count = w->count;
+    for (int j = 0; j < w->count; j++) {
+        of.k[j] = REAL(self->k) + w->stage[j] * self->size;
+        of.factor[j] = h * w->weight[j];
     }
+    int i = begin;
+    for (; i + ZD_SUMS <= begin + count; i += ZD_SUMS) ZD_NAMED(add)(ZD_SUMS, &of, i, REAL(from), REAL(to));
+    for (; i < begin + count; i++) ZD_NAMED(add)(1, &of, i, REAL(from), REAL(to));
 }
 
 #include "lanes_pins.h"
@@ -69,17 +85,16 @@ ZD_KERNEL void ZD_NAMED(call)(const zd_lanes *self, const zd_elimination *order,
     /* Of what a function reports not to know it makes what no comparison passes. */
     const int unknown = order->accelerate(self->data, t, p, v, NULL, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
     ZD_NAMED(fill_pivots)(self, order, to->pivots);
-    for (int lane = 0; lane < ZD_LANES; lane++)
+    for (int lane = 0; unknown && lane < ZD_LANES; lane++)
         if (unknown >> lane & 1) to->vdot[lane] = NAN;
 }
 
 /* The order that all lanes have; -1: they differ. */
 ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
 {
+    const double first = self->order[0];
     if (self->direct->orders == 1) return 0;
-    for (int lane = 1; lane < ZD_LANES; lane++)
-        if (self->order[lane] != self->order[0]) return -1;
-    return (int)self->order[0];
+    return ZD_ANY(*REAL(self->order) != first) ? -1 : (int)first;
 }
 
 ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const double *p, const double *v, const ZD_NAMED(rates) *to)
