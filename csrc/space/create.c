@@ -226,10 +226,16 @@ int zd_space_angles(const zd_space *space, int *place)
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 
-void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, void *data)
+void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data)
 {
     zd_space copied = *space;
     copied.uses.owner = owner;
     copied.uses.compiled = compiled;
+    copied.numbers = numbers;
     memcpy(data, &copied, sizeof copied);
+}
+
+zd_space_plan zd_space_planned(const zd_space *space)
+{
+    return (zd_space_plan){space->gauge, space->uses.term, space->uses.row, space->uses.effort};
 }

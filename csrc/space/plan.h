@@ -41,6 +41,7 @@ typedef struct zd_turns {
 } zd_turns;
 
 struct zd_space {
+    const double *numbers;          /* of functions that were written out from the plan; NULL: there are none */
     zd_vector3 gravity;
     int bodies, joints;
     zd_planned_uses uses;

@@ -63,9 +63,20 @@ const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
 int zd_space_angles(const zd_space *space, int *place);
 /* The gauge that reads a coordinate of a joint, which its kind has to have; the joints before it have so many angles. */
 zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);
-/* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own, and for those of
- * them that are compiled; NULL: none. */
+/* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own, for those of them that
+ * are compiled, NULL: none, and for the numbers of functions that were written out from the plan: the pointer to these is what the data
+ * begins with. */
 int zd_space_data_size(void);
-void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, void *data);
+void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
+
+/* What all joints outside the tree and all elements come down to: rows of gauges, and efforts along gauges. */
+typedef struct zd_space_plan {
+    const zd_space_gauge *gauge;
+    const zd_gauge_term *term;
+    const zd_relation *row;         /* (m,) holonomic ones first */
+    const zd_effort *effort;        /* (efforts,) */
+} zd_space_plan;
+
+zd_space_plan zd_space_planned(const zd_space *space);
 
 #endif

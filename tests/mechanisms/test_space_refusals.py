@@ -56,7 +56,6 @@ def drawing():
     (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), ValueError, "joint of 'A' names 'x', which is no element"),
     (lambda m, *_: m.torque("A", "wheel", value=1.0), TypeError, "torque 'A' needs axis="),
     (lambda m, *_: m.torque("A", "wheel", value=1.0, axis=(1, 0, 0), against="link", frame="link"), ValueError, "frame out"),
-    (lambda m, *_: m.system(compiled=True), ValueError, "'m' is in space, where nothing is written out yet"),
     (lambda m, link, *_: link.angle, AttributeError, "'link' is a body in space, which has a rotation and no angle"),
     (lambda m, link, *_: link.rotation.euler("zzx"), ValueError, "order must name three axes"),
     (lambda m, *_: m.start({"link.angle": 1.0}), ValueError, "of 'link' these can be given: link.angular_velocity"),

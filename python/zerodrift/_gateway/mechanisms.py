@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .._core import ffi, lib
-from .base import MESSAGE_SIZE, TERMS, Card, card_of, doubles, text
+from .base import MESSAGE_SIZE, Card, card_of, doubles, text
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import given
 from .systems import CoreSystem
@@ -170,7 +170,7 @@ class MechanismCore(CoreSystem):
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
-        self._numbers = ffi.NULL
+        self._numbers, self._has_written_terms = ffi.NULL, False
         self._mechanism, self._words = _create(tables, law is not None, laws_know_time)
         super().__init__(lib.zd_mechanism_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
@@ -210,8 +210,8 @@ class MechanismCore(CoreSystem):
             return self
         sizes = law_sizes(self.tables)
         owner = LawOwner(self._law, sizes)
-        is_written_out = self._numbers != ffi.NULL      # which leaves laws to measures
-        compiled = (ffi.NULL, None) if is_written_out else compiled_table(self._law, sizes)
+        # Written terms have the laws in them, and leave them to measures.
+        compiled = (ffi.NULL, None) if self._has_written_terms else compiled_table(self._law, sizes)
         mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
         mine._owner = owner
         return mine
@@ -222,23 +222,6 @@ class MechanismCore(CoreSystem):
         lib.zd_mechanism_with(self._mechanism, handle, compiled[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
-        return mine
-
-    def written(self, address: int, numbers: np.ndarray, terms: Iterable[str], *, timeless: bool, scratch: int,
-                keep: Any, direct: int | None = None) -> MechanismCore:
-        """The same system, whose terms the function at `address` computes, and whose measures are read as before.
-
-        The function's `data` begins with a pointer to `numbers`; `direct` is the address of a `zd_direct`, whose functions are
-        handed the same.
-        """
-        mine = self._with_data(ffi.NULL, doubles(numbers, numbers.size))
-        mine.c.evaluate, mine.c.scratch = ffi.cast("zd_evaluate *", address), scratch
-        mine.c.operations = ffi.NULL        # these read what the interpreted terms leave in the scratch
-        mine.c.provides = sum(TERMS[name].bit for name in terms) | (lib.ZD_TIMELESS if timeless else 0)
-        mine.provides, mine.timeless = mine.c.provides & ~lib.ZD_TIMELESS, timeless
-        if direct is not None:
-            mine.c.direct, mine.c.directs = ffi.cast("const zd_direct *", direct), 1
-        mine._data = (*mine._data, keep)
         return mine
 
     @property

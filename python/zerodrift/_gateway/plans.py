@@ -50,8 +50,7 @@ def plan_of(core: MechanismCore) -> Plan:
     c = lib.zd_mechanism_plan(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))
     used: dict[int, int] = {}       # by their numbers in the core's table, as measures have gauges of their own there
-    rows = tuple(_row(c, c.row[i], used) for i in range(core.m))
-    efforts = tuple(_effort(c, c.effort[i], used) for i in range(len(core.tables.efforts)))
+    rows, efforts = rows_of_plan(c, core.m, used), efforts_of(c, len(core.tables.efforts), used)
     return Plan(links, tuple(_gauge(c.gauge[i]) for i in used), rows, efforts, core.tables.gravity)
 
 
@@ -72,6 +71,16 @@ def _terms(c: Any, of: Any, used: dict[int, int]) -> tuple[list[int], list[float
     """The gauges of a row or effort, and its coefficients."""
     terms = [c.term[i] for i in range(of.first, of.first + of.terms)]
     return [used.setdefault(term.gauge, len(used)) for term in terms], [term.coefficient for term in terms]
+
+
+def rows_of_plan(c: Any, count: int, used: dict[int, int]) -> tuple[Relation, ...]:
+    """The rows of C; `used` gets the gauges that they have, by the core's numbers."""
+    return tuple(_row(c, c.row[i], used) for i in range(count))
+
+
+def efforts_of(c: Any, count: int, used: dict[int, int]) -> tuple[Effort, ...]:
+    """The efforts, likewise."""
+    return tuple(_effort(c, c.effort[i], used) for i in range(count))
 
 
 def _row(c: Any, row: Any, used: dict[int, int]) -> Relation:

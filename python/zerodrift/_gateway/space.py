@@ -37,6 +37,8 @@ class Freedom(NamedTuple):
 
     kind: str                   # "slides", "turns", "advances", "swings"
     name: str | None
+    direction: int = 0          # of the joint's frame
+    from_along: bool = False    # whether the joint's `along` is the distance at which the coordinate is zero
 
 
 class JointKind(NamedTuple):
@@ -111,7 +113,8 @@ def _joint_kind(number: int) -> JointKind:
     rows = tuple((NAMES[row.pick.gauge], row.pick.of_first, row.pick.of_second) for row in (c.row[i] for i in range(c.rows)))
     coordinates = tuple((text(each.name), NAMES[each.pick.gauge]) for each in c.coordinate if each.name)
     tension = text(c.tension) if c.tension else None
-    freedoms = tuple(Freedom(FREEDOMS[each.kind], text(each.name) if each.name else None)
+    freedoms = tuple(Freedom(FREEDOMS[each.kind], text(each.name) if each.name else None, each.direction,
+                             each.zero == lib.ZD_SPACE_ZERO_ALONG)
                      for each in (c.freedom[i] for i in range(c.freedoms)))
     return JointKind(number, card_of(c.card), rows, coordinates, c.axes, bool(c.takes_length), tension,
                      freedoms if c.carries else None)
@@ -155,6 +158,7 @@ class SpaceCore(CoreSystem):
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
+        self._numbers, self._has_written_terms = ffi.NULL, False
         self._mechanism, self._words = _create(tables, law is not None, laws_know_time, self._made_by)
         super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
@@ -181,12 +185,19 @@ class SpaceCore(CoreSystem):
         if self._law is None:
             return self
         sizes = law_sizes(self.tables)
-        owner, compiled = LawOwner(self._law, sizes), compiled_table(self._law, sizes)
-        handle, data = ffi.new_handle(owner), ffi.new("char[]", lib.zd_space_data_size())
-        lib.zd_space_with(self._mechanism, handle, compiled[0], data)
+        owner = LawOwner(self._law, sizes)
+        # Written terms have the laws in them, and leave them to measures.
+        compiled = (ffi.NULL, None) if self._has_written_terms else compiled_table(self._law, sizes)
+        mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
+        mine._owner = owner
+        return mine
+
+    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> SpaceCore:
         mine = copy.copy(self)
+        data = ffi.new("char[]", lib.zd_space_data_size())
+        lib.zd_space_with(self._mechanism, handle, compiled[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data, mine._owner = data, (*self._data, handle, *compiled, data), owner
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
 
     @property

@@ -101,6 +101,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes has to be numbers, tables and SymPy
             expressions. Without a compiler the tables are interpreted, with a `NoCompilerWarning`.
+            In space it is joint coordinates that are written out whole; of absolute ones direct functions alone, up to some
+            four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no direct
+            functions in either.
 
         Returns
         -------
@@ -120,8 +123,6 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         >>> m.system("absolute")
         <system of pendulum: absolute coordinates, 3, 2 holonomic and 0 nonholonomic constraints>
         """
-        if self.dimension == 3 and compiled:
-            raise ValueError(f"{self.name!r} is in space, where nothing is written out yet: compiled must be False")
         layout = None if coordinates is None else _check.choice("coordinates", coordinates, LAYOUTS)
         return MechanismSystem(self._drawing(), layout, {}, _check.instance("compiled", compiled, bool, "True or False"))
 

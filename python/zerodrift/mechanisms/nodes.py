@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 from .._gateway import plans
 from .._gateway.mechanisms import Gauge
 from .._gateway.plans import Link, Plan
-from ..symbolics.derivation import Given
+from .._gateway.uses import Effort, Relation
+from ..symbolics.derivation import Derivation, Given
 from ..symbolics.graph import Graph, Node
 from .law_rows import Laws
 
@@ -63,11 +64,18 @@ def with_nodes(plan: Plan, number: Numbering) -> Plan:
     gauges = tuple(gauge._replace(
         point1=number.pair(gauge.point1, gauge.first), point2=number.pair(gauge.point2, gauge.second),
         axis=number.pair(gauge.axis, "axis", gauge.first), zero=number(gauge.zero)) for gauge in plan.gauges)
-    rows = tuple(row._replace(coefficients=[number(factor) for factor in row.coefficients], constant=number(row.constant),
-                              slope=number(row.slope)) for row in plan.rows)
-    efforts = tuple(effort._replace(stiffness=number(effort.stiffness), damping=number(effort.damping),
-                                    value=number(effort.value)) for effort in plan.efforts)
+    rows = tuple(row_with_nodes(row, number) for row in plan.rows)
+    efforts = tuple(effort_with_nodes(effort, number) for effort in plan.efforts)
     return Plan(links, gauges, rows, efforts, number.pair(plan.gravity))
+
+
+def row_with_nodes(row: Relation, number: Numbering) -> Relation:
+    return row._replace(coefficients=[number(factor) for factor in row.coefficients], constant=number(row.constant),
+                        slope=number(row.slope))
+
+
+def effort_with_nodes(effort: Effort, number: Numbering) -> Effort:
+    return effort._replace(stiffness=number(effort.stiffness), damping=number(effort.damping), value=number(effort.value))
 
 
 class Frame(NamedTuple):
@@ -97,12 +105,18 @@ class Equations:
         nq, nv, mh, mn.
     parameters : dict of str to Node
         The mechanism's own.
+
+    Attributes
+    ----------
+    values : dict of Node to Node
+        What leaves of the graph stand for: of these none.
     """
 
     def __init__(self, plan: Plan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
         self.functions = reader     # its sin, cos and floor
+        self.values: dict[Node, Node] = {}
         self.nq, _, self.mh, _ = sizes
         graph = self.graph
         self.t = graph.leaf("t", 0)
@@ -113,8 +127,11 @@ class Equations:
             self.frames.append(self._frame(link))
         self.readings = [self._reading(gauge) for gauge in plan.gauges]
 
-    def given(self) -> Given:
-        """What the terms are derived from."""
+    def terms(self) -> dict[str, list[Node]]:
+        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V and power."""
+        return Derivation(self.graph, self._given()).terms()
+
+    def _given(self) -> Given:
         rows = [self._row(row) for row in self.plan.rows]
         return Given(self.nq, self.nq, kinetic=self._kinetic(), force=self._force(), potential=self._potential(),
                      holonomic=rows[:self.mh], nonholonomic=rows[self.mh:])

@@ -13,7 +13,8 @@ from typing import Any
 
 Number = int | float | Fraction
 FIXED, PLACED, MOVING = 0, 1, 2     # stages: depends on parameters alone, on t and p too, on v too
-LEAVES = {"parameter": FIXED, "t": PLACED, "p": PLACED, "v": MOVING, "rate": MOVING, "added": MOVING, "before": MOVING}
+LEAVES = {"parameter": FIXED, "t": PLACED, "p": PLACED, "part": PLACED, "v": MOVING, "rate": MOVING, "added": MOVING,
+          "before": MOVING}     # "part": stands for another node, and is known by its rate
 
 
 class Node:
@@ -208,6 +209,10 @@ class _NodeFunction:
     def __init__(self, graph: Graph, leaves: Mapping[Node, Node]) -> None:
         self._graph, self._known = graph, dict(leaves)
         self._lowest = min((leaf.stage for leaf in leaves), default=MOVING + 1)
+
+    def know(self, leaf: Node, value: Node) -> None:
+        """The value for one more leaf, whose stage is not below those of the others, and that nothing asked of so far has."""
+        self._known[leaf] = value
 
     def __call__(self, node: Node) -> Node:
         if node.stage < self._lowest:

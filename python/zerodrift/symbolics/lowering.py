@@ -7,7 +7,7 @@ take what depends on parameters alone first, then what depends on t and p: so th
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from .graph import FIXED, LEAVES, Graph, Node, Number
@@ -29,10 +29,10 @@ SIMPLE = ("leaf", "number")     # their arguments are no operations
 
 
 class Lowering:
-    """The operations that compute nodes of a graph, in order."""
+    """The operations that compute nodes of a graph, in order; leaves among `values` stand for other nodes."""
 
-    def __init__(self, graph: Graph) -> None:
-        self.graph, self.operations = graph, []
+    def __init__(self, graph: Graph, values: Mapping[Node, Node] | None = None) -> None:
+        self.graph, self.operations, self._values = graph, [], values or {}
         self._numbers: dict[tuple[Any, ...], int] = {}
         self._lowered: dict[Node, int] = {}
 
@@ -74,7 +74,7 @@ class Lowering:
         content = node.content
         match node.kind:
             case "leaf":
-                return self.emit("leaf", *content)
+                return self.lower(self._values[node]) if node in self._values else self.emit("leaf", *content)
             case "number":
                 return self._number(content[0])
             case "sum":

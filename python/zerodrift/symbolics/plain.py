@@ -20,7 +20,7 @@ class Function:
         return self.__name__
 
 
-SIN, COS, FLOOR = FUNCTIONS = Function("sin"), Function("cos"), Function("floor")
+SIN, COS, FLOOR, ATAN2 = FUNCTIONS = Function("sin"), Function("cos"), Function("floor"), Function("atan2")
 NAMED = {function.__name__: function for function in FUNCTIONS}
 
 
@@ -30,10 +30,10 @@ class Plain:
     Attributes
     ----------
     graph : Graph
-    sin, cos, floor : Function
+    sin, cos, floor, atan2 : Function
     """
 
-    sin, cos, floor = FUNCTIONS
+    sin, cos, floor, atan2 = FUNCTIONS
 
     def __init__(self) -> None:
         self.graph = Graph(self._slope)
@@ -44,6 +44,10 @@ class Plain:
 
     def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:
         graph = self.graph
+        if function is ATAN2:
+            y, x = arguments
+            size = graph.plus(graph.product([(x, 2)]), graph.product([(y, 2)]))
+            return graph.product([(graph.minus(y) if k else x, 1), (size, -1)])
         if function is SIN:
             return graph.call(COS, *arguments)
         return graph.minus(graph.call(SIN, *arguments)) if function is COS else graph.zero      # between jumps

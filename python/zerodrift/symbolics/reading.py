@@ -31,7 +31,7 @@ def namesake(e: Any, others: Iterable[Any]) -> str:
 class Reader:
     """Reads expressions of one system; `known` says what leaf or expression each of its symbols is."""
 
-    sin, cos, floor = sympy.sin, sympy.cos, sympy.floor     # what nodes call where nothing is read
+    sin, cos, floor, atan2 = sympy.sin, sympy.cos, sympy.floor, sympy.atan2   # what nodes call where nothing is read
 
     def __init__(self) -> None:
         self.graph = Graph(self._slope)

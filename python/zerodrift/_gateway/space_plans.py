@@ -1,0 +1,122 @@
+"""What the core has made of the tables of a mechanism in space: links of a tree, rows of gauges, and efforts along gauges.
+
+As in the plane, joints are no longer among them: a joint of the tree has become the freedoms of a link, any other rows of gauges.
+In absolute coordinates all links are free.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import lib
+from .plans import efforts_of, rows_of_plan
+from .space import NAMES, Freedom, Gauge, Joint, SpaceCore, coordinate_gauge, joint_kinds
+from .uses import Effort, Relation
+
+COORDINATES, VELOCITIES = {"swings": 4}, {"swings": 3}      # of a freedom; of all others one each
+
+
+class Way(NamedTuple):
+    """A freedom of a link on its way outwards: `direction` is that of the joint's frame, `sign` -1 where the joint is taken
+    backwards, and `zero` in m and `length` in m for each rad are 0 where its kind has none.
+    """
+
+    kind: str
+    direction: int
+    sign: int
+    zero: Any
+    length: Any
+    p: int
+    v: int
+
+
+class Link(NamedTuple):
+    """How a body hangs on the one further in, by the joint's point and frame in the axes of both; a free body has none."""
+
+    inner: int
+    turns: bool
+    p: int
+    v: int
+    mass: Any
+    inertia: Any
+    ways: tuple[Way, ...] | None
+    near: Any
+    far: Any
+    near_axes: Any
+    far_axes: Any
+
+
+class Angle(NamedTuple):
+    """An angle of a joint: what reads it, the axis in the axes of that gauge's first body, and which entry of p it is."""
+
+    gauge: Gauge
+    axis: Any
+    place: int
+
+
+class SpacePlan(NamedTuple):
+    """Links are by bodies, from number 1 on, and all gauges are used."""
+
+    links: tuple[Link, ...]
+    gauges: tuple[Gauge, ...]
+    rows: tuple[Relation, ...]          # holonomic ones first; their gauges are numbers in `gauges`
+    efforts: tuple[Effort, ...]
+    angles: tuple[Angle, ...]
+    followers: int                      # how many of the last entries of p follow the others
+    gravity: Any
+    has_rates: bool                         # whether rates of p are more than v
+
+
+def plan_of(core: SpaceCore) -> SpacePlan:
+    """The plan of a mechanism."""
+    c, tables = lib.zd_space_planned(core._mechanism), core.tables
+    used: dict[int, int] = {}       # by their numbers in the core's table, as measures have gauges of their own there
+    rows, efforts = rows_of_plan(c, core.m, used), efforts_of(c, len(tables.efforts), used)
+    return SpacePlan(_links(core), tuple(_gauge(c.gauge[i]) for i in used), rows, efforts, _angles(core), core.c.followers,
+                     tuple(tables.gravity), bool(core.provides & lib.ZD_A))
+
+
+def _gauge(c: Any) -> Gauge:
+    vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
+    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
+
+
+def _links(core: SpaceCore) -> tuple[Link, ...]:
+    links, p, v, kinds = [], 0, 0, {kind.number: kind for kind in joint_kinds().values()}
+    for number, body in enumerate(core.tables.bodies, 1):
+        turns, place = not body.is_particle, (p, v, body.mass, tuple(body.inertia))
+        if body.carrier < 0:
+            links.append(Link(0, turns, *place, None, None, None, None, None))
+            p, v = p + (7 if turns else 3), v + (6 if turns else 3)
+            continue
+        joint = core.tables.joints[body.carrier]
+        ways = _ways(joint, [each for each in kinds[joint.kind].freedoms if turns or each.kind != "swings"], p, v)
+        ends = [(joint.first, joint.point1, joint.frame1), (joint.second, joint.point2, joint.frame2)]
+        if joint.second != number:
+            ends, ways = ends[::-1], tuple(way._replace(sign=-1) for way in reversed(ways))
+        (inner, near, near_axes), (_, far, far_axes) = ends
+        links.append(Link(inner, turns, *place, ways, near, far, near_axes, far_axes))
+        p, v = p + sum(COORDINATES.get(way.kind, 1) for way in ways), v + sum(VELOCITIES.get(way.kind, 1) for way in ways)
+    return tuple(links)
+
+
+def _ways(joint: Joint, freedoms: list[Freedom], p: int, v: int) -> tuple[Way, ...]:
+    """The freedoms of a joint, whose coordinates are in the order of its table whichever way it is taken."""
+    ways = []
+    for each in freedoms:
+        ways.append(Way(each.kind, each.direction, 1, joint.along if each.from_along else 0.0, joint.length, p, v))
+        p, v = p + COORDINATES.get(each.kind, 1), v + VELOCITIES.get(each.kind, 1)
+    return tuple(ways)
+
+
+def _angles(core: SpaceCore) -> tuple[Angle, ...]:
+    angles, kinds = [], {kind.number: kind for kind in joint_kinds().values()}
+    for joint in core.tables.joints:
+        before = len(angles)
+        for i, (_, kind) in enumerate(kinds[joint.kind].coordinates):
+            if kind == "angle":
+                gauge = coordinate_gauge(joint, i, before)
+                angles.append(Angle(gauge, tuple(np.cross(gauge.a, gauge.o).tolist()), int(core._angle_at[len(angles)])))
+    return tuple(angles)

@@ -1,0 +1,40 @@
+"""Systems of mechanisms whose functions were written out and compiled."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import TERMS, doubles
+from .mechanisms import MechanismCore
+from .space import SpaceCore
+
+
+class WrittenTerms(NamedTuple):
+    """A function that computes terms: where it is, which they are, and how many doubles it keeps."""
+
+    address: int
+    provides: list[str]
+    timeless: bool
+    scratch: int
+
+
+def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: Any, *, terms: WrittenTerms | None = None,
+                   direct: int | None = None) -> MechanismCore | SpaceCore:
+    """The same system, whose terms and direct functions are these, and whose measures are read as before.
+
+    The `data` of the functions begins with a pointer to `numbers`; `direct` is the address of a `zd_direct`. What is None stays.
+    """
+    mine = core._with_data(ffi.NULL, doubles(numbers, numbers.size))
+    if terms is not None:
+        mine.c.evaluate, mine.c.scratch = ffi.cast("zd_evaluate *", terms.address), terms.scratch
+        mine.c.operations = ffi.NULL        # these read what the interpreted terms leave in the scratch
+        mine.c.provides = sum(TERMS[name].bit for name in terms.provides) | (lib.ZD_TIMELESS if terms.timeless else 0)
+        mine.provides, mine.timeless = mine.c.provides & ~lib.ZD_TIMELESS, terms.timeless
+        mine._has_written_terms = True
+    if direct is not None:
+        mine.c.direct, mine.c.directs = ffi.cast("const zd_direct *", direct), 1
+    mine._data = (*mine._data, keep)
+    return mine
