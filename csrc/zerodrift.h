@@ -224,6 +224,8 @@ int zd_may_have_direct(const zd_system *system, const zd_settings *settings);
 int zd_check_methods_agree(const zd_settings *settings, char *message, int message_size);
 /* Whether it takes the system's series. */
 int zd_takes_series(const zd_settings *settings);
+/* Whether it takes the system's Jacobian, where there is one. */
+int zd_takes_jacobian(const zd_settings *settings);
 /* The vector unit of the direct functions that a run of this system takes; -1: it takes none. */
 int zd_direct_unit(const zd_system *system, const zd_settings *settings);
 

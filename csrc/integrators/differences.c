@@ -27,7 +27,7 @@ static double increment(const zd_differences *self, int i, double y, double chan
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
-static void choose_units(zd_differences *self)
+void zd_differences_choose_units(zd_differences *self)
 {
     for (int i = 0; i < self->size; i++) {
         int exponent = 0;
@@ -40,7 +40,7 @@ static void choose_units(zd_differences *self)
 int zd_differences_make(zd_differences *self, const zd_rate *rate, double t, double h, double share, double *y, const double *f, double *J)
 {
     const int n = self->size;
-    choose_units(self);
+    zd_differences_choose_units(self);
     for (int j = 0; j < n; j++) {
         const double here = y[j];
         y[j] = here + increment(self, j, here, h * f[j]);

@@ -8,6 +8,7 @@ typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share a stepper */
     int takes_series;       /* whether its steps are those of the system's series, in (p, v) and of the constraints as they are: see zd_series */
+    int takes_jacobian;     /* whether it takes rate->jacobian */
     int (*suits)(const zd_system *system);      /* NULL: it takes any */
     /* given: the parameters that its card lists */
     void *(*take)(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);

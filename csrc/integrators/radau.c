@@ -368,11 +368,13 @@ const zd_integrator zd_radau = {
         .order = 5, .error_order = 3,
         .description = "Order five, stable for steps of any size, and parts that are too fast for a step are damped: for stiff systems, "
                        "at steps chosen by an error estimate of order three. Its equations are solved by Newton's iteration with a "
-                       "Jacobian from differences, which is kept while it serves; near bifurcations, where rates change abruptly, "
+                       "Jacobian, which is kept while it serves: that of the equations where these are expressions that are compiled, else "
+                       "one by differences; near bifurcations, where rates change abruptly, "
                        "a step of fixed size may not be solved, and stops the run.",
         .reference = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II: Stiff and Differential-Algebraic Problems, "
                      "2nd edition, Springer, 1996, section IV.8",
     },
+    .takes_jacobian = 1,
     .suits = suits,
     .take = take,
     .step = step,

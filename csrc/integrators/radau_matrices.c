@@ -30,9 +30,23 @@ void zd_radau_matrices_resize(zd_radau_matrices *self, int size)
     zd_differences_resize(&self->differences, size);
 }
 
+/* From the rate's own derivatives, where they are known. */
+static int take_J(zd_radau_matrices *self, const zd_rate *rate, double t, const double *y)
+{
+    const int n = self->size;
+    const double *unit = self->differences.unit;
+    int status = rate->jacobian(rate->context, t, y, self->J);
+    if (status) return status;
+    zd_differences_choose_units(&self->differences);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) self->J[i * n + j] *= unit[j] / unit[i];
+    return ZD_DONE;
+}
+
 int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, const double *f)
 {
-    int status = zd_differences_make(&self->differences, rate, t, h, 1, y, f, self->J);
+    int status = rate->jacobian ? take_J(self, rate, t, y) : ZD_SINGULAR;
+    if (status) status = zd_differences_make(&self->differences, rate, t, h, 1, y, f, self->J);
     self->has_J = !status;
     self->h = 0;
     return status;

@@ -22,7 +22,7 @@ typedef struct zd_radau_matrices {
 
 zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size);
 void zd_radau_matrices_resize(zd_radau_matrices *self, int size);
-/* J at (t, y), where f is known; y is as it was afterwards. */
+/* J at (t, y), where f is known: the rate's own, or by differences; y is as it was afterwards. */
 int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, const double *f);
 /* For steps of size h; ZD_NO_STEP where a matrix is singular. */
 int zd_radau_factor(zd_radau_matrices *self, double h);

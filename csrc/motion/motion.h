@@ -25,6 +25,8 @@ typedef struct zd_rate {
     const zd_elimination *direct;
     const zd_system *system;
     const double *vdot;     /* (nv,): where it is known already for the state at which a step begins; else NULL */
+    /* J (size, size) <- its derivatives by the state; not 0: they are not known here. NULL: they never are. */
+    int (*jacobian)(void *context, double t, const double *y, double *J);
 } zd_rate;
 
 /* The rate of the state at which a step begins, and of a stage between its ends */
@@ -119,6 +121,7 @@ struct zd_motion {
     int corrections_size;   /* of what corrections integrate along */
     zd_balance balance;
     zd_road road;
+    double *scratch;        /* of the system's Jacobian */
     zd_store store;         /* what is taken once something rare has happened */
     int in_run;             /* whether steps begin where the constraints are known to hold */
 };
@@ -164,6 +167,10 @@ static inline int zd_motion_accelerate(zd_motion *motion)
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* of what corrections integrate along */
+
+/* jacobian.c: the derivatives of the rate where the system brings them and the state is (p, v), with constraints as they are; of (8) where M is
+ * regular, which those of (9) and (13) are, too. */
+int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
 
 /* direct.c */
 /* Those for one trajectory, and not several at once, of the last unit up to this one; NULL: the system brings none for such formulations. */

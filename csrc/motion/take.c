@@ -46,7 +46,9 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
     zd_rank *rank = take_rank(motion, arena, independent);
     if (motion->point) motion->point->rank = rank;
-    motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system), NULL, &motion->system, NULL};
+    motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system), NULL, &motion->system, NULL,
+                             system->jacobian ? zd_motion_jacobian : NULL};
+    if (system->jacobian) motion->scratch = zd_take_doubles(arena, (size_t)system->jacobian->scratch);
 }
 
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)

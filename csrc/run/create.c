@@ -37,6 +37,11 @@ int zd_takes_series(const zd_settings *settings)
     return zd_integrator_of(settings->integrator)->takes_series;
 }
 
+int zd_takes_jacobian(const zd_settings *settings)
+{
+    return zd_integrator_of(settings->integrator)->takes_jacobian && !zd_formulation_of(settings->formulation)->settle;
+}
+
 int zd_may_have_direct(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);

@@ -202,6 +202,13 @@ static int check_series(const zd_system *system, text message)
     return refuse(message, "series: there is a function that evaluates them, and a scratch that is a size, not %d", series->scratch);
 }
 
+static int check_jacobian(const zd_system *system, text message)
+{
+    const zd_jacobian *jacobian = system->jacobian;
+    if (!jacobian || (jacobian->evaluate && !is_no_size(jacobian->scratch))) return ZD_DONE;
+    return refuse(message, "jacobian: there is a function that evaluates it, and a scratch that is a size, not %d", jacobian->scratch);
+}
+
 static int check_residuals(const zd_system *system, text message)
 {
     const zd_residuals *residuals = system->residuals;
@@ -272,7 +279,7 @@ static int check_followers(const zd_system *system, text message)
 int zd_check_interface(const zd_system *system, char *message, int size)
 {
     static int (*const checks[])(const zd_system *, text) = {
-        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_residuals, check_inputs, check_switched_groups,
+        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_jacobian, check_residuals, check_inputs, check_switched_groups,
         check_quaternions,
     };
     int status = ZD_DONE;

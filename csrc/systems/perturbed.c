@@ -55,6 +55,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.direct = NULL;
     system.directs = 0;
     system.series = perturbation->series;      /* of the terms as they are perturbed */
+    system.jacobian = NULL;
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;
     return system;

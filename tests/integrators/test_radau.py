@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+import sympy
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
 import tolerances as tol
 import zerodrift as zd
-from support import assert_close, rate
+from support import assert_close, assert_same_bits, rate
 
 C = np.array([(4 - np.sqrt(6)) / 10, (4 + np.sqrt(6)) / 10, 1])
 A = np.array([C ** (k + 1) / (k + 1) for k in range(3)]).T @ np.linalg.inv(np.vander(C, increasing=True))     # its collocation
@@ -79,6 +80,57 @@ def test_steps_do_not_shrink_as_a_system_becomes_stiffer(omega):
     assert abs(sol.p[-1, 1] - np.cos(3)) < 1e-5 + 2 / omega**2
     assert sol.stats["steps"] < 1.5 * len(other.t)
     assert sol.stats["evaluations"] < 1.5 * other.nfev + 50 * other.njev
+
+
+def governor():
+    """A flyball governor from its energies: two balls on arms swing a sleeve against a hard spring with a damper."""
+    p, v = sympy.symbols("turn swing sleeve"), sympy.symbols("spin swinging sliding")
+    length, spin = 0.3, v[0]
+    kinetic = (spin**2 + 10 * v[2]**2) / 2 + 5 * length**2 * (v[1]**2 + (sympy.sin(p[1]) * spin)**2)
+    potential = -2 * 5 * 9.81 * length * sympy.cos(p[1]) - 98.1 * p[2] + 8e6 * (p[2] - 0.6 * np.cos(0.6))**2 / 2
+    return zd.symbolic(p, speeds=v, kinetic=kinetic, potential=potential, constraints=[p[2] - 2 * length * sympy.cos(p[1])],
+                       force=[2 - 0.1 * spin, 0, -2e6 * v[2]], p0=[0.0, 0.7, 0.6 * np.cos(0.7)], v0=[0.0, 0, 0])
+
+
+@pytest.fixture(scope="module")
+def stiff_governor():
+    return governor()
+
+
+def without_jacobian(system, monkeypatch):
+    monkeypatch.setattr(type(system), "_with_jacobian", lambda self, core, vector="baseline": core)
+    return system
+
+
+@pytest.mark.parametrize("energy", [None, True])
+def test_expressions_bring_their_jacobian(stiff_governor, formulation, energy, monkeypatch):
+    """The run is the one by differences, but for what an iteration leaves; and each Jacobian takes one evaluation instead of six
+    or, with the energy that comes in, seven. States in independent velocities have theirs by differences.
+    """
+    options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau", "formulation": formulation, "energy": energy}
+    found = zd.simulate(stiff_governor, 1.0, **options)
+    other = zd.simulate(without_jacobian(stiff_governor, monkeypatch), 1.0, **options)
+    assert abs(found.stats["steps"] - other.stats["steps"]) < 0.1 * other.stats["steps"]
+    assert np.abs(found.p[-1] - other.p[-1]).max() < 1e-6
+    if formulation in ("mixed", "independent"):
+        assert found.stats["evaluations"] == other.stats["evaluations"]
+    else:
+        assert found.stats["evaluations"] < 0.97 * other.stats["evaluations"]
+
+
+def test_what_changes_the_constraints_takes_differences(stiff_governor, monkeypatch):
+    """Baumgarte's terms are not in the system's Jacobian."""
+    options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau", "stabilization": "baumgarte"}
+    found = zd.simulate(stiff_governor, 0.2, **options)
+    other = zd.simulate(without_jacobian(stiff_governor, monkeypatch), 0.2, **options)
+    assert_same_bits(found, other)
+
+
+def test_an_ensemble_takes_it_as_a_run_does(stiff_governor):
+    options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau"}
+    ens = zd.ensemble(stiff_governor, 0.5, parameters={}, p0=[stiff_governor.p0] * 2, t_eval=np.linspace(0, 0.5, 6), **options)
+    alone = zd.simulate(stiff_governor, 0.5, t_eval=np.linspace(0, 0.5, 6), **options)
+    np.testing.assert_array_equal(ens["sleeve"][1], alone["sleeve"])
 
 
 def test_values_between_are_those_of_its_stages(bar):

@@ -224,6 +224,13 @@ typedef struct zd_series {
                     double *work, double *scratch);
 } zd_series;
 
+/* How the rates of a state (p, v) change with it: J (nq + nv, nq + nv) <- the derivatives of pdot = A v and of vdot as (2) and (6) have it, and in
+ * one row more, where ZD_POWER or ZD_PHI_T is provided, those of the power of (28). Not 0: there are none here. */
+typedef struct zd_jacobian {
+    int scratch;            /* doubles that a call needs */
+    int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);
+} zd_jacobian;
+
 /* Named functions of the motion, such as where a point is or what goes through a joint. */
 typedef struct zd_measure {
     const char *name;       /* "crank.angle" */
@@ -291,6 +298,7 @@ typedef struct zd_system {
     const zd_direct *direct;        /* (directs,) at most one for each unit and number of lanes; those for one lane serve single runs */
     int directs;
     const zd_series *series;
+    const zd_jacobian *jacobian;    /* for implicit integrators; NULL: differences */
     const zd_measures *measures;
     int inputs;
     const zd_input *input;          /* (inputs,) */

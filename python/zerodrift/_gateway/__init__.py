@@ -53,6 +53,7 @@ from .runs import (
     states_between,
     takes_direct,
     takes_embeddings,
+    takes_jacobian,
     takes_series,
 )
 from .systems import CoreSystem, Kind, kinds
@@ -65,7 +66,7 @@ __all__ = [
     "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "disagreement", "doubles",
     "error_of", "find", "hand_far_sines", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
     "perturbed", "probe", "project", "required", "row_bytes", "row_takes_series", "settings", "states_between", "takes_direct",
-    "takes_embeddings", "takes_series", "terms_of",
+    "takes_embeddings", "takes_jacobian", "takes_series", "terms_of",
 ]
 
 # Imported at first use: most people have no compiled systems of their own.

@@ -60,9 +60,16 @@ class NativeCore(CoreSystem):
 
     def with_series(self, address: int, keep: Any) -> NativeCore:
         """The same system with the Taylor series of its motion, a `zd_series` at `address`."""
+        return self._with_more("series", address, keep)
+
+    def with_jacobian(self, address: int, keep: Any) -> NativeCore:
+        """The same system with the derivatives of its rates, a `zd_jacobian` at `address`."""
+        return self._with_more("jacobian", address, keep)
+
+    def _with_more(self, member: str, address: int, keep: Any) -> NativeCore:
         other = copy.copy(self)
         other.c = ffi.new("zd_system *", self.c[0])
-        other.c.series = ffi.cast("const zd_series *", address)
+        setattr(other.c, member, ffi.cast(f"const zd_{member} *", address))
         other._data = (*self._data, keep)
         return other
 

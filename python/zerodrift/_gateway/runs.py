@@ -58,6 +58,11 @@ def takes_series(options: Any) -> bool:
     return bool(lib.zd_takes_series(options))
 
 
+def takes_jacobian(options: Any) -> bool:
+    """Whether it takes the derivatives of the system's rates, where there are any."""
+    return bool(lib.zd_takes_jacobian(options))
+
+
 def row_takes_series(integrator: int) -> bool:
     """The same of a row of the table of integrators."""
     return takes_series(settings({"integrator": integrator}))

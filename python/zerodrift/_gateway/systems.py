@@ -109,6 +109,17 @@ class CoreSystem(Measuring):
             raise error_of(status, "the series failed")
         return found
 
+    def jacobian(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Derivatives of (pdot, vdot), and in one row more of the power where there is any, by (p, v), where it has them."""
+        columns, brought = self.nq + self.nv, self.c.jacobian
+        found = np.zeros((columns + bool(self.provides & (lib.ZD_POWER | lib.ZD_PHI_T)), columns))
+        scratch = ffi.new("double[]", max(1, brought.scratch))
+        status = brought.evaluate(self.c.data, t, doubles(p, self.nq), doubles(v, self.nv),
+                                  doubles(found, found.size, writable=True), scratch)
+        if status:
+            raise error_of(status, "the Jacobian failed")
+        return found
+
     def suits(self, integrator: int) -> bool:
         """Whether that row of the table of integrators can take the system."""
         return bool(lib.zd_suits(self.c, integrator))

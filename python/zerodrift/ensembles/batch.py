@@ -13,7 +13,7 @@ from ..runs import events as events_of
 from ..runs.operations import assembly
 from ..runs.simulate import simulate, solution_of_rows
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem, core_of, direct_core_of
+from ..systems.base import BaseSystem, core_of, direct_core_of, with_what_it_takes
 from ..systems.tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
@@ -35,11 +35,10 @@ class Batch(NamedTuple):
     chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
     events: _gateway.Watcher | None         # which the core knows
     numbers: int                            # of the tables of one run, about
-    series: str | None                      # the vector unit of the series that steps are made by; None: they are made otherwise
 
     def core_of(self, tables: NumberTables) -> _gateway.CoreSystem:
         """Whose functions all runs have."""
-        return tables.core if self.series is None else self.system._with_series(tables.core, self.series)
+        return with_what_it_takes(self.system, tables.core, self.chosen["vector"], self.options)
 
     @property
     def runs_at_once(self) -> int:
@@ -81,8 +80,7 @@ def _batch(plan: Plan) -> Batch | None:
     batch = Batch(system, found.options, found.rows, *found_columns, direct,
                   assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
                   None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
-                  tables.family.numbers if is_family else 0,
-                  found.chosen["vector"] if _gateway.takes_series(found.options) else None)
+                  tables.family.numbers if is_family else 0)
     if tables is not None:
         batch.core_of(tables)       # a system without series is refused before anything runs
     return batch

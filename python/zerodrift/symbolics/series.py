@@ -47,7 +47,7 @@ class _Sums:
         return f"sum[{self.pairs.setdefault((x, y), len(self.pairs))}]"
 
 
-class _Writer:
+class Writer:
     """Both parts of the function: the values, and the coefficients of one order."""
 
     def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int]) -> None:
@@ -274,7 +274,7 @@ def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data:
     """The C source; raises `Unwritten` where some function has no series, or there are too many operations."""
     if isinstance(program, str):
         raise Unwritten(program)
-    writer = _Writer(program, sizes)
+    writer = Writer(program, sizes)
     body = _of_one_order(writer)
     if len(body) > MOST_STATEMENTS:
         raise Unwritten(f"their series would have more than {MOST_STATEMENTS} statements")
@@ -288,7 +288,7 @@ def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data:
                       f"const zd_series {SERIES} = {{2 * ROWS, evaluate}};", ""])
 
 
-def _of_beginning(writer: _Writer) -> list[str]:
+def _of_beginning(writer: Writer) -> list[str]:
     """What is computed once: all values, the inverse, and the coefficients of the lowest orders."""
     n, m = writer.nv, writer.m
     size = n + m
@@ -301,7 +301,7 @@ def _of_beginning(writer: _Writer) -> list[str]:
             "{", *indented(["const int order = 0;", "const double next = 1.0;", *next_ones]), "}"]
 
 
-def _of_one_order(writer: _Writer) -> list[str]:
+def _of_one_order(writer: Writer) -> list[str]:
     """From the coefficients of p and v of an order to those of the next."""
     n, size = writer.nv, writer.nv + writer.m
     body = [*writer.coefficients(), *writer.right_sides(), f"zd_series_solve({size}, G, right, x);",

@@ -21,8 +21,7 @@ from ..systems.tables import NumberTables, not_finite, refusals
 from ..systems.variables import quaternion_places, with_units
 from . import compilers, compiling, perturbing
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
-from .series import SERIES
-from .series_functions import SeriesFunctions
+from .series_functions import JacobianFunctions, SeriesFunctions
 
 
 @dataclass(frozen=True)
@@ -80,6 +79,7 @@ class SymbolicSystem(BaseSystem):
         self._direct = direct or DirectFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
+        self._jacobian = JacobianFunctions(code.program, code.sizes)
         self._perturbed: SeriesFunctions | None = None      # of the same off by rounding
         self._library = compiling.library(code.c_source, progress, meanwhile=self._direct.prepare)
         self.compiled = self._library is not None
@@ -122,7 +122,13 @@ class SymbolicSystem(BaseSystem):
         if self._series.why_none:
             raise UnsuitedIntegrator(f"{self.name} has no Taylor series: {self._series.why_none}")
         library = self._series.library(vector)
-        return core.with_series(_gateway.address_of(library, SERIES), library)
+        return core.with_series(_gateway.address_of(library, SeriesFunctions.symbol), library)
+
+    def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        library = self._jacobian.library(vector) if self.compiled else None
+        if library is None:
+            return core
+        return core.with_jacobian(_gateway.address_of(library, JacobianFunctions.symbol), library)
 
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
         if not self._brings_series:
@@ -132,7 +138,9 @@ class SymbolicSystem(BaseSystem):
             program = perturbing.perturbed(self._code.program, core.shapes, len(parameters))
             self._perturbed = SeriesFunctions(program, self._code.sizes, perturbing.NUMBERS)
         library = self._perturbed.library(vector)
-        return core if library is None else core.with_series(_gateway.address_of(library, SERIES), parameters, library)
+        if library is None:
+            return core
+        return core.with_series(_gateway.address_of(library, SeriesFunctions.symbol), parameters, library)
 
     @property
     def _brings_series(self) -> bool:

@@ -306,6 +306,10 @@ class BaseSystem:
         """That core of the system with the Taylor series of its motion, where there is one."""
         return core
 
+    def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        """That core of the system with the Jacobian of its motion, where there is one."""
+        return core
+
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
         """That core, of the system off by rounding, with the series of what moves so."""
         return core
@@ -375,7 +379,14 @@ def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSyste
     if _gateway.takes_direct(core, options):
         core = system._direct_core(vector, _gateway.takes_embeddings(options))
         core.name_rows(system)
+    brought = with_what_it_takes(system, core, vector, options)
+    if brought is not core:
+        brought.name_rows(system)
+    return brought
+
+
+def with_what_it_takes(system: Any, core: _gateway.CoreSystem, vector: str, options: Any) -> _gateway.CoreSystem:
+    """That core of a system with what the integrator of this `zd_settings` takes of it besides its terms."""
     if _gateway.takes_series(options):
-        core = system._with_series(core, vector)
-        core.name_rows(system)
-    return core
+        return system._with_series(core, vector)
+    return system._with_jacobian(core, vector) if _gateway.takes_jacobian(options) else core
