@@ -103,6 +103,33 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     return status;
 }
 
+static int act_on_body(const zd_mechanism *self, int body, double scale, zd_wrench what, double *own)
+{
+    memset(own, 0, 3 * sizeof *own);
+    if (!body) return -1;
+    zd_tree_act_on_free(self->tree.link + body, scale, what, own);
+    return self->tree.link[body].coordinate;
+}
+
+void zd_mechanism_components(const zd_mechanism *self, const double *p, const double *v, int count, const int *which, double *value,
+                             int *at, double *row, double *scratch)
+{
+    const zd_frame frame = zd_frame_of(self, scratch);
+    zd_tree_turn(&self->tree, p, frame.sines);
+    zd_tree_place(&self->tree, p, frame.sines, frame.pose);
+    zd_tree_move(&self->tree, frame.pose, v, frame.twist);
+    for (int i = 0; i < count; i++) {
+        const zd_observed *measure = self->uses.observed + which[2 * i];
+        const zd_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
+        const zd_reading reading = zd_gauge_read(gauge, frame.pose);
+        double bias;
+        const double rate = zd_gauge_rate(gauge, frame.pose, frame.twist, &bias);
+        value[i] = measure->scale * (measure->quantity == ZD_RATES ? rate : reading.value);
+        at[2 * i] = act_on_body(self, gauge->first, measure->scale, reading.first, row + 6 * i);
+        at[2 * i + 1] = act_on_body(self, gauge->second, measure->scale, reading.second, row + 6 * i + 3);
+    }
+}
+
 zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
 {
     const int count = self->measures.count;

@@ -121,6 +121,32 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     return status;
 }
 
+static int act_on_body(const zd_space *self, const zd_frame3 *frame, int body, double scale, zd_wrench3 what, double *own)
+{
+    memset(own, 0, ZD_BODY_VELOCITIES * sizeof *own);
+    if (!body) return -1;
+    zd_body_act(self->body + body, frame->pose + body, scale, what, own);
+    return self->body[body].v;
+}
+
+void zd_space_components(const zd_space *self, const double *p, const double *v, int count, const int *which, double *value, int *at,
+                         double *row, double *scratch)
+{
+    const zd_frame3 frame = zd_frame3_of(self, scratch);
+    zd_frame3_place(self, &frame, p);
+    zd_frame3_move(self, &frame, v);
+    for (int i = 0; i < count; i++, row += 2 * ZD_BODY_VELOCITIES, at += 2) {
+        const zd_observed *measure = self->uses.observed + which[2 * i];
+        const zd_space_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
+        const zd_reading3 reading = zd_space_gauge_read(gauge, frame.pose);
+        const int is_rate = measure->quantity == ZD_RATES;
+        value[i] = measure->scale * (is_rate ? zd_space_gauge_rate(gauge, frame.pose, frame.twist)
+                                             : zd_space_gauge_value(gauge, frame.pose, frame.angle));
+        at[0] = act_on_body(self, &frame, gauge->first, measure->scale, reading.first, row);
+        at[1] = act_on_body(self, &frame, gauge->second, measure->scale, reading.second, row + ZD_BODY_VELOCITIES);
+    }
+}
+
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure)
 {
     const int count = self->measures.count;

@@ -63,6 +63,9 @@ const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
 int zd_space_angles(const zd_space *space, int *place);
 /* The gauge that reads a coordinate of a joint, which its kind has to have; the joints before it have so many angles. */
 zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);
+/* As zd_mechanism_components(); row (count, 2, 6). */
+void zd_space_components(const zd_space *space, const double *p, const double *v, int count, const int *which, double *value, int *at,
+                         double *row, double *scratch);
 /* Size in bytes of the data of the system, and that data but for the owner of the laws, as each run may have its own, for those of them that
  * are compiled, NULL: none, and for the numbers of functions that were written out from the plan: the pointer to these is what the data
  * begins with. */

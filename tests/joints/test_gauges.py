@@ -90,6 +90,23 @@ def test_a_measure_tells_its_row_and_bias(which, state):
     assert [system._core.measure_depends(i) for i in range(3)] == ["positions", "velocities", "accelerations"]
 
 
+@pytest.mark.parametrize("which", sorted(GAUGES))
+@pytest.mark.parametrize("ends", [(1, 2), (2, 2), (0, 1)])
+def test_components_are_read_without_zeros(which, ends, state):
+    p, v, _ = state
+    core = gauged(which, *ends)._core
+    found = core.components(p, v, [(1, 0), (0, 0)])
+    for i, measure in enumerate((1, 0)):
+        expected, row = core.measure_at(measure, 0.0, p, v), np.zeros(core.nv)
+        for at, part in zip(found.at[i], found.row[i], strict=True):
+            if at >= 0:
+                row[at : at + 3] += part
+        assert found.value[i] == expected["value"][0]
+        assert_close(row, expected["row"][0], tol.SAME)
+    with pytest.raises(ValueError, match="needs accelerations"):
+        core.components(p, v, [(2, 0)])
+
+
 # ---- the tables ----
 
 

@@ -58,6 +58,26 @@ def test_the_pseudoinverse_says_the_same(graph, redundant, contradict):
         assert np.abs(least_solution(sizes, rows) - expected).max() <= AGREES * np.abs(expected).max() / s[s > 1e-9].min()
 
 
+@pytest.mark.parametrize("graph", GRAPHS)
+def test_squares_besides_are_least(graph):
+    """Of x, too: in a basis of what the rows leave free, they are those of a dense matrix."""
+    rng = np.random.default_rng(4)
+    for _ in range(10):
+        n = int(rng.integers(7, 12))
+        sizes = rng.integers(3, 7, n).tolist()
+        edges = GRAPHS[graph](n, rng)
+        rows, A, b = sparse_rows(rng, sizes, edges[::2], redundant=True, contradict=0.0)
+        squares, S, r = sparse_rows(rng, sizes, edges, redundant=False, contradict=1.0)
+        _, s, vt = np.linalg.svd(A)
+        rank = int((s > 1e-9).sum())
+        if s[:rank].min() < 1e-4 * s.max():
+            continue
+        free, x = vt[rank:].T, np.linalg.lstsq(A, b, rcond=1e-9)[0]
+        y = np.linalg.lstsq(np.vstack([np.eye(free.shape[1]), S @ free]), np.append(-free.T @ x, r - S @ x), rcond=None)[0]
+        expected = x + free @ y
+        assert np.abs(least_solution(sizes, rows, squares) - expected).max() <= AGREES * np.abs(expected).max() / s[:rank].min()
+
+
 def test_without_rows_all_is_zero():
     assert least_solution([2, 3], []).tolist() == [0.0] * 5
     assert least_solution([], []).size == 0

@@ -117,6 +117,21 @@ def test_gauges(case, kind):
         assert_close(value["rate"], read("values"), NEAR, scale=1.0)
 
 
+def test_components_are_read_without_zeros(case):
+    core, p, v = case
+    which = [(i, j) for i, measure in enumerate(core.measures) if core.measure_depends(i) != "accelerations"
+             for j in range(measure.size)]
+    found = core.components(p, v, which)
+    assert len(which) >= 2 * len(GAUGES) - len(SPEEDS)
+    for (i, j), value, ends, parts in zip(which, *found, strict=True):
+        expected, row = core.measure_at(i, 0.0, p, v), np.zeros(core.nv)
+        for at, part in zip(ends, parts, strict=True):
+            if at >= 0:
+                row[at : at + 6] += part
+        assert value == expected["value"][j]
+        assert_close(row, expected["row"][j], 1e-15, scale=1.0)
+
+
 def test_gauges_say_what_they_are(case):
     """From poses alone, by other means."""
     core, p, v = case

@@ -12,7 +12,7 @@ import numpy as np
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
 from .law_owner import Law, LawOwner, compiled_table
-from .measures import given
+from .measures import Components, components, given
 from .systems import CoreSystem
 from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
 
@@ -215,6 +215,10 @@ class MechanismCore(CoreSystem):
         mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
         mine._owner = owner
         return mine
+
+    def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
+        """Components of measures, in absolute coordinates: see `Components`."""
+        return components(lib.zd_mechanism_components, self._mechanism, self, 3, p, v, which)
 
     def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)

@@ -13,6 +13,7 @@ from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
 from .law_owner import Law, LawOwner, compiled_table
+from .measures import Components, components
 from .mechanisms import Coordinate
 from .systems import CoreSystem
 from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
@@ -199,6 +200,10 @@ class SpaceCore(CoreSystem):
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
+
+    def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
+        """Components of measures: see `Components`."""
+        return components(lib.zd_space_components, self._mechanism, self, 6, p, v, which)
 
     @property
     def error(self) -> BaseException | None:

@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from .._gateway.geometry import Component, Geometry
 from ..errors import SingularSystem
-from ..mechanisms.assembly import Assembly
+from ..mechanisms.assembly_of_many import assembly_of
 from ..mechanisms.forces import Actuator, Motor
 from ..mechanisms.measures import name_of
 from ..mechanisms.measuring import measuring
@@ -108,7 +108,7 @@ class Motion:
             driven = _driven(self._drawing, tables, core)
             names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index]
                      for row in core.rows]
-            p = Assembly(core, names, driven, assembly.length, 0.0).led_to(p, self._starting.targets(given, core))
+            p = assembly_of(core, names, driven, assembly.length, 0.0).led_to(p, self._starting.targets(given, core))
         return assembly.core.poses(p)[0]
 
     # ---- the curve ----

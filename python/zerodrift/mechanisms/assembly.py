@@ -7,13 +7,13 @@ Steps are least in the mass metric.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
-from .._gateway.consistent import nearest_velocities
 from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
-from .many_bodies import SparseRows, Target, are_met, sparse_rows
+from .many_bodies import Target
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
 SMALLEST = 1e-3         # of the largest row, and of the length: what counts as the size of a smaller row
@@ -26,7 +26,6 @@ LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so
 RANK = 1e-9             # of the largest singular value: what counts as dependent
 MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
 MOST_TOLD = 8           # names in a sentence
-MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
 
 
 class Assembly:
@@ -79,40 +78,27 @@ class Assembly:
         """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
         if not self._is_closed(p, held):
             p = self._nearest(p, self._track(self._close(p), held), held)
-        if wished:
-            self._check_wishes()
         return self._approach(p, held, wished) if wished else p
-
-    def _check_wishes(self) -> None:
-        if self.is_of_many:
-            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities hold what their start holds, and "
-                                    "know no wishes: hold what is wished")
 
     def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """Whether all rows and held targets are met."""
-        if not held or self.is_of_many:
-            stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
-            Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
-            allowed = CLOSED * SMALLEST * self.length
-            if np.abs(Phi).max(initial=0.0) <= allowed and are_met(self.core, self.t, p, held, allowed):
-                return True     # whatever the sizes of the rows, for which their dense matrix would have to be made
+        if not held and self._rows_are_met(p):
+            return True     # whatever the sizes of the rows, for which their matrix would have to be made
         residual, _ = self._residual(p, held)
         return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
 
-    @property
-    def is_of_many(self) -> bool:
-        """Whether there are so many rows that the core solves with them, and no dense matrix is made."""
-        has_diagonal_mass = self.core.packing is not None and self.core.stored("M") == (self.core.nv,)
-        return has_diagonal_mass and max(self.core.nv, self.core.m) > MOST_DENSE
+    def _rows_are_met(self, p: np.ndarray) -> bool:
+        """Whether all rows are met, of whatever size they are."""
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
+        return bool(np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length)
 
     def led_to(self, p: np.ndarray, held: Sequence[Target] = ()) -> np.ndarray:
         """From closed positions, as at another time, to those to which drives lead, and what is held."""
         return self._track(p, held)
 
-    def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, np.ndarray]:
+    def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, Any]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
-        if self.is_of_many:
-            return self._sparse_residual(p, targets)
         terms = self._evaluate(p)
         values = terms["Phi"][self.kept] if self.core.mh else np.zeros(0)
         rows = terms["C"][self.kept] if self.core.mh else np.zeros((0, self.core.nv))
@@ -121,37 +107,27 @@ class Assembly:
             values = np.append(values, found["value"][target.component] - target.value)
             rows = np.vstack([rows, found["row"][target.component]])
         rows = rows * self.scale
-        size = self._sizes(rows, targets)
+        size = self._sizes(np.linalg.norm(rows, axis=1), targets)
         return values / size, rows / size[:, None]
 
-    def _sparse_residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, SparseRows]:
-        """The same of many bodies."""
-        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
-        rows, off = sparse_rows(self.core, stored, self.t, p, targets)
-        is_kept = np.ones(self.core.m + len(targets), dtype=bool)
-        is_kept[: self.core.m] = np.isin(np.arange(self.core.m), self.kept)
-        rows = rows[is_kept] * self.scale
-        size = self._sizes(rows, targets)
-        return np.concatenate([stored["Phi"][self.kept] if self.core.mh else [], off]) / size, rows / size
-
-    def _sizes(self, rows: np.ndarray | SparseRows, targets: Sequence[Target]) -> np.ndarray:
+    def _sizes(self, lengths: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
         """The size of each row, as it was where it was first met: units must not change while squares are made least."""
         known = self._size.get(len(targets))
         if known is None:
-            known = rows.lengths() if isinstance(rows, SparseRows) else np.linalg.norm(rows, axis=1)
-            known = self._size[len(targets)] = np.maximum(known, SMALLEST * known.max(initial=self.length))
+            known = self._size[len(targets)] = np.maximum(lengths, SMALLEST * lengths.max(initial=self.length))
         return known
 
     def _close(self, p: np.ndarray) -> np.ndarray:
         """Closes the joints alone, by damped least squares from wherever the sketch has them."""
-        def joints(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            residual, rows = self._residual(p, ())
-            return residual[self.is_joint], rows[self.is_joint]
-
-        p, residual = self._least_squares(p, joints)
+        p, residual = self._least_squares(p, self._joints)
         if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
             raise CorrectionFailed("joints")
         return p
+
+    def _joints(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
+        """The residual of the joints alone, and their rows."""
+        residual, rows = self._residual(p, ())
+        return residual[self.is_joint], rows[self.is_joint]
 
     def scaled_rows(self, p: np.ndarray) -> np.ndarray:
         """All rows of C in scaled coordinates, each of length one."""
@@ -258,16 +234,12 @@ class Assembly:
             p, residual, rows, best = tried, tried_residual, tried_rows, error
         return p if best <= CLOSED else None
 
-    def _least_step(self, rows: np.ndarray | SparseRows, right: np.ndarray) -> np.ndarray:
+    def _least_step(self, rows: Any, right: np.ndarray) -> np.ndarray:
         """The least solution of rows @ step = right in the mass metric, in scaled coordinates."""
-        if isinstance(rows, SparseRows):
-            return (rows * (1 / self.weight)).least(right) / self.weight
         return np.linalg.lstsq(rows / self.weight, right, rcond=RANK)[0] / self.weight
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Levenberg's and Marquardt's method, then Newton's: positions, and the residual that remains."""
-        if self.is_of_many:
-            return self._by_newton(p, system)
         residual, rows = system(p)
         damping, size = 1e-2, float(residual @ residual)
         for _ in range(ATTEMPTS):
@@ -292,14 +264,6 @@ class Assembly:
         polished = self._newton(p, system)
         p = p if polished is None else polished
         return p, system(p)[0]
-
-    def _by_newton(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
-        """What is found of many bodies, for which there are no damped steps."""
-        found = self._newton(p, system)
-        if found is None:
-            raise InconsistentStart(f"mechanisms of more than {MOST_DENSE} rows or velocities start near to where they are "
-                                    "drawn, and from there the joints, the drives and what is held are not met: draw it nearer")
-        return found, system(found)[0]
 
     def _approach(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
         """Comes as near to the wishes as what is held allows."""
@@ -356,10 +320,6 @@ class Assembly:
         """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
         if self._may_rest(p) and not held and not wished:
             return np.zeros(self.core.nv)
-        if wished:
-            self._check_wishes()
-        elif self.is_of_many:
-            return self._least_velocities(p, held)
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)
@@ -375,21 +335,6 @@ class Assembly:
             free = _nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
-
-    def _least_velocities(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
-        """Those of many bodies."""
-        if not held:
-            return nearest_velocities(self.core, self.t, p, np.zeros(self.core.nv))
-        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
-        rows, off = sparse_rows(self.core, stored, self.t, p, held)
-        rows, right = rows * (self.scale / self.weight), np.concatenate([-stored.get("Phi_t", np.zeros(self.core.m)), -off])
-        size = rows.lengths()
-        size[size == 0.0] = 1.0
-        x = rows.least(right)
-        left = (rows @ x - right) / size
-        if np.abs(left).max() > MET * max(np.abs(right / size).max(), np.abs(x).max()):
-            raise self._contradiction(left, size, self._asked(held))
-        return x / self.weight * self.scale
 
     def _may_rest(self, p: np.ndarray) -> bool:
         """Whether no row asks for a velocity."""

@@ -10,6 +10,7 @@ import numpy as np
 from .._gateway import Variable
 from .._gateway.consistent import nearest_velocities, redundant_rows
 from .assembly import Assembly
+from .assembly_of_many import is_of_many
 from .drawing import Drawing
 from .forces import Actuator, Motor
 from .numbers import AS_GIVEN
@@ -62,7 +63,7 @@ def count(drawing: Drawing) -> Count:
     start = Starting(drawing, AS_GIVEN)
     tables = tables_of(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
     assembly, p = start.assembled(0.0)
-    if assembly.is_of_many:
+    if is_of_many(assembly.core):
         return _count_of_many(tables, assembly, p)
     rows = assembly.scaled_rows(p)
     names = [variable.name for variable in row_names(tables, assembly.core)]

@@ -36,9 +36,12 @@ class Eliminated(NamedTuple):
     of: np.ndarray
 
 
-def least_solution(sizes: Sequence[int], rows: Sequence[Rows]) -> np.ndarray:
-    """The least x (sum of `sizes`,) with which the rows, each about of length one, are met, or their squares are least."""
-    elimination = _Elimination(sizes, rows)
+def least_solution(sizes: Sequence[int], rows: Sequence[Rows], squares: Sequence[Rows] = ()) -> np.ndarray:
+    """The least x (sum of `sizes`,) with which the rows, each about of length one, are met, or their squares are least.
+
+    Where there are `squares`, the sum of x^2 and of the squares of what is left of these is what is least.
+    """
+    elimination = _Elimination(sizes, rows, squares)
     parts = [np.zeros(size) for size in sizes]
     for block, neighbours, of in reversed(elimination.run()):
         parts[block] = of @ np.concatenate([*(-parts[other] for other in neighbours), [1.0]])
@@ -46,15 +49,16 @@ def least_solution(sizes: Sequence[int], rows: Sequence[Rows]) -> np.ndarray:
 
 
 class _Elimination:
-    def __init__(self, sizes: Sequence[int], rows: Sequence[Rows]) -> None:
+    def __init__(self, sizes: Sequence[int], rows: Sequence[Rows], squares: Sequence[Rows]) -> None:
         self.sizes = sizes
         self.neighbours: list[set[int]] = [set() for _ in sizes]
         self.conditions: list[dict[int, Rows]] = [{} for _ in sizes]    # by block, those that touch it
         self.squares: list[dict[int, Rows]] = [{} for _ in sizes]       # the same of rows whose squares are to be least
-        for each in rows:
-            _hand_on(self.conditions, each)
-            for block in each.blocks:
-                self.neighbours[block].update(each.blocks)
+        for given, of in ((rows, self.conditions), (squares, self.squares)):
+            for each in given:
+                _hand_on(of, each)
+                for block in each.blocks:
+                    self.neighbours[block].update(each.blocks)
         for block, others in enumerate(self.neighbours):
             others.discard(block)
 

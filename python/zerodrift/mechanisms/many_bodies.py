@@ -1,7 +1,4 @@
-"""The start of mechanisms of many bodies: what is held, without dense matrices.
-
-Rows are eliminated at a cost in proportion to bodies. Reading a measure is not yet: its row has the length of all velocities.
-"""
+"""The start of mechanisms of many bodies: what is held, without dense matrices and at a cost in proportion to bodies."""
 
 from __future__ import annotations
 
@@ -11,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._gateway.measures import Components
 from .._gateway.mechanisms import MechanismCore
 from .elimination import Rows, least_solution
 
@@ -24,9 +22,9 @@ class Target(NamedTuple):
     value: float
 
 
-def are_met(core: MechanismCore, t: float, p: np.ndarray, held: Sequence[Target], allowed: float) -> bool:
+def are_met(core: MechanismCore, p: np.ndarray, held: Sequence[Target], allowed: float) -> bool:
     """Whether positions that are held are met."""
-    return all(abs(_measured(core, t, p, target)["value"][target.component] - target.value) <= allowed for target in held)
+    return bool((np.abs(_read(core, p, held)[1]) <= allowed).all())
 
 
 class SparseRows:
@@ -69,28 +67,40 @@ class SparseRows:
         return least_solution(self.sizes, [Rows(blocks, np.column_stack([matrix, right[begin:end]]))
                                            for (blocks, matrix), (begin, end) in (self / size)._parted()])
 
+    def damped(self, right: np.ndarray, is_soft: np.ndarray, damping: float) -> np.ndarray:
+        """The x with the least x . x + (what is left of the soft rows)^2 / damping with which all other rows are met."""
+        size = np.where(is_soft, np.sqrt(damping), self.lengths())
+        size[size == 0.0] = 1.0
+        right, parts = right / size, ([], [])
+        for (blocks, matrix), (begin, end) in (self / size)._parted():
+            rows = np.column_stack([matrix, right[begin:end]])
+            for of, chosen in zip(parts, (~is_soft[begin:end], is_soft[begin:end]), strict=True):
+                of.append(Rows(blocks, rows[chosen]))
+        return least_solution(self.sizes, *parts)
+
     def _parted(self) -> Iterator[tuple[Rows, tuple[int, int]]]:
         return zip(self.groups, pairwise(self._ends), strict=True)
 
 
-def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], t: float, p: np.ndarray,
+def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], p: np.ndarray,
                 held: Sequence[Target]) -> tuple[SparseRows, np.ndarray]:
     """All rows of C and those of targets at rest, and by how much each target is off."""
     sizes = [block[1] for block in core.packing.blocks]
     starts, ends = np.cumsum([0, *sizes]), core.packing.offsets["C"]
     groups = [Rows(blocks, stored["C"][begin:end].reshape(count, -1))
               for (count, blocks), (begin, end) in zip(core.packing.groups, pairwise(ends), strict=True)]
-    off, measured, found = np.zeros(len(held)), -1, {}
-    for i, target in enumerate(held):
-        if target.measure != measured:
-            measured, found = target.measure, _measured(core, t, p, target)
-        row, off[i] = found["row"][target.component], found["value"][target.component] - target.value
-        blocks = np.unique(np.searchsorted(starts, np.flatnonzero(row != 0.0), side="right") - 1)
-        touched = [row[starts[block] : starts[block + 1]] for block in blocks]
-        groups.append(Rows(tuple(blocks.tolist()), np.concatenate([[], *touched])[None, :]))
+    found, off = _read(core, p, held)
+    touched = np.searchsorted(starts, found.at, side="right") - 1
+    for blocks, rows in zip(touched.tolist(), found.row, strict=True):
+        parts: dict[int, np.ndarray] = {}
+        for block, row in zip(blocks, rows, strict=True):
+            if block >= 0:      # of two points of a body both
+                parts[block] = parts.get(block, 0.0) + row[: sizes[block]]
+        groups.append(Rows(tuple(parts), np.concatenate([[], *parts.values()])[None, :]))
     return SparseRows(sizes, groups), off
 
 
-def _measured(core: MechanismCore, t: float, p: np.ndarray, target: Target) -> dict[str, np.ndarray]:
-    """What is held, at rest."""
-    return core.measure_at(target.measure, t, p, np.zeros(core.nv))
+def _read(core: MechanismCore, p: np.ndarray, held: Sequence[Target]) -> tuple[Components, np.ndarray]:
+    """What is held, at rest, and by how much each is off."""
+    found = core.components(p, np.zeros(core.nv), [(target.measure, target.component) for target in held])
+    return found, found.value - np.array([target.value for target in held])

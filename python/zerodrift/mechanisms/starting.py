@@ -13,6 +13,7 @@ from .._rotations import quaternion_of
 from ..errors import CorrectionFailed, InconsistentStart, SingularSystem
 from . import columns
 from .assembly import Assembly, Target
+from .assembly_of_many import assembly_of, is_of_many
 from .bodies import Body, Point
 from .drawing import Drawing
 from .forces import Motor
@@ -108,7 +109,7 @@ class Starting:
         names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
         motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
-        return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t)
+        return assembly_of(core, names, left_out, size_of(self.drawing, self.numbers), t)
 
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
         p, _ = assembly.core.state(self._drawn(tables))
@@ -151,7 +152,7 @@ class Starting:
 
     def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
         """Which loop does not close, and by how much: in joint coordinates only the joints that close loops are open."""
-        if self.drawing.dimension == 3:
+        if self.drawing.dimension == 3 or is_of_many(assembly.core):
             return self._left_open(assembly, p)
         tables = Tables(self.drawing, self.numbers, in_tree=True)
         core = tables.core()

@@ -58,8 +58,7 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     SingularSystem
         If what is held leaves no way to satisfy the constraints.
     InconsistentStart
-        If what a mechanism is to hold cannot be met; the error names it. One of more than 1000 rows or
-        velocities has to be drawn nearly as it starts, as positions that are held are found by undamped steps, and cannot wish.
+        If what a mechanism is to hold cannot be met; the error names it, and by how much it is missed.
 
     Examples
     --------
