@@ -37,6 +37,7 @@ typedef struct zd_lanes {
     int is_fixed;
     double t0, end, step, steps;        /* steps: how many, where they are of fixed size */
     double rtol, atol, longest, tiny, most_steps, save_every, decay;
+    double every;                       /* one of so many steps is put back onto the constraints, and the last */
     double astray, nearby, limit;       /* as the guard has them, */
     double weight;                      /* and resolution.h, of a method of such an order */
     int order_of_method;

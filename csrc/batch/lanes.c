@@ -154,6 +154,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .tiny = 16 * 0x1p-52 * fmax(fabs(settings->t0), fabs(settings->t1)),
         .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
         .decay = run->stepper.integrator->decay,
+        .every = run->motion.hold.every,
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
         .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };

@@ -105,6 +105,15 @@ ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
     return any;
 }
 
+/* y1 back onto the constraints, where that is this step's turn. Returns the lanes in which that fails. */
+ZD_KERNEL zd_condition ZD_NAMED(project)(zd_lanes *self, zd_condition accepted, const double *t1)
+{
+    const zd_condition none = ZD_SPLAT(0.0) != 0.0;
+    if (!self->m || !self->corrects) return none;
+    if (self->every > 1) accepted &= ZD_NAMED(is_multiple)(*REAL(self->number) + 1.0, self->every) | (*REAL(t1) == self->end);
+    return ZD_ANY(accepted) ? ZD_NAMED(land)(self, t1, self->y1, accepted) & accepted : none;
+}
+
 /* A step in each lane; those that are done with are the ones somebody has to look at. */
 ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
 {
@@ -123,7 +132,7 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
         failed |= active & (norm != norm);
         accepted &= ZD_NAMED(control)(self, h, norm);
     }
-    if (self->m && self->corrects) failed |= ZD_NAMED(land)(self, (const double *)&t1, self->y1, accepted) & accepted;
+    failed |= ZD_NAMED(project)(self, accepted, (const double *)&t1);
     ZD_NAMED(correct_rest)(self, accepted & ~failed, (const double *)&t1, self->y1, 0);
     const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
     ZD_NAMED(accelerate)(self, (const double *)&t1, self->y1, self->y1 + self->nq * ZD_LANES, &to);

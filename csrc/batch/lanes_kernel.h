@@ -29,6 +29,13 @@ ZD_KERNEL void ZD_NAMED(take_where)(zd_condition condition, int n, const double 
     for (int i = 0; i < n; i++) REAL(to)[i] = ZD_WHERE(condition, REAL(from)[i], REAL(to)[i]);
 }
 
+/* Whether a number of steps is a multiple of another */
+ZD_KERNEL zd_condition ZD_NAMED(is_multiple)(zd_real number, double of)
+{
+    const zd_real magic = ZD_SPLAT(0x1p52), share = number / of;
+    return (share + magic) - magic == share;
+}
+
 /* ---- sums over stages ---- */
 
 /* What goes into a sum over stages: rates and weights. */

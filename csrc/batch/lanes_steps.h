@@ -35,7 +35,7 @@ ZD_KERNEL zd_condition ZD_NAMED(land)(zd_lanes *self, const double *t, double *y
         for (int i = 0; i < self->nq; i++) REAL(y)[i] = ZD_WHERE(open, REAL(y)[i] - REAL(self->dp)[i], REAL(y)[i]);
     }
     if (self->pins) ZD_NAMED(slow_pins)(self, y, v);
-    for (int i = 0; i < self->nv; i++) REAL(v)[i] -= REAL(self->dv)[i];
+    for (int i = 0; i < self->nv; i++) REAL(v)[i] = ZD_WHERE(wanted, REAL(v)[i] - REAL(self->dv)[i], REAL(v)[i]);
     *REAL(self->iterations) += count;
     *REAL(self->most_iterations) = LARGER(count, *REAL(self->most_iterations));
     return failed;
@@ -262,8 +262,7 @@ ZD_KERNEL zd_condition ZD_NAMED(looks_at_stiffness)(const zd_lanes *self)
     const zd_condition none = ZD_SPLAT(0.0) != 0.0;
     if (method->tableau->c[method->stages - 1] != 1) return none;
     if (method->tableau->e[method->stages] != 0) return ~none;
-    const zd_real magic = ZD_SPLAT(0x1p52), share = (*REAL(self->number) + *REAL(self->rejected) + 1.0) / (double)LOOK_AT_STIFFNESS;
-    return (share + magic) - magic == share;
+    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, LOOK_AT_STIFFNESS);
 }
 
 /* The error of the step to y1, root mean square in units of what is allowed: see runge_kutta.h. */

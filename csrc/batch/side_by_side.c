@@ -46,8 +46,8 @@ static int rest_serves(const zd_run *run)
     return !motion->is_stabilized;
 }
 
-/* What is corrected after a step has to be the projection in the mass metric, of positions and of velocities, with what follows that; or
- * nothing. */
+/* What is corrected has to be the projection in the mass metric, of positions and of velocities, with what follows that; or nothing. Of pins,
+ * each step is. */
 static int run_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
@@ -55,7 +55,7 @@ static int run_serves(const zd_run *run)
     if (!(motion->road.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
-    return rest_serves(run) && hold->positions && hold->velocities && hold->every == 1 && hold->in_mass_metric;
+    return rest_serves(run) && hold->positions && hold->velocities && hold->in_mass_metric && (hold->every == 1 || motion->road.direct);
 }
 
 /* ---- memory ---- */
@@ -152,6 +152,13 @@ static int say_event(const zd_lane_group *self, int lane)
     return ZD_EVENT;
 }
 
+/* How many steps of the lane were put back onto the constraints. */
+static int64_t count_corrected(const zd_lanes *lanes, int lane)
+{
+    const int64_t steps = (int64_t)lanes->number[lane], every = (int64_t)lanes->every;
+    return steps / every + (steps % every != 0 && lanes->t[lane] == lanes->end);
+}
+
 static void end(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -162,7 +169,7 @@ static void end(zd_lane_group *self, int lane)
     self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
         .steps = steps, .direct_steps = lanes->direct ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
-        .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? steps : 0,
+        .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? count_corrected(lanes, lane) : 0,
         .stiff = (int64_t)lanes->stiff[lane],
         .energy_corrections = run->of_energy.corrections, .energy_skipped = run->of_energy.skipped,
         .energy_corrected = run->of_energy.corrected,

@@ -14,11 +14,13 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 import zerodrift as zd
 from measuring import least, record
+from zerodrift.ensembles import batch
 from zerodrift.ensembles.batch import batch_of, batch_range
 from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.runs import Runs
@@ -51,6 +53,16 @@ def runs(end=END, count=RUNS, outputs=("alpha1", "alpha2", "alpha3"), **options)
     return functools.partial(batch_range, plan, batch_of(plan), 0, count, None)
 
 
+def without_lanes(call):
+    """A callable whose runs are made by the core one by one."""
+    by_itself = functools.partial(batch._gateway.run_batch, lanes=False)
+
+    def made():
+        with mock.patch.object(batch._gateway, "run_batch", by_itself):
+            return call()
+    return made
+
+
 def floor(folder, unit, *flags):
     """The yardstick's steps, for as many runs."""
     library, n = Path(folder) / f"{unit}{''.join(flags)}.so", LANES[unit]
@@ -79,9 +91,8 @@ def steps_of_fixed_size():
             calls[unit, "factored by hand"] = floor(folder, unit, "-DSCHUR")
             calls[unit, "here"] = runs(step=STEP, vector=unit)
             calls[unit, "short"] = runs(4 * STEP, step=STEP, vector=unit)
-            by_itself = {"step": STEP, "vector": unit, "stabilization": zd.Projection(every=2)}
-            calls[unit, "alone"] = runs(4 * STEP, **by_itself)
-            calls[unit, "alone, long"] = runs(104 * STEP, **by_itself)
+            calls[unit, "alone"] = without_lanes(runs(4 * STEP, step=STEP, vector=unit))
+            calls[unit, "alone, long"] = without_lanes(runs(104 * STEP, step=STEP, vector=unit))
             for hand in ("by hand", "factored by hand"):
                 apart = np.abs(calls[unit, "here"]()[0].arrays["alpha1"] - calls[unit, hand]()).max()
                 assert apart < 1e-7, apart

@@ -36,6 +36,8 @@ def options_of(chance, end):
         options["save_every"] = int(chance.integers(1, 5))
     if chance.random() < 0.2:
         options["stabilization"] = None
+    elif chance.random() < 0.2:
+        options["stabilization"] = zd.Projection(every=int(chance.integers(2, 8)))
     if chance.random() < 1 / 3:
         options["energy"] = zd.EnergyCorrection(every=int(chance.integers(1, 4)))
     return options | {"vector": str(chance.choice(zd.runs.settings.VECTOR_UNITS[:zd._gateway.PROCESSOR_UNIT + 1]))}
