@@ -2,77 +2,111 @@
  *
  *     y0 + x (F0 + z (F1 + x (F2 + z (F3 + ...))))
  *
- * F0, F1 and F2 follow from the states and their rates at both ends; the others are sums over all stages, h sum_j d_ij k_j.
+ * F0 = y1 - y0, F1 = h k0 - F0 and F2 = 2 F0 - h (f1 + k0) follow from the states and their rates at both ends; the others are sums over all
+ * stages, h sum_j d_ij k_j. At one x all of it is y0, a share of F0, and one sum of the stages: their weights are found first, which takes
+ * less than the vectors F_i wherever a step has fewer than some ten values in it.
  */
 #ifndef ZD_INTERPOLATION_H
 #define ZD_INTERPOLATION_H
 
 #include "runge_kutta.h"
 
-enum { ZD_OF_ENDS = 3 };    /* coefficients that follow from both ends */
+enum {
+    ZD_OF_ENDS = 3,         /* coefficients that follow from both ends */
+    ZD_MOST_STAGES = 16,    /* with the rate at the end and those behind it */
+};
 
-/* sum_j weight_j k_j of an entry, over all stages there are */
-ZD_INLINE double zd_summed(int i, const int size, const int all, const double *weight, const double *k)
+/* to <- y + h sum_j weight_j k_j, h coming last, so that weights are constants */
+ZD_INLINE double zd_added(int i, const int size, const int terms, const double *weight, double h, const double *k, const double *y)
 {
     double sum = 0;
+    int is_first = 1;
     ZD_UNROLL
-    for (int j = 0; j < all; j++)
-        if (weight[j] != 0) sum += weight[j] * k[j * size + i];
-    return sum;
+    for (int j = 0; j < terms; j++) {
+        if (weight[j] == 0) continue;
+        sum = is_first ? weight[j] * k[j * size + i] : sum + weight[j] * k[j * size + i];
+        is_first = 0;
+    }
+    return y[i] + h * sum;
 }
 
-/* to <- h sum_j weight_j k_j */
-ZD_INLINE void zd_add_up(const int size, const int all, const double *weight, double h, const double *k, double *to)
+ZD_INLINE void zd_add_stages(const int size, const int terms, const double *weight, double h, const double *restrict k,
+                             const double *restrict y, double *restrict to)
 {
     ZD_UNROLL
     for (int i = 0; i + 1 < size; i += 2)
-        zd_store_pair(h * zd_summed(i, size, all, weight, k), h * zd_summed(i + 1, size, all, weight, k), to + i);
-    if (size % 2) to[size - 1] = h * zd_summed(size - 1, size, all, weight, k);
+        zd_store_pair(zd_added(i, size, terms, weight, h, k, y), zd_added(i + 1, size, terms, weight, h, k, y), to + i);
+    if (size % 2) to[size - 1] = zd_added(size - 1, size, terms, weight, h, k, y);
 }
 
-/* The coefficients, each a vector; the rate at the end comes behind those of the stages, and those of further stages behind that. */
+/* Of n entries: how they change in the step, and the stages that the polynomial has besides, behind the rate at the end. */
 ZD_INLINE int zd_spread_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
                               const double *y0, const double *y1)
 {
     const int first = T->stages + 1, all = first + T->more;
-    double *k = self->k, *F = self->polynomial, *f1 = k + T->stages * size;
-    int status = rate->evaluate(rate->context, t + h, y1, f1);
+    double *k = self->k;
+    int status = zd_rate_of_beginning(rate, t + h, y1, k + T->stages * size);
     ZD_UNROLL
     for (int i = 0; i < T->more; i++) {
         if (status) return status;
-        zd_combine_pairs(0, size, size, first + i, T->more_a + i * all, h, k, y0, self->stage, NULL);
+        zd_add_stages(size, first + i, T->more_a + i * all, h, k, y0, self->stage);
         status = zd_rate_of_stage(rate, t + T->more_c[i] * h, self->stage, k + (first + i) * size);
     }
-    for (int i = 0; i < size; i++) {
-        const double change = y1[i] - y0[i];
-        F[i] = change;
-        F[size + i] = h * k[i] - change;
-        F[2 * size + i] = 2 * change - h * (f1[i] + k[i]);
-    }
-    ZD_UNROLL
-    for (int i = ZD_OF_ENDS; i < T->coefficients; i++) zd_add_up(size, all, T->d + (i - ZD_OF_ENDS) * all, h, k, F + i * size);
+    for (int i = 0; i < size; i++) self->change[i] = y1[i] - y0[i];
     return status;
 }
 
 /* Of three and four coordinates with as many velocities, whose sums are written out; and of any */
-ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0,
+ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0,
                                     const double *y1)
 {
+    self->h = h;
     return self->size == 6   ? zd_spread_sized(6, T, self, rate, t, h, y0, y1)
          : self->size == 8   ? zd_spread_sized(8, T, self, rate, t, h, y0, y1)
                              : zd_spread_sized(self->size, T, self, rate, t, h, y0, y1);
 }
 
-ZD_INLINE void zd_runge_kutta_between(const int coefficients, const zd_runge_kutta *self, double x, const double *y0, double *y)
+/* What h k_j counts for at a share x of the step, (all,) */
+ZD_INLINE void zd_weigh_stages(const zd_tableau *T, double h, double x, double *weight)
 {
-    const int n = self->size;
-    const double *F = self->polynomial, z = 1 - x;
-    for (int i = 0; i < n; i++) {
-        double value = F[(coefficients - 1) * n + i];
+    const int all = T->stages + 1 + T->more, sums = T->coefficients - ZD_OF_ENDS;
+    const double z = 1 - x, of_sums = h * x * z * x * z;
+    for (int j = 0; j < all; j++) {
+        double sum = T->d[(sums - 1) * all + j];
         ZD_UNROLL
-        for (int k = coefficients - 2; k >= 0; k--) value = F[k * n + i] + (k % 2 ? x : z) * value;
-        y[i] = y0[i] + x * value;
+        for (int i = sums - 2; i >= 0; i--) sum = T->d[i * all + j] + (i % 2 ? z : x) * sum;
+        weight[j] = of_sums * sum;
     }
+    weight[0] += h * x * z * z;             /* F1 and F2 */
+    weight[T->stages] -= h * x * z * x;
+}
+
+ZD_INLINE double zd_value_between(int i, const int size, const zd_tableau *T, const zd_runge_kutta *self, double of_change,
+                                  const double *weight, const double *y0)
+{
+    double value = y0[i] + of_change * self->change[i];
+    ZD_UNROLL
+    for (int j = 0; j < T->stages + 1 + T->more; j++)
+        if (T->d[j] != 0) value += weight[j] * self->k[j * size + i];
+    return value;
+}
+
+ZD_INLINE void zd_between_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
+{
+    const double z = 1 - x, of_change = x * x * (x + 3 * z);     /* x - x z + 2 x^2 z */
+    double weight[ZD_MOST_STAGES];
+    zd_weigh_stages(T, self->h, x, weight);
+    ZD_UNROLL
+    for (int i = 0; i + 1 < size; i += 2)
+        zd_store_pair(zd_value_between(i, size, T, self, of_change, weight, y0), zd_value_between(i + 1, size, T, self, of_change, weight, y0), y + i);
+    if (size % 2) y[size - 1] = zd_value_between(size - 1, size, T, self, of_change, weight, y0);
+}
+
+ZD_INLINE void zd_runge_kutta_between(const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
+{
+    if (self->size == 6) zd_between_sized(6, T, self, x, y0, y);
+    else if (self->size == 8) zd_between_sized(8, T, self, x, y0, y);
+    else zd_between_sized(self->size, T, self, x, y0, y);
 }
 
 /* The functions of a method whose table is `tableau`, and their place in its descriptor. */
@@ -83,7 +117,7 @@ ZD_INLINE void zd_runge_kutta_between(const int coefficients, const zd_runge_kut
     }                                                                                                                       \
     static void between(const void *self, double share, const double *y0, double *y)                                        \
     {                                                                                                                       \
-        zd_runge_kutta_between(tableau.coefficients, self, share, y0, y);                                                   \
+        zd_runge_kutta_between(&tableau, self, share, y0, y);                                                   \
     }
 #define ZD_INTERPOLATED .spread = spread, .between = between
 

@@ -18,7 +18,7 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *s
         .size = size,
         .k = zd_take_doubles(arena, ((size_t)(tableau->stages + tableau->more) + estimates) * (size_t)size),
         .stage = zd_take_doubles(arena, (size_t)size),
-        .polynomial = zd_take_doubles(arena, (size_t)tableau->coefficients * (size_t)size),
+        .change = tableau->coefficients ? zd_take_doubles(arena, (size_t)size) : NULL,
     };
     self.end = estimates ? zd_take_doubles(arena, (size_t)size) : self.stage;       /* estimates want both */
     return zd_take_filled(arena, &self, sizeof self);

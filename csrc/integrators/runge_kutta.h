@@ -25,7 +25,7 @@ typedef struct zd_runge_kutta {
     int calls;      /* of the error estimate */
     double *k;      /* (stages, size), and for an error estimate one more, and those for values between */
     double *stage, *end;    /* (size,): the last stage, the end of the step; one, where no error is estimated */
-    double *polynomial;     /* (coefficients, size) */
+    double h, *change;      /* (size,): of the step, and of the state in it, for values between its ends */
 } zd_runge_kutta;
 
 /* A loop over stages, of which there are at most 13: written out, so that weights are constants, and those that are zero take no time. */

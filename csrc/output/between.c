@@ -20,6 +20,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_steppe
         self.after = zd_place_take(arena, stepper->motion);
         self.rates = zd_rates_take(arena, stepper->motion);
         self.aside = zd_aside_take(arena, stepper);
+        self.y = zd_take_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
     }
     return self;
 }
@@ -54,7 +55,6 @@ int zd_output_return_to_end(zd_output *self)
 
 int zd_output_move(zd_output *self, double t)
 {
-    if (t == self->after.t) return zd_output_return_to_end(self);
     zd_output_leave_end(self);
     int status = zd_stepper_return_to(self->stepper, &self->before);
     return status ? status : zd_stepper_make_substep(self->stepper, t);
@@ -70,20 +70,43 @@ static int is_wanted_before(const zd_output *self, double t)
     return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
 }
 
+/* Before the motion leaves the end of the step for the first time. A step that an event has cut short has made shorter steps already. */
+static int leave(zd_output *self, int is_end)
+{
+    zd_stepper *stepper = self->stepper;
+    self->is_away = 1;
+    self->is_spread = self->has_polynomial && !is_end && zd_stepper_may_spread(stepper, self->before.t);
+    self->is_short = self->is_spread && zd_short_may_stay(stepper);
+    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);
+    else zd_output_keep_end(self);
+    return self->is_spread ? zd_stepper_spread(stepper) : ZD_DONE;
+}
+
+static int come_back(zd_output *self)
+{
+    if (!self->is_short) return zd_output_return_to_end(self);
+    zd_short_return_to_end(self->stepper, self->after.t, &self->rates);
+    return ZD_DONE;
+}
+
+/* Where the polynomial has failed, from the end of the step. */
+static int go_on_with_shorter_steps(zd_output *self)
+{
+    const int status = come_back(self);
+    if (self->is_short) zd_output_keep_end(self);
+    self->is_spread = self->is_short = 0;
+    return status;
+}
+
 /* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step: that is made, too, where the
- * polynomial fails, unless a callable did. A step that an event has cut short has made such steps already. */
+ * polynomial fails, unless a callable did. */
 static int move_to_next(zd_output *self, int is_end)
 {
     const double t = self->t_eval[self->next++];
-    const int is_first = !self->is_away;
-    int status = ZD_DONE;
-    if (is_first) self->is_spread = self->has_polynomial && !is_end && zd_stepper_may_spread(self->stepper, self->before.t);
-    self->is_away = 1;
-    if (is_first && self->is_spread) status = zd_stepper_spread(self->stepper);
-    if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t);
+    int status = self->is_away ? ZD_DONE : leave(self, is_end);
+    if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t, self->is_short ? self->y : self->stepper->y);
     if (zd_callable_failed(self->stepper->motion, status) || (self->is_spread && !status)) return status;
-    status = self->is_spread ? zd_output_return_to_end(self) : ZD_DONE;     /* from where shorter steps are made */
-    self->is_spread = 0;
+    status = self->is_spread ? go_on_with_shorter_steps(self) : ZD_DONE;
     return status ? status : zd_output_move(self, t);
 }
 
@@ -103,7 +126,7 @@ static int save_within(zd_output *self, zd_record *record, int is_end)
 static int save_end(zd_output *self, zd_record *record, int is_end)
 {
     const double t1 = self->after.t;
-    int status = self->is_away ? zd_output_move(self, t1) : ZD_DONE;
+    int status = self->is_away ? come_back(self) : ZD_DONE;
     self->is_away = 0;
     const int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
@@ -115,7 +138,7 @@ static int save_end(zd_output *self, zd_record *record, int is_end)
 int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     if (!self->is_open && !is_wanted(self, self->stepper->t)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
-    if (!self->is_open) zd_output_keep_end(self);
+    if (!self->is_open) self->after.t = self->stepper->t;
     int status = save_within(self, record, is_end);
     if (!status) status = save_end(self, record, is_end);
     self->is_open = status == ZD_FULL;

@@ -3,6 +3,7 @@
 #define ZD_BETWEEN_H
 
 #include "../stepping/aside.h"
+#include "../stepping/short_step.h"
 #include "record.h"
 
 typedef struct zd_output {
@@ -19,7 +20,9 @@ typedef struct zd_output {
     int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
     int is_open;            /* whether its end is kept, */
     int is_away;            /* the motion is elsewhere, */
-    int is_spread;          /* and the polynomial is made */
+    int is_spread;          /* and the polynomial is made, */
+    int is_short;           /* whose values are in a state y of their own, that of the stepper being that of the end */
+    double *y;              /* (size,) */
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
@@ -28,7 +31,7 @@ void zd_output_keep_end(zd_output *self);
 /* Before the motion leaves the end; and back to it, so that the next step is what it would have been. */
 void zd_output_leave_end(zd_output *self);
 int zd_output_return_to_end(zd_output *self);
-int zd_output_move(zd_output *self, double t);      /* to any time of the step, once its end is kept */
+int zd_output_move(zd_output *self, double t);      /* to a time within the step by a shorter one, once its end is kept */
 /* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. ZD_FULL: it goes on where it was
  * when it is called again, with room. */
 int zd_output_after(zd_output *self, zd_record *record, int is_end);

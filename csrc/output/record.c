@@ -1,13 +1,14 @@
 #include "record.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "../linalg/small.h"
 #include "../point/matrices.h"
 
 static void copy_row(double *table, int64_t row, int width, const double *values)
 {
-    if (width) memcpy(table + row * width, values, (size_t)width * sizeof *values);
+    double *to = table + row * width;
+    ZD_SIZED(zd_copy, width, values, to);
 }
 
 static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
@@ -15,8 +16,7 @@ static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
     zd_point *point = motion->point;
     int m = zd_constraints(point->system);
     if (!m) return ZD_DONE;
-    int status = zd_point_need(point, ZD_PHI | ZD_PHI_T);
-    if (!status) status = zd_point_need_times_C(point);
+    int status = zd_point_need_times_C(point);
     if (status) return status;
     copy_row(record->position_violation, row, point->system->mh, point->terms.Phi);     /* (3) */
     zd_point_velocity_violation(point, record->velocity_violation + row * m);            /* (5) */
@@ -33,9 +33,8 @@ static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
 {
     double violation, kinetic;
     if (!zd_has_energy(&motion->system)) {
-        int status = zd_point_need(motion->point, ZD_M);
-        record->kinetic[row] = status ? 0 : zd_point_kinetic(motion->point);
-        return status;
+        record->kinetic[row] = zd_point_kinetic(motion->point);
+        return ZD_DONE;
     }
     int status = zd_motion_energy_violation(motion, &violation, &kinetic);
     if (status) return status;
@@ -49,7 +48,12 @@ static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
 
 zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_motion *motion)
 {
-    zd_recorder self = {.motion = motion, .outputs = settings->outputs};
+    const int terms = ZD_PHI | ZD_PHI_T | ZD_M | ZD_POTENTIAL;
+    zd_recorder self = {
+        .motion = motion,
+        .outputs = settings->outputs,
+        .needs = zd_needs_no_C(&motion->system) ? terms : terms | ZD_C,
+    };
     if (!self.outputs) return self;
     self.measured = self.outputs->of ? self.outputs->of : &motion->system;
     const zd_measures *measures = self.measured->measures;
@@ -81,6 +85,7 @@ int zd_recorder_add(zd_recorder *self, zd_record *record)
     int64_t row = record->rows;
     zd_point *point = motion->point;
     int status = zd_motion_accelerate(motion);
+    if (!status) status = zd_point_need(point, self->needs);
     if (!status) status = record_constraints(motion, record, row);
     if (!status) status = record_energy(motion, record, row);
     if (!status && self->outputs) status = record_outputs(self, record, row);

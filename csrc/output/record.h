@@ -10,6 +10,7 @@ typedef struct zd_recorder {
     const zd_system *measured;      /* whose they are */
     int width;                      /* how many components all of them have */
     double *scratch;                /* of the measures */
+    int needs;                      /* terms of a row, evaluated at once */
 } zd_recorder;
 
 zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_motion *motion);

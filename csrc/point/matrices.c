@@ -79,8 +79,7 @@ static void packed_times(const zd_point *point, const double *x, double *y)
 
 int zd_point_need_times_C(zd_point *point)
 {
-    const zd_operations *own = point->system->operations;
-    if (!own || !own->add_weighted) return zd_point_need(point, ZD_C);
+    if (!zd_needs_no_C(point->system)) return zd_point_need(point, ZD_C);
     return point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
 }
 

@@ -121,7 +121,7 @@ int zd_revisit_move(zd_revisit *self, double t)
     int status = row == self->row ? ZD_DONE : find_road(self, row);
     if (status) return status;
     if (self->has_polynomial) {
-        status = zd_stepper_land_between(&self->run->stepper, t);
+        status = zd_stepper_land_between(&self->run->stepper, t, self->run->stepper.y);
         if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;

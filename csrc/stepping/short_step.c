@@ -39,30 +39,31 @@ int zd_short_integrate(zd_course *course, double h)
 }
 
 /* Of the point, which the acceleration is known at, too, afterwards. */
-ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, int64_t step, int forced)
+ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, double *y, int64_t step, int forced)
 {
     zd_motion *motion = stepper->motion;
     int status = zd_motion_correct_rest(motion, step, forced);
     if (status) return status;
-    zd_copy_pairs(n, motion->point->v, stepper->y + n);
+    zd_copy_pairs(n, motion->point->v, y + n);
     return zd_motion_accelerate(motion);
 }
 
-ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, int64_t step, int forced)
+/* The state y, and the point with it. */
+ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, double *y, int64_t step, int forced)
 {
     zd_point *point = stepper->motion->point;
     point->t = stepper->t = t;
-    int status = zd_direct_land(stepper->motion, t, stepper->y, stepper->y + n);
-    zd_copy_pairs(n, stepper->y, point->p);
-    zd_copy_pairs(n, stepper->y + n, point->v);
-    return !status && stepper->motion->corrections > 1 ? correct_rest(n, stepper, step, forced) : status;
+    int status = zd_direct_land(stepper->motion, t, y, y + n);
+    zd_copy_pairs(n, y, point->p);
+    zd_copy_pairs(n, y + n, point->v);
+    return !status && stepper->motion->corrections > 1 ? correct_rest(n, stepper, y, step, forced) : status;
 }
 
 ZD_INLINE int land(const int n, zd_course *course, double t1)
 {
     zd_stepper *stepper = course->stepper;
     const double h = stepper->last.h;
-    int status = correct(n, stepper, t1, course->step, t1 == course->end || course->parts);
+    int status = correct(n, stepper, t1, stepper->y, course->step, t1 == course->end || course->parts);
     if (status) return status;
     if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
     return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;
@@ -73,13 +74,53 @@ int zd_short_land(zd_course *course, double t1)
     return ZD_SIZED(land, course->motion->system.nv, course, t1);
 }
 
-ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t)
+ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t, double *y)
 {
-    int status = correct(n, stepper, t, 0, 1);
-    return status || is_finite(n, stepper->y) ? status : ZD_NOT_FINITE;
+    int status = correct(n, stepper, t, y, 0, 1);
+    return status || is_finite(n, y) ? status : ZD_NOT_FINITE;
 }
 
-int zd_short_land_between(zd_stepper *stepper, double t)
+int zd_short_land_between(zd_stepper *stepper, double t, double *y)
 {
-    return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t);
+    return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t, y);
+}
+
+ZD_INLINE void copy_rates(const int n, int rows, const zd_rates_there *from, const zd_rates_there *to)
+{
+    zd_copy(n, from->vdot, to->vdot);
+    zd_copy(n, from->pivots, to->pivots);
+    for (int k = 0; k < rows; k++) to->lambda[k] = from->lambda[k];
+}
+
+static zd_rates_there rates_of(const zd_motion *motion)
+{
+    const zd_point *point = motion->point;
+    return (zd_rates_there){.vdot = point->vdot, .lambda = point->lambda, .pivots = motion->road.pivots};
+}
+
+void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates)
+{
+    const zd_motion *motion = stepper->motion;
+    const zd_rates_there here = rates_of(motion);
+    rates->smallest = motion->road.smallest;
+    ZD_SIZED(copy_rates, motion->system.nv, zd_constraints(&motion->system), &here, rates);
+}
+
+ZD_INLINE void return_to_end(const int n, zd_stepper *stepper, const zd_rates_there *rates)
+{
+    zd_motion *motion = stepper->motion;
+    zd_point *point = motion->point;
+    const zd_rates_there here = rates_of(motion);
+    zd_copy(n, stepper->y, point->p);
+    zd_copy(n, stepper->y + n, point->v);
+    copy_rates(n, zd_constraints(&motion->system), rates, &here);
+}
+
+void zd_short_return_to_end(zd_stepper *stepper, double t, const zd_rates_there *rates)
+{
+    zd_motion *motion = stepper->motion;
+    motion->point->t = stepper->t = t;
+    motion->point->known = ZD_ACCELERATED;
+    motion->road.smallest = rates->smallest;
+    ZD_SIZED(return_to_end, motion->system.nv, stepper, rates);
 }

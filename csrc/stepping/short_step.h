@@ -14,7 +14,14 @@ static inline int zd_is_short(const zd_motion *motion)
 /* What zd_stepper_integrate() and zd_passage_land() do of any step. */
 int zd_short_integrate(zd_course *course, double h);
 int zd_short_land(zd_course *course, double t1);
-/* Where the state within such a step is, between ends that are believed. */
-int zd_short_land_between(zd_stepper *stepper, double t);
+/* Whether the stepper's state may stay at the end of the step, with all that is known there, while the point is elsewhere within. */
+static inline int zd_short_may_stay(const zd_stepper *stepper)
+{
+    return zd_is_short(stepper->motion) && (stepper->motion->point->known & ZD_ACCELERATED);
+}
+/* The point to where a state y of such a step is, between ends that are believed; and back to the end, with what is kept there. */
+int zd_short_land_between(zd_stepper *stepper, double t, double *y);
+void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates);
+void zd_short_return_to_end(zd_stepper *stepper, double t, const zd_rates_there *rates);
 
 #endif

@@ -38,7 +38,7 @@ int zd_stepper_integrate(zd_stepper *self, double h);
 /* The point at t1, with the corrections that are due in this step, or with all if it is `forced`; and y to match. */
 int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
 /* The same at any time within the step just made, its ends being believed, from the state that the integrator says there is. */
-int zd_stepper_land_between(zd_stepper *self, double t);
+int zd_stepper_land_between(zd_stepper *self, double t, double *y);
 /* Whether the integrator can say so of the step from t0, which is the one just made; and for that its polynomial, which serves until another
  * step is made. */
 int zd_stepper_may_spread(const zd_stepper *self, double t0);

@@ -157,6 +157,16 @@ def test_the_same_bits_between_rows_as_while_the_run_goes_on(system, formulation
         assert (v[::-1] == at.v).all()
     assert np.abs(at.position_violation).max(initial=0) <= 1e-12
     assert np.abs(at.velocity_violation).max(initial=0) <= 1e-12 * (1 + np.abs(at.v).max())
+    assert_on_constraints(system, WITHIN[::-1], p, v)
+
+
+def assert_on_constraints(system, times, p, v):
+    """As the terms of the system say, not what the run has recorded."""
+    for t, p_there, v_there in zip(times, p, v, strict=True):
+        e = system.evaluate(p_there, v_there, t)
+        assert e.Phi is None or np.abs(e.Phi).max() <= 1e-12
+        if system.m:
+            assert np.abs(e.C @ v_there + (0 if e.Phi_t is None else e.Phi_t)).max() <= 1e-12 * (1 + np.abs(v).max())
 
 
 @pytest.mark.parametrize("method", INTERPOLATED)
@@ -172,6 +182,18 @@ def test_the_same_bits_where_an_event_has_ended_the_run(bar, method):
     assert (v[:-1] == at.v[:82]).all()
     step = zd.simulate(bar, (sol.t[-2], sol.t[-1]), sol.p[-2], sol.v[-2], integrator=method, step=sol.t[-1] - sol.t[-2])
     assert np.abs(step.p[-1] - sol.p[-1]).max() <= 1e-14
+
+
+@pytest.mark.parametrize("method", INTERPOLATED)
+def test_a_value_does_not_depend_on_what_else_is_asked_for(bar, method):
+    """One time of a step, or many."""
+    options = {"integrator": method, "rtol": 1e-5, "atol": 1e-6}
+    every = zd.simulate(bar, 2.0, t_eval=np.linspace(0, 2, 481), **options)
+    for stride in (3, 11, 160):
+        some = zd.simulate(bar, 2.0, t_eval=every.t[5::stride], **options)
+        assert (some.p == every.p[5::stride]).all()
+        assert (some.v == every.v[5::stride]).all()
+        assert (some.multipliers == every.multipliers[5::stride]).all()
 
 
 def with_steps(system, method, n, times=None):

@@ -72,14 +72,34 @@ def test_the_pendulum_in_closed_form():
     assert_close(sol.t_events[0], expected, 1e-10)      # the projection's tolerance, 1e-12, in each of 2400 steps
 
 
-def test_the_instant_is_resolved_to_rounding(system):
+@pytest.mark.parametrize("steps", [{"step": 0.05}, {"integrator": "dop853", "rtol": 1e-6}], ids=["fixed", "chosen"])
+def test_the_instant_is_resolved_to_rounding(system, steps):
     """Wherever in a step: here the event is time itself."""
     times = np.random.default_rng(7).uniform(0.1, 0.9, 20)
-    sol = zd.simulate(system, 1.0, step=0.05, events=[event(lambda t, p, v, at=at: t - at) for at in times])
+    sol = zd.simulate(system, 1.0, events=[event(lambda t, p, v, at=at: t - at) for at in times], **steps)
     found = np.concatenate(sol.t_events)
     assert found.shape == times.shape
     assert (found - times >= 0).all()
     assert (found - times <= 4 * tol.EPS).all()
+
+
+CHOSEN = [name for name, card in zd.integrators().items() if card.error_order and card.order > 2 and name != "taylor"]
+
+
+@pytest.mark.parametrize("steps", [{"step": 0.03}, {"rtol": 1e-3, "atol": 1e-6}], ids=["fixed", "chosen"])
+@pytest.mark.parametrize("method", ["rk4", *CHOSEN])
+def test_a_fall_in_closed_form(method, steps):
+    """It is 1 - 5 t^2, which all these methods solve without error: heights are passed when it says, to a few units of rounding."""
+    if "rtol" in steps and method not in CHOSEN:
+        pytest.skip("it cannot choose its steps")
+    ball = zd.System(["y"], mass=np.eye(1), force=np.array([-10.0]), potential=lambda p: 10 * p[0], p0=[1.0])
+    heights = np.linspace(0.9, -3.0, 14)
+    exact = np.sqrt((1 - heights) / 5)
+    sol = zd.simulate(ball, 1.0, integrator=method, events=[zd.Event("y", value=y) for y in heights], **steps)
+    assert np.abs(np.concatenate(sol.t_events) - exact).max() <= 16 * tol.EPS
+    ended = zd.simulate(ball, 1.0, integrator=method, events=zd.Event("y", value=heights[3], terminal=True), **steps)
+    assert abs(ended.t[-1] - exact[3]) <= 8 * tol.EPS
+    assert abs(ended.p[-1, 0] - heights[3]) <= 8 * tol.EPS
 
 
 def test_constraints_hold_at_events(system, formulation, integrator):
