@@ -248,6 +248,23 @@ def test_parts_without_a_joint_to_the_ground_get_the_heaviest_as_their_root():
     np.testing.assert_allclose(sol["heavy.position"][-1], (1, -9.81 / 8), atol=1e-10)
 
 
+def test_a_weld_that_is_cut_is_rows():
+    def made(**options):
+        m = zd.Mechanism("bracket", gravity=(0, -9.81))
+        arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
+        m.revolute("pin", m.ground, arm.start)
+        m.weld("glue", arm.end, m.link("tool", (1, 0), (1, 0.5), mass=0.3).start, **options)
+        return m
+
+    tree, cut = made().system("joint"), made(cut=True).system("joint")
+    assert (tree.m, cut.m) == (0, 3)
+    one, other = (zd.simulate(system, 0.1, step=1e-3) for system in (tree, cut))
+    for measure in ("arm.angle", "tool.end.position", "glue.force", "glue.torque"):
+        np.testing.assert_allclose(one[measure], other[measure], rtol=0, atol=1e-9)
+    with pytest.raises(TypeError, match="cut of 'wire' must be True or False, not 0"):
+        made().slot("wire", "arm", "tool.end", axis=(1, 0), cut=0)
+
+
 def test_cut_says_where_a_loop_is_closed():
     m = zd.Mechanism("linkage")
     a, b, c = m.link("a", (0, 0), (0, 1), 1.0), m.link("b", (0, 1), (2, 1.5), 1.0), m.link("c", (2, 1.5), (2, 0), 1.0)

@@ -86,6 +86,27 @@ def test_a_joint_is_in_the_tree_or_cut_by_its_user(kind):
     assert max(off for _, off in differences(two_bodies(kind), found)) < SAME
 
 
+@pytest.mark.parametrize(("kind", "rows"), [("weld", 6), ("slot", 2)])
+def test_welds_and_slots_are_cut_too(kind, rows):
+    """A tool that hangs on a ball, and what it is welded to, or a bead on its wire."""
+    def made(**options):
+        m = zd.Mechanism("two", dimension=3, gravity=(0, 1, -9.81))
+        tool = m.body("tool", 2.0, (1, 1.5, 2), at=(0.4, 0.3, 0.1))
+        m.spherical("shoulder", m.ground, tool, at=(0, 0, 0))
+        if kind == "weld":
+            m.weld("glue", tool, m.body("arm", 1.0, (1, 2, 2), at=(0.5, 0, 0)), at=AT, **options)
+        else:
+            m.slot("wire", tool, m.particle("bead", 0.3, at=AT), axis=AXIS, **options)
+        m.start({"tool.angular_velocity": (1.0, 0.5, -0.3)})
+        return m
+
+    tree, cut = made().system("joint"), made(cut=True).system("joint")
+    assert (tree.m, cut.m) == (0, rows)
+    assert max(off for _, off in differences(made(), [zd.simulate(system, 0.02, step=1e-3) for system in (tree, cut)])) < SAME
+    with pytest.raises(TypeError, match="cut of '(glue|wire)' must be True or False, not 1"):
+        made(cut=1)
+
+
 def test_a_free_root_is_the_heaviest_body():
     m = zd.Mechanism("kite", dimension=3, gravity=(0, 0, -9.81))
     tail = m.body("tail", 1.0, (1, 1, 1), at=(1, 0, 0))

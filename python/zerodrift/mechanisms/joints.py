@@ -119,7 +119,7 @@ class Joint:
 def _taken(row: JointKind) -> tuple[str, ...]:
     """What a verb takes for a joint besides its sides."""
     words = {"axis": row.takes_axis, "length": row.takes_length, "damping": row.coordinate,
-             "cut": row.carrier in ("turns", "slides")}
+             "cut": row.carrier is not None}
     return tuple(word for word, is_taken in words.items() if is_taken)
 
 

@@ -116,7 +116,7 @@ class JointVerbs(SpaceJointVerbs):
         return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=checked_cut(name, cut),
                                    damping=_check.number(f"damping of {name!r}", damping, least=0)))
 
-    def weld(self, name: str, first: Side, second: Side, *, at: Any = None) -> Any:
+    def weld(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> Any:
         """Join two bodies rigidly, as they are drawn.
 
         Parameters
@@ -126,6 +126,8 @@ class JointVerbs(SpaceJointVerbs):
             As of `revolute`; the reaction is told at the second's point.
         at : array_like (2,) or (3,)
             Where the joint is in the drawing, in m.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best.
 
         Returns
         -------
@@ -145,11 +147,11 @@ class JointVerbs(SpaceJointVerbs):
         Measure('wall.torque')
         """
         if self.dimension == 3:
-            return self._join("weld", name, first, second, at)
+            return self._join("weld", name, first, second, at, cut=cut)
         name = self._new_name(name, "joint")
         sides = self._sides(name, first, second, at)
         self._turning(name, "weld", *(side.body for side in sides))
-        return self._add(Weld(name, *sides))
+        return self._add(Weld(name, *sides, cut=checked_cut(name, cut)))
 
     def rod(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *,
             length: float | None = None) -> Any:
@@ -189,7 +191,7 @@ class JointVerbs(SpaceJointVerbs):
         _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
         return self._add(rod)
 
-    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any) -> Any:
+    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any, cut: bool = False) -> Any:
         """Keep a point on a line of a body.
 
         Parameters
@@ -201,6 +203,8 @@ class JointVerbs(SpaceJointVerbs):
             What slides.
         axis : array_like (2,) or (3,)
             The line's direction in the drawing.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best. In the plane a slot always does.
 
         Returns
         -------
@@ -225,7 +229,8 @@ class JointVerbs(SpaceJointVerbs):
         self._turning(name, "the line of", first)
         first, second = self._different(name, first.point(at=second.drawn), second)
         if self.dimension == 3:
-            return self._fasten("slot", name, first, second, axis)
+            return self._fasten("slot", name, first, second, axis, cut=cut)
+        checked_cut(name, cut)
         return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
     def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: Any = None,

@@ -132,8 +132,8 @@ def _prismatic(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any, d
     joint.axis = axis
 
 
-def _weld(m: Mechanism, name: str, *, first: Any, second: Any) -> None:
-    m.weld(name, told_place(m, first), told_place(m, second))
+def _weld(m: Mechanism, name: str, *, first: Any, second: Any, cut: Any = False) -> None:
+    m.weld(name, told_place(m, first), told_place(m, second), cut=cut)
 
 
 def _rod(m: Mechanism, name: str, *, first: Any, second: Any, length: Any = None) -> None:

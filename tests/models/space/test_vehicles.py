@@ -48,6 +48,49 @@ def test_small_motions_of_the_bicycle_are_those_of_its_linear_matrices(speed):
         assert_close(found, expected, 1e-6, scale=1.0)
 
 
+def turning(*chain):
+    """Angular velocity and acceleration of what turns about one axis after the other, (axis, angle, rate, its rate) each, and its
+    rotation: an axis has the rate omega x axis, with the omega of those before it.
+    """
+    R, omega, alpha = np.eye(3), np.zeros(3), np.zeros(3)
+    for axis, angle, rate, change in chain:
+        e = R @ axis
+        omega, alpha = omega + rate * e, alpha + change * e + rate * np.cross(omega, e)
+        R = R @ rotation_of(turn(angle * np.asarray(axis, dtype=float)))
+    return R, omega, alpha
+
+
+def test_accelerations_of_the_bicycle_leaned_and_steered():
+    """One state of the nonlinear equations, whose nine accelerations were published with 13 digits.
+
+    There z is up and the bicycle goes along -x; the frame has turned about z, then x, then z of its own, which is to the left.
+    """
+    told = definition("bicycle_whipple")["BasuMandal2007_table1"]
+    q, rate, change = ({name: float(value) for name, value in told[which].items()} for which in ("q", "qd", "qdd"))
+    X, Z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    frame = [(axis, q[name], rate[name], change[name]) for axis, name in ((Z, "theta"), (X, "psi"), (Z, "phi"))]
+    ours, own = np.diag([-1.0, 1.0, -1.0]), np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+    def about(axis, name):
+        """A hinge of the model, which turns the other way."""
+        return own @ axis, -q[name], -rate[name], -change[name]
+
+    steered = [*frame, about((np.sin(np.pi / 10), 0, np.cos(np.pi / 10)), "psi_f")]
+    chains = {"frame": frame, "fork": steered, "rear": [*frame, about((0, 1, 0), "beta_r")],
+              "front": [*steered, about((0, 1, 0), "beta_f")]}
+    R, omega, _ = turning(*frame)
+    m = zd.models.whipple_bicycle()
+    m.start({"rear.velocity.x": None, "frame.angular_velocity.x": None, "steer.angle": -q["psi_f"], "steer.speed": -rate["psi_f"],
+             "rear axle.speed": -rate["beta_r"], "frame.rotation": ours @ R @ own, "frame.angular_velocity": ours @ omega})
+    sol = zd.simulate(m, 1e-6, step=1e-6)
+    for measure, expected in (("velocity", rate), ("acceleration", change)):
+        assert_close(sol[f"rear.{measure}"][0], ours @ [expected[name] for name in "xyz"], 1e-11, what=measure)
+    assert sol["rear.position.z"][0] == pytest.approx(-q["z"], rel=1e-11)
+    assert sol["front axle.speed"][0] == pytest.approx(-rate["beta_f"], rel=1e-11)
+    for body, chain in chains.items():
+        assert_close(sol[f"{body}.angular_acceleration"][0], ours @ turning(*chain)[2], 1e-11, what=body)
+
+
 def wishbone_by_distances(heave):
     """Camber, steer and the wheel's place above the car, where the lower arm has turned: by six distances between points."""
     P = {name: np.array(place, dtype=float) for name, place in POINTS.items()}
