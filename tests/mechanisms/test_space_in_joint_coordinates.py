@@ -103,7 +103,7 @@ def test_welds_and_slots_are_cut_too(kind, rows):
     tree, cut = made().system("joint"), made(cut=True).system("joint")
     assert (tree.m, cut.m) == (0, rows)
     assert max(off for _, off in differences(made(), [zd.simulate(system, 0.02, step=1e-3) for system in (tree, cut)])) < SAME
-    with pytest.raises(TypeError, match="cut of '(glue|wire)' must be True or False, not 1"):
+    with pytest.raises(TypeError, match=r"cut of '(glue|wire)' must be True or False, not 1"):
         made(cut=1)
 
 

@@ -123,10 +123,47 @@ def test_a_motion_with_its_path_and_a_film():
     plt.close(film._fig)
 
 
+def arrows(ax):
+    """Tail and tip of each arrow, (n, 2, 3): each is a shaft and four lines of its head."""
+    return np.array(artist(ax, "forces")._segments3d[::5])
+
+
+def test_forces_are_arrows_from_where_they_act():
+    """A joint's at its point, in the drawing's axes; a spring's along itself, and a load's along its direction."""
+    m = zd.Mechanism("hung", dimension=3, gravity=(0, 0, -9.81))
+    box = m.body("box", 2.0, (0.1, 0.2, 0.15), at=(0.5, 0.1, -0.2), rotation=about((1, 2, 3), 0.4), com=(0.1, 0, 0.05))
+    pin = m.spherical("pin", m.ground, box, at=(0, 0, 0))
+    end = m.point("end", box, at=(0.8, 0.3, 0.1))
+    m.spring("coil", m.ground.point((0.5, 0.2, 1.0)), end, stiffness=30.0, length=0.4)
+    m.force("wind", end, along=(0, 3, 4), value=5.0, frame=box)
+    m.bushing("mount", m.ground, box, at=(0.2, 0, 0), stiffness=2000.0)
+    sol = zd.simulate(m, 0.2, step=1e-2)
+    ax = zd.plot.mechanism(sol, forces=[pin, "coil", "wind", "mount"], force_scale=20.0, t=0.2)
+    tails, tips = arrows(ax).transpose(1, 0, 2)
+    there, above, turned = sol["end.position"][-1], np.array([0.5, 0.2, 1.0]), sol["box.rotation"][-1] @ sol["box.rotation"][0].T
+    pull = sol["coil.force"][-1] * (above - there) / np.linalg.norm(above - there)
+    assert_close(tails[:3], np.array([np.zeros(3), there, there]), 1e-9, scale=1.0)
+    expected = np.array([sol["pin.force"][-1], pull, turned @ (0, 3, 4), sol["mount.force"][-1]])
+    assert_close(20.0 * (tips - tails), expected, 1e-9, scale=np.abs(expected).max())
+    assert {text.get_text() for text in ax.texts if text.get_label() == "_scale"} == {"2 N is 0.1 m long"}
+    plt.close(ax.figure)
+
+
+def test_the_force_of_what_rolls_is_at_its_contact():
+    for name, floor in (("rolling_disc", "floor"), ("rattleback", "table")):
+        sol = zd.simulate(IN_SPACE[name](), 0.3, step=1e-2)
+        film = zd.plot.animate(sol, fps=10, forces=True)
+        film._init_draw()
+        film._draw_frame(2)
+        ((tail, tip),) = arrows(film._fig.axes[0])
+        force = sol[f"{floor}.force"][20]
+        assert tail[2] == pytest.approx(0.0, abs=1e-9)
+        assert_close(np.cross(tip - tail, force), np.zeros(3), 1e-9, scale=np.linalg.norm(force))
+        plt.close(film._fig)
+
+
 def test_what_is_not_drawn_in_space_says_so():
     sol = zd.simulate(zd.models.heavy_top(), 0.01, step=1e-3)
-    with pytest.raises(ValueError, match="forces= is there for mechanisms in the plane, and heavy_top is in space"):
-        zd.plot.mechanism(sol, forces=True)
     with pytest.raises(KeyError, match="nothing in heavy_top is called 'nobody"):
         zd.plot.mechanism(sol, path="nobody")
     with pytest.raises(ValueError, match="ax must be 3D axes"):

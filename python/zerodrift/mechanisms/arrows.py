@@ -13,6 +13,7 @@ from .forces import Actuator, Bushing, Force, Spring
 from .joints import Joint
 from .made_forces import MadeForce
 from .posed import Posed
+from .space_posed import SpacePosed
 
 SHOWN = Joint, Bushing, Force       # where nothing is chosen
 HAVE_FORCES = (*SHOWN, Spring, Actuator, MadeForce)
@@ -28,21 +29,18 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
     return [known[_check.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
 
 
-def acting(element: Any, moments: Sequence[Posed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where a force acts, (k, 2) in m, and what it is, (k, 2) in N, from its measure at the moments, (k,) or (k, 2)."""
+def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where a force acts, (k, d) in m, and what it is, (k, d) in N, from its measure at the moments, (k,) or (k, d)."""
     point = element.point if isinstance(element, Force) else element.second
-    places = np.array([posed.at(point) for posed in moments])
-    if isinstance(element, Joint) and element.row.at_contact:
-        radius = element.length_with(moments[0].parts.numbers)
-        down = np.array([element.axis[1], -element.axis[0]])
-        places = places + radius * np.array([posed.direction(element.bodies[0], down) for posed in moments])
+    is_rolling = isinstance(element, Joint) and element.kind == "rolling"
+    places = np.array([posed.contact(element) if is_rolling else posed.at(point) for posed in moments])
     if values.ndim == 2:
         return places, values
     return places, values[:, None] * np.array([_direction(element, posed) for posed in moments])
 
 
-def _direction(element: Any, posed: Posed) -> np.ndarray:
-    """The direction (2,) of a force on its second point whose measure is 1."""
+def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
+    """The direction (2,) or (3,) of a force on its second point whose measure is 1."""
     if isinstance(element, Force):
         return posed.direction(element.frame, element.along)
     if isinstance(element, MadeForce) and element.axis is not None:
@@ -50,4 +48,4 @@ def _direction(element: Any, posed: Posed) -> np.ndarray:
         return along if element.row.gauges[0][0] != "across" else np.array([-along[1], along[0]])
     apart = posed.at(element.second) - posed.at(element.first)
     pulls = isinstance(element, Spring) or (isinstance(element, MadeForce) and element.row.sign < 0)
-    return (-apart if pulls else apart) / max(float(np.hypot(*apart)), 1e-300)
+    return (-apart if pulls else apart) / max(float(np.linalg.norm(apart)), 1e-300)

@@ -73,6 +73,11 @@ class Posed:
         """A direction of a body, (2,)."""
         return self.pose[body.name].direction(local)
 
+    def contact(self, joint: Joint) -> np.ndarray:
+        """Where what rolls touches its line, (2,)."""
+        down = np.array([joint.axis[1], -joint.axis[0]])
+        return self.at(joint.second) + joint.length_with(self.parts.numbers) * self.direction(joint.bodies[0], down)
+
     def spoke(self, joint: Joint) -> np.ndarray:
         """The x axis of a joint's second body."""
         return self.direction(joint.bodies[1], np.array([1.0, 0.0]))

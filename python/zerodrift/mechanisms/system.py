@@ -28,9 +28,11 @@ from .numbers import Numbers
 from .outline import outline
 from .posed import Parts, Posed
 from .sketch import sketches
+from .space_bodies import SpaceInertias
 from .space_joints import SpaceJoint
 from .space_measuring import orientation
 from .space_outline import space_outline
+from .space_posed import SpacePosed
 from .space_sketch import space_sketches
 from .space_tables import SpaceTables
 from .start import targets
@@ -268,8 +270,14 @@ class MechanismSystem(BaseSystem):
         return super()._measured(name, solution) if found is None else found
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        elements, parts = chosen(self._drawing, names), Parts(self._drawing, self._numbers)
-        moments = [Posed(parts, self._first_core.poses(np.ascontiguousarray(solution.p[row]))[0]) for row in rows]
+        elements, drawing, numbers = chosen(self._drawing, names), self._drawing, self._numbers
+        poses = [self._first_core.poses(np.ascontiguousarray(solution.p[row]))[0] for row in rows]
+        if drawing.dimension == 3:
+            inertias = SpaceInertias(drawing, numbers)
+            moments = [SpacePosed(drawing, numbers, inertias, pose) for pose in poses]
+        else:
+            parts = Parts(drawing, numbers)
+            moments = [Posed(parts, pose) for pose in poses]
         return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
                 for element in elements]
 

@@ -30,7 +30,7 @@ NAMED = {"pin": "pin", "mark": "pin", "particle": "pin", "blade": "pin", "weld":
 
 
 class Arrow(NamedTuple):
-    """A force: its name, where it acts at each moment, (k, 2) in m, and what it is, (k, 2) in N."""
+    """A force: its name, where it acts at each moment, (k, d) in m, and what it is, (k, d) in N; d is 2 or 3."""
 
     name: str
     places: np.ndarray
@@ -188,7 +188,7 @@ class Arrows:
         tip = tail + np.array([self.said / self.scale, 0.0])
         ax.add_collection(PathCollection([arrow(tail, tip, self.size).path], facecolor=LOAD, edgecolor="none", zorder=4.0,
                                          label="_scale"), autolim=False)
-        ax.text(tip[0] + self.size, tip[1], _with_prefix(self.said), fontsize=self.font, va="center", zorder=6, label="_scale")
+        ax.text(tip[0] + self.size, tip[1], with_prefix(self.said), fontsize=self.font, va="center", zorder=6, label="_scale")
 
 
 def round_number(value: float) -> float:
@@ -199,7 +199,8 @@ def round_number(value: float) -> float:
     return float(max(each for each in (1, 2, 5) if each * power <= value * (1 + 1e-9)) * power)
 
 
-def _with_prefix(newtons: float) -> str:
+def with_prefix(newtons: float) -> str:
+    """A force in words."""
     for factor, unit_name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"), (1e-3, "mN")):
         if newtons >= factor * (1 - 1e-9):
             return f"{newtons / factor:g} {unit_name}"

@@ -59,7 +59,8 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
         Points of a mechanism whose paths over the whole solution are drawn, such as ``"F"`` or ``rod.end``.
     forces : bool or sequence of str
         Forces of a mechanism at that time as arrows: True for all joints, bushings and loads, or names of joints, springs, loads
-        and the like. That of a joint is what the first body does to the second. An arrow in the corner says the scale.
+        and the like. That of a joint is what the first body does to the second. An arrow in the corner says the scale, in space
+        a line of text.
     force_scale : float, optional
         In N/m; left out: the longest arrow is about a fifth of the picture.
 
@@ -95,7 +96,8 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     if moments is None:
         return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
     if _is_in_space(moments):
-        picture = SpacePicture(drawing_axes(ax, 3), moments, names=names, paths=paths_of(sol, path, 3))
+        extras = Extras(names, paths_of(sol, path, 3), _arrows(sol, forces, rows[:1]), force_scale)
+        picture = SpacePicture(drawing_axes(ax, 3), moments, extras)
     else:
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
         picture = Picture(drawing_axes(ax, 2), moments, extras)
@@ -188,7 +190,8 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     if moments is None:
         return _film(ax, moved_in_space(ax, points), times, fps)
     if _is_in_space(moments):
-        return _film(ax, SpacePicture(ax, moments, names=names, paths=paths_of(sol, path, 3)).show, times, fps)
+        extras = Extras(names, paths_of(sol, path, 3), _arrows(sol, forces, rows), force_scale)
+        return _film(ax, SpacePicture(ax, moments, extras).show, times, fps)
     extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
@@ -273,9 +276,6 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
         known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
         if known is not None:
-            if _is_in_space(known) and asked["forces"] is not False:
-                raise ValueError(f"forces= is there for mechanisms in the plane, and {system.name} is in space: their numbers "
-                                 "are in sol['joint.force']")
             return known, None
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):

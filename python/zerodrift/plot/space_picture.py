@@ -14,7 +14,9 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from ..systems.shapes import Shape
+from .mechanism import NOTHING, Extras
 from .points import with_equal_scales
+from .space_arrows import SpaceArrows
 from .style import COLOURS
 
 SIZE = 0.04         # of the picture: half the length of a pin
@@ -93,12 +95,15 @@ FAINTLY = 0.36      # and how opaque they are
 class SpacePicture:
     """Shapes in axes that show space, all to the scale that holds every one of them; `show` draws those of one moment."""
 
-    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], *, names: bool = False,
-                 paths: Sequence[np.ndarray] = ()) -> None:
-        self.ax, self._moments, self._drawn = ax, moments, {}
+    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING) -> None:
+        self.ax, self._moments, self._drawn, paths = ax, moments, {}, extras.paths
         places = np.vstack([*(_extent(shape) for shapes in moments for shape in shapes), *paths])
+        extent = float(np.ptp(places, axis=0).max()) or 1.0
+        self.size = SIZE * extent
+        self._arrows = SpaceArrows(ax, extras.arrows, extent, self.size, extras.force_scale) if extras.arrows else None
+        if self._arrows:
+            places = np.vstack([places, self._arrows.ends()])
         low, high = places.min(axis=0), places.max(axis=0)
-        self.size = SIZE * (float((high - low).max()) or 1.0)
         middle, half = (low + high) / 2, np.maximum((high - low) / 2, 4 * self.size) + self.size
         for axis, a, b in zip("xyz", middle - half, middle + half, strict=True):
             getattr(ax, f"set_{axis}lim")(a, b)
@@ -106,7 +111,7 @@ class SpacePicture:
         with_equal_scales(ax)
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
-        named = {shape.name for shape in moments[0] if shape.name} if names else set()
+        named = {shape.name for shape in moments[0] if shape.name} if extras.names else set()
         self._texts = {name: ax.text(0, 0, 0, name, fontsize="small") for name in named if len(named) <= MOST_NAMES}
 
     def faintly(self, moments: Sequence[int]) -> None:
@@ -133,7 +138,7 @@ class SpacePicture:
         for shape in self._moments[moment]:
             if text := self._texts.get(shape.name):
                 text.set_position_3d(_anchor(shape) + 0.5 * self.size)
-        return [*self._drawn.values(), *self._texts.values()]
+        return [*self._drawn.values(), *self._texts.values(), *(self._arrows.show(moment) if self._arrows else [])]
 
     def _artist(self, kind: str) -> Any:
         """What shows all shapes of a kind."""
