@@ -1,8 +1,9 @@
 """What a row costs that is asked for between chosen steps, on the paper's four-bar over 8 s at a tolerance of 1e-9.
 
-Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few rows and with many are made in turn, and
-of each the least time of the core counts: for 161 rows, what they add to the run that saves its start and end alone; for a row, by
-how much 16,001 rows take longer than 161. On the direct road and on the general one, which some systems and formulations have to take.
+Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few rows and with many are made in
+turn, and of each the least time of the core counts: for 161 rows, what they add to the run that saves its start and end alone;
+for a row, by how much 16,001 rows take longer than 161. On the direct road and on the general one, which some systems and
+formulations have to take.
 """
 
 import functools

@@ -89,7 +89,7 @@ CHOSEN = [name for name, card in zd.integrators().items() if card.error_order an
 @pytest.mark.parametrize("steps", [{"step": 0.03}, {"rtol": 1e-3, "atol": 1e-6}], ids=["fixed", "chosen"])
 @pytest.mark.parametrize("method", ["rk4", *CHOSEN])
 def test_a_fall_in_closed_form(method, steps):
-    """It is 1 - 5 t^2, which all these methods solve without error: heights are passed when it says, to a few units of rounding."""
+    """Its height 1 - 5 t^2 is solved without error: others are passed when that says so, to some units of rounding."""
     if "rtol" in steps and method not in CHOSEN:
         pytest.skip("it cannot choose its steps")
     ball = zd.System(["y"], mass=np.eye(1), force=np.array([-10.0]), potential=lambda p: 10 * p[0], p0=[1.0])
