@@ -14,7 +14,6 @@
 #include <math.h>
 
 #include "../linalg/small.h"
-#include "../point/gram.h"
 #include "../point/matrices.h"
 
 static const double NEAR = 0.4;             /* of the sum: nothing needs to be looked at */
@@ -29,57 +28,49 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
     zd_look self = {
         .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
         .weight = zd_take_doubles(arena, m),
+        .share = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
         .close = {
             .n = (int)n,
             .m = (int)m,
             .Q = Q ? Q : zd_take_doubles(arena, m * dense),
-            .G = G ? G : zd_take_doubles(arena, m * m),
+            .G = G ? G : zd_take_doubles(arena, m * (dense ? m : 0)),
             .square = zd_take_doubles(arena, m),
             .rows = zd_take_doubles(arena, 4 * dense),
             .weighted = zd_take_doubles(arena, dense > m ? dense : m),
         },
+        .identity = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Squared lengths of what has changed of some rows in the columns of a body, times their weights squared, added up. */
-ZD_INLINE double add_changes(const int n, int rows, const double *C, const float *C0, int width, const double *weight)
-{
-    double sum = 0;
-    for (int k = 0; k < rows; k++, C += width, C0 += width) {
-        double square = 0;
-        for (int i = 0; i < n; i++) square += (C[i] - (double)C0[i]) * (C[i] - (double)C0[i]);
-        sum += weight[k] * weight[k] * square;
-    }
-    return sum;
-}
-
-/* The same of all rows that touch a body, times their number. */
-ZD_INLINE double change_of_body(const int n, const zd_look *self, const zd_point *point, int b)
-{
-    const zd_layout *layout = point->layout;
-    double sum = 0;
-    int count = 0;
-    for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) {
-        const int g = layout->toucher[i], at = layout->C_at[g] + layout->toucher_offset[i], row = layout->row_at[g];
-        const int rows = layout->row_at[g + 1] - row;
-        sum += add_changes(n, rows, point->terms.C + at, self->C + at, layout->width[g], self->weight + row);
-        count += rows;
-    }
-    return count * sum;
-}
-
 /* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
- * (sum_k w_k |C_kb - C0_kb|)^2, and that without roots at most this. Infinite where nothing is known. */
+ * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each entry has
+ * a share of its own, and none asks which body it is of. Infinite where nothing is known. */
 static double bound_by_bodies(const zd_look *self, const zd_point *point)
 {
-    const zd_layout *layout = point->layout;
-    double sum = 0;
-    for (int b = 0; layout && self->is_known && b < layout->blocks; b++) {
-        const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
-        sum += n == 3 ? change_of_body(3, self, point, b) : change_of_body(n, self, point, b);
+    const double *C = point->terms.C;
+    const int stored = self->is_known ? point->layout->C_at[point->layout->groups] : 0;
+    double sums[4] = {0, 0, 0, 0};
+    int i = 0;
+    for (; i + 4 <= stored; i += 4)
+        for (int r = 0; r < 4; r++) sums[r] += self->share[i + r] * ((C[i + r] - (double)self->C[i + r]) * (C[i + r] - (double)self->C[i + r]));
+    for (; i < stored; i++) sums[0] += self->share[i] * ((C[i] - (double)self->C[i]) * (C[i] - (double)self->C[i]));
+    return self->is_known ? sums[0] + sums[1] + sums[2] + sums[3] : INFINITY;
+}
+
+/* Of the entries of a body in rows that touch it */
+static void find_shares(zd_look *self, const zd_layout *layout, int b)
+{
+    const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
+    int rows = 0;
+    for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++)
+        rows += layout->row_at[layout->toucher[i] + 1] - layout->row_at[layout->toucher[i]];
+    for (int i = layout->toucher_at[b]; i < layout->toucher_at[b + 1]; i++) {
+        const int g = layout->toucher[i];
+        double *share = self->share + layout->C_at[g] + layout->toucher_offset[i];
+        for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++, share += layout->width[g])
+            for (int j = 0; j < n; j++) share[j] = rows * self->weight[k] * self->weight[k];
     }
-    return layout && self->is_known ? sum : INFINITY;
 }
 
 /* The sum, or infinity where nothing is known. */
@@ -120,40 +111,67 @@ static void find_weights(zd_look *self)
     for (int k = 0; k < m; k++) self->weight[k] = sqrt(self->weight[k]);
 }
 
+/* The same from blocks: that length is what the diagonal of (C C^T)^-1 has, in its inverse square. */
+static void find_weights_by_blocks(zd_look *self, const zd_layout *layout)
+{
+    const zd_blocks *blocks = self->weighted->blocks;
+    zd_blocks_invert(blocks, self->inverse);
+    for (int g = 0; g < layout->groups; g++) {
+        const int first = layout->row_at[g], rows = layout->row_at[g + 1] - first;
+        const double *Z = self->inverse + blocks->pivot_at[blocks->place[g]];
+        for (int i = 0; i < rows; i++) self->weight[first + i] = sqrt(Z[i * (rows + 1)]);
+    }
+}
+
 /* Keeps rows whose shares are known, if these are ample. */
 static void keep(zd_look *self, const zd_point *point)
 {
     const int m = self->close.m, stored = zd_size_of_C(point->system);
     const double *C = point->terms.C, *start_square = point->rank->start_square;
     const double *square = self->close.square;
-    find_weights(self);
+    if (point->layout) find_weights_by_blocks(self, point->layout);
+    else find_weights(self);
     self->is_known = 1;
     for (int k = 0; k < m; k++)
         self->is_known &= 1 > AMPLE * square[k] * self->weight[k] * self->weight[k] && square[k] > AMPLE * start_square[k];
     for (int i = 0; i < stored; i++) self->C[i] = (float)C[i];
+    for (int b = 0; point->layout && b < point->layout->blocks; b++) find_shares(self, point->layout, b);
 }
 
-/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those before
- * it are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. */
+static void *take_inverse(zd_arena *arena, const void *blocks)
+{
+    return zd_take_doubles(arena, (size_t)((const zd_blocks *)blocks)->size);
+}
+
+static int need_blocks(zd_look *self, const zd_point *point)
+{
+    zd_store *store = point->rank->store;
+    if (self->inverse) return 1;
+    zd_set_identity(point->system, self->identity);
+    if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
+    if (self->weighted) self->inverse = zd_store_take(store, take_inverse, self->weighted->blocks);
+    return self->inverse != NULL;
+}
+
+/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those that are
+ * eliminated before are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. A body that is taken as several
+ * enlarges rows on the diagonal, which makes shares smaller. Without memory, nothing is believed. */
 static zd_shares factor_products(zd_look *self, const zd_point *point)
 {
-    const int m = self->close.m;
-    double *G = self->close.G, *square = self->close.square;
-    zd_gram(point->layout, point->terms.C, NULL, G);
-    for (int k = 0; k < m; k++) square[k] = G[k * (m + 1)];
-    zd_shares shares = {ZD_SIZED(zd_cholesky, m, G, G), 1, INFINITY};
-    for (int k = 0; k < shares.rows; k++) {
-        double share = 1 / (G[k * (m + 1)] * square[k]);
-        if (!(share > DOUBTFUL)) shares.rows = k;
-        else shares.least = fmin(shares.least, share);
+    if (!need_blocks(self, point)) return (zd_shares){0, 1, 0};
+    for (int k = 0; k < self->close.m; k++) {
+        const zd_row_of_C row = zd_point_row(point, k);
+        self->close.square[k] = zd_dot(row.count, row.x, row.x);
     }
-    return shares;
+    const zd_pivots pivots = zd_weighted_factor(self->weighted, point->terms.C, self->identity, NULL);
+    const double least = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0;
+    return (zd_shares){least > DOUBTFUL ? self->close.m : 0, 1, least};
 }
 
 int zd_look_is_doubtful(zd_look *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
-    const double bound = bound_by_bodies(self, point);
+    const double bound = point->layout ? bound_by_bodies(self, point) : INFINITY;
     if (bound < NEAR * NEAR) return 0;
     const double change = fmin(sqrt(bound), find_change(self, point));
     if (change < NEAR) return 0;

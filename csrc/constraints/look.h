@@ -3,16 +3,22 @@
 #define ZD_LOOK_H
 
 #include "../linalg/orthogonal.h"
+#include "../point/weighted.h"
 #include "rank.h"
 
 struct zd_look {
     int is_known;           /* whether rows are kept, far enough from dependent ones */
     float *C;               /* (m, n): the rows then */
     double *weight;         /* (m,): 1 / the length that was left of each once all others were taken out */
+    double *share;          /* as stored: of each entry's change, squared, in the bound by bodies; NULL where no structure is declared */
     zd_orthogonal close;    /* the closer look, in memory that may serve others between */
+    zd_weighted *weighted;  /* in its place where the structure is declared, C C^T in blocks; NULL until it is first wanted */
+    double *identity;       /* stored as M is */
+    double *inverse;        /* blocks of (C C^T)^-1 */
 };
 
-/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. */
+/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. Where the structure is declared,
+ * the rank's store has the rest once it is first looked closely. */
 zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G);
 /* Whether any row at the point might follow from those before it; C is known there. */
 int zd_look_is_doubtful(zd_look *self, zd_point *point);

@@ -188,10 +188,9 @@ int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
 {
     const double *diagonal = self->weighted->blocks->diagonal;
     const int may_tell = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
-    int are_long = may_tell && point->rank->is_started;
-    if (are_long && !self->is_least_known) find_least(self, point);
-    for (int i = 0; may_tell && i < self->m; i++) are_long &= diagonal[i] > self->least[i];
-    if (are_long) return 1;
+    const int is_known = may_tell && point->rank->is_started;
+    if (is_known && !self->is_least_known) find_least(self, point);
+    if (is_known && zd_all_exceed(self->m, diagonal, self->least)) return 1;
     return zd_point_need(point, ZD_C) == ZD_DONE && zd_rows_are_long(point);
 }
 

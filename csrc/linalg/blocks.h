@@ -42,6 +42,8 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
 /* x (rows,), in the order of elimination, <- S^-1 x, in two halves; those left out become zero. */
 void zd_blocks_forward(const zd_blocks *self, double *x);
 void zd_blocks_backward(const zd_blocks *self, double *x);
+/* Z (size,) <- blocks of S^-1 where the factors have some, stored as these are; no row was left out. */
+void zd_blocks_invert(const zd_blocks *self, double *Z);
 static inline void zd_blocks_solve(const zd_blocks *self, double *x)
 {
     zd_blocks_forward(self, x);

@@ -45,6 +45,7 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
 #define ZD_HAS_VECTORS 1
 typedef double zd_two __attribute__((vector_size(16)));
 typedef double zd_stored_two __attribute__((vector_size(16), aligned(8), may_alias));
+typedef int64_t zd_two_masks __attribute__((vector_size(16)));
 #endif
 
 ZD_INLINE void zd_store_pair(double a, double b, double *to)
@@ -54,6 +55,19 @@ ZD_INLINE void zd_store_pair(double a, double b, double *to)
 #else
     to[0] = a, to[1] = b;
 #endif
+}
+
+/* Whether each a_i is more than b_i */
+ZD_INLINE int zd_all_exceed(int n, const double *a, const double *b)
+{
+    int i = 0, all = 1;
+#ifdef ZD_HAS_VECTORS
+    zd_two_masks masks = {-1, -1};
+    for (; i + 1 < n; i += 2) masks &= (zd_two_masks)(*(const zd_stored_two *)(a + i) > *(const zd_stored_two *)(b + i));
+    all = masks[0] && masks[1];
+#endif
+    for (; i < n; i++) all &= a[i] > b[i];
+    return all;
 }
 
 /* to <- a - b; to may be a or b */

@@ -69,11 +69,18 @@ ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x,
     for (int i = 0; i < rows; i++) y[i] = zd_dot(n, A + i * n, x);
 }
 
+/* y <- C x, the rows of a group after one another, which touch the same blocks */
 static void packed_times(const zd_point *point, const double *x, double *y)
 {
-    for (int k = 0; k < zd_constraints(point->system); k++) {
-        zd_row_of_C row = zd_point_row(point, k);
-        y[k] = zd_row_times(&row, x);
+    const zd_layout *layout = point->layout;
+    const double *c = point->terms.C;
+    for (int g = 0; g < layout->groups; g++) {
+        const int *column = layout->column + layout->column_at[g];
+        for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++, c += layout->width[g]) {
+            double sum = 0;
+            for (int j = 0; j < layout->width[g]; j++) sum += c[j] * x[column[j]];
+            y[k] = sum;
+        }
     }
 }
 

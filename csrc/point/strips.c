@@ -77,21 +77,28 @@ zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
 
 /* ---- y <- C x - rhs ---- */
 
-ZD_INLINE void times(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *x, double *y)
+ZD_INLINE void times(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *x, const double *rhs,
+                     double *y)
 {
     const double *x1 = x + strip->x[0], *x2 = x + strip->x[1];
     C += strip->C;
     y += strip->y;
     for (int i = 0; i < rows; i++) {
         const double *row = C + i * bodies * n;
-        double sum = y[i] + zd_dot(n, row, x1);
+        double sum = (rhs ? -rhs[strip->row + i] : 0) + zd_dot(n, row, x1);
         if (bodies == 2) sum += zd_dot(n, row + n, x2);
         y[i] = sum;
     }
 }
 
-static void times_any(const zd_strip *strip, const int *column, const double *C, const double *x, double *y)
+static void begin(const zd_strip *strip, const double *rhs, double *y)
 {
+    for (int i = 0; i < strip->rows; i++) y[strip->y + i] = rhs ? -rhs[strip->row + i] : 0;
+}
+
+static void times_any(const zd_strip *strip, const int *column, const double *C, const double *x, const double *rhs, double *y)
+{
+    begin(strip, rhs, y);
     column += strip->column;
     for (int i = 0; i < strip->rows; i++)
         for (int j = 0; j < strip->width; j++) y[strip->y + i] += C[strip->C + i * strip->width + j] * x[column[j]];
@@ -99,10 +106,10 @@ static void times_any(const zd_strip *strip, const int *column, const double *C,
 
 void zd_strips_times(const zd_strips *self, const double *C, const double *x, const double *rhs, double *y)
 {
-    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++) {
-        for (int i = 0; i < strip->rows; i++) y[strip->y + i] = rhs ? -rhs[strip->row + i] : 0;
-        if (x) FOR_SIZES(times, times_any(strip, self->column, C, x, y), strip, C, x, y)
-    }
+    const zd_strip *strip = self->strip, *end = strip + self->count;
+    for (; x && rhs && strip < end; strip++) FOR_SIZES(times, times_any(strip, self->column, C, x, rhs, y), strip, C, x, rhs, y)
+    for (; x && strip < end; strip++) FOR_SIZES(times, times_any(strip, self->column, C, x, NULL, y), strip, C, x, NULL, y)
+    for (; strip < end; strip++) begin(strip, rhs, y);
 }
 
 /* ---- x <- x - C^T y ---- */

@@ -86,12 +86,13 @@ def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
 
 
 def test_what_is_looked_at_packed_is_what_is_looked_at_dense(program):
-    """Chains of bodies. Packed, shares come from products of rows, and dense, from orthogonal ones: neither believes what the
-    full decision refuses, and they disagree at most about shares near their bound, from which both look further.
+    """Chains of bodies, with two or three rows for each two. Packed, shares come from products of rows, and dense, from orthogonal
+    ones: neither believes what the full decision refuses, they disagree at most about shares near their bound, from which both look
+    further, and the program compares what both let rows change by.
     """
     rng, draws = np.random.default_rng(5), []
-    for bodies in rng.integers(2, 12, 60):
-        pattern = np.kron(np.eye(bodies - 1, bodies) + np.eye(bodies - 1, bodies, 1), np.ones((3, 3)))
+    for i, bodies in enumerate(rng.integers(2, 12, 60)):
+        pattern = np.kron(np.eye(bodies - 1, bodies) + np.eye(bodies - 1, bodies, 1), np.ones((2 + i % 2, 3)))
         m, n = pattern.shape
         draws.append((np.eye(n), np.array(list(path_of_matrices(rng, n, m, pattern)))))
     answers = said(program, draws, "packed").reshape(len(draws), MATRICES, 2, 2)

@@ -3,7 +3,8 @@
  * Reads n, m, how many matrices C there are, a matrix M (n, n), and then the matrices (m, n), all as doubles, again and again. Prints for each matrix
  * of constraints/look.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same. That file is included for what
  * it holds against both numbers of an orthogonalization, and the start is the first matrix. With an argument, rows are of a chain of bodies with
- * three velocities each, three for each two neighbours, and what look.c says of them packed takes the place of what `schur` says.
+ * three velocities each, as many for each two neighbours, and what look.c says of them packed takes the place of what `schur` says. It fails where
+ * rows that both keep may change by different amounts, or there never are such rows.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,11 +75,32 @@ static void pack(const packed *self, const double *C)
     }
 }
 
+/* Whether both keep the same rows: what these may change by comes from orthogonal rows, and from blocks of (C C^T)^-1. */
+static int keep_alike(const zd_look *look, const packed *self)
+{
+    if (!look->is_known || !self->look->is_known) return 0;
+    for (int k = 0; k < self->system.mh; k++) {
+        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
+        for (int j = 0; j < row.count; j++)
+            if (self->look->C[row.x - self->C + j] != look->C[k * self->system.nv + zd_column(&row, j)]) return 0;
+    }
+    return 1;
+}
+
+static int weights_differ(const zd_look *look, const packed *self)
+{
+    for (int k = 0; k < self->system.mh; k++)
+        if (!(fabs(self->look->weight[k] - look->weight[k]) <= 1e-9 * look->weight[k])) return 1;
+    return 0;
+}
+
+static int compared;
+
 static int follow_packed(const zd_system *system, int count, double *C)
 {
     static int sizes[MOST_BODIES], rows[MOST_BODIES], first[MOST_BODIES], block[2 * MOST_BODIES];
-    const int bodies = system->nv / BODY;
-    for (int b = 0; b < bodies; b++) sizes[b] = rows[b] = BODY, first[b] = 2 * b, block[2 * b] = b, block[2 * b + 1] = b + 1;
+    const int bodies = system->nv / BODY, each = system->mh / (bodies - 1);
+    for (int b = 0; b < bodies; b++) sizes[b] = BODY, rows[b] = each, first[b] = 2 * b, block[2 * b] = b, block[2 * b + 1] = b + 1;
     const zd_structure structure = {bodies, sizes, sizes, NULL, bodies - 1, rows, first, block};
     packed wanted = {.system = *system};
     wanted.system.structure = &structure;
@@ -86,7 +108,7 @@ static int follow_packed(const zd_system *system, int count, double *C)
     const packed *self = zd_store_take(&store, take_packed, &wanted);
     if (!self) return 1;
     double start_square[MOST];
-    zd_rank rank = {.n = system->nv, .m = system->mh, .mh = system->mh, .start_square = start_square};
+    zd_rank rank = {.n = system->nv, .m = system->mh, .mh = system->mh, .start_square = start_square, .store = &store};
     zd_point dense = {.system = system, .rank = &rank, .terms = {.C = C}}, point = dense;
     point.system = &self->system, point.layout = self->layout, point.terms.C = self->C;
     zd_store of_dense = {NULL};
@@ -101,6 +123,9 @@ static int follow_packed(const zd_system *system, int count, double *C)
         rank.was_turned = 0;
         is_doubtful = zd_look_is_doubtful(self->look, &point);
         say("packed", is_doubtful, rank.was_turned);
+        if (!keep_alike(look, self)) continue;
+        compared++;
+        if (weights_differ(look, self)) return 1;
     }
     zd_store_release(&store);
     zd_store_release(&of_dense);
@@ -119,5 +144,5 @@ int main(int arguments, char **argument)
         failed = n > MOST || m > n || !read_doubles(M, (size_t)(n * n));
         failed = failed || (arguments > 1 ? follow_packed(&system, (int)sizes[2], C) : follow(&system, (int)sizes[2], M, C));
     }
-    return failed;
+    return failed || (arguments > 1 && !compared);
 }
