@@ -39,6 +39,18 @@ def test_a_budget_that_all_keep_is_used_for_accuracy():
     assert tuning.row.error < 1e-10
 
 
+@pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")     # the reference is that of an explicit method
+def test_of_a_stiff_system_it_takes_the_implicit_method():
+    """A light mass that follows a slow one, which stability holds to steps of some 5e-4 s."""
+    sympy = pytest.importorskip("sympy")
+    p, v = sympy.symbols("x y"), sympy.symbols("vx vy")
+    stiff = zd.symbolic(p, speeds=v, kinetic=(v[0]**2 + v[1]**2) / 2, p0=[1.0, 1.0], v0=[0.0, 0.0],
+                        force=[-p[0], 1e8 * (p[0] - p[1]) + 2e4 * (v[0] - v[1])])
+    tuning = zd.tune(stiff, 0.3, error=1e-5, formulations=["schur"], integrators=["dop853", "radau"], rounds=1)
+    assert tuning.settings["integrator"] == "radau"
+    assert tuning.row.error <= 1e-5
+
+
 # ---- what it refuses ----
 
 

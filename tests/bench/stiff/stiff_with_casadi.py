@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 import sympy as sp
 
-TOLERANCES = 10.0 ** -np.arange(2, 11, 0.5)
+TOLERANCES = 10.0 ** -np.arange(2, 12.5, 0.5)
 FUNCTIONS = {name: getattr(ca, name) for name in ("sin", "cos", "sqrt")}
 
 
