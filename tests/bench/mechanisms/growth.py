@@ -10,7 +10,8 @@ Run it with ``python tests/bench/mechanisms/growth.py``; it writes ``growth.csv`
   is that of one pendulum, which is known to 1e-12 for every N. Time is that of the coarsest setting of a sweep that reaches the
   error at all of 20 outputs in all places and angles; none where none does within 10 s.
 
-Times are those of the processor. The exponent is the slope of log time over log N from N = 10 on.
+Times are those of the processor, those of steps the least of rounds in which all methods take their turn. The exponent is the
+slope of log time over log N from N = 10 on.
 """
 
 import argparse
@@ -59,15 +60,21 @@ def exact(drawing):
     return moved
 
 
-def seconds_of_a_step(module, drawing, setting_of, step):
-    """The least of some rounds, of so many steps that one takes a while."""
-    def seconds(steps):
+def seconds_of_steps(methods, drawing, step):
+    """(method, seconds of a step) of each (module, setting_of): the least of some rounds in which all take their turn, each with
+    so many steps that they take a while.
+    """
+    def seconds(method, steps):
+        module, setting_of = methods[method]
         return module.solve(drawing._replace(t_end=step * steps, count=1), setting_of(steps))[1] / steps
 
-    seconds(FEW)
-    once = seconds(FEW)
-    steps = min(MANY, int(WHILE / once))
-    return min([once, *(seconds(steps) for _ in range(ROUNDS))]) if steps > FEW else once
+    for method in methods:
+        seconds(method, FEW)
+    least = {method: seconds(method, FEW) for method in methods}
+    steps = {method: min(MANY, int(WHILE / once)) for method, once in least.items()}
+    for _ in range(ROUNDS):
+        least |= {method: min(least[method], seconds(method, steps[method])) for method in methods if steps[method] > FEW}
+    return least.items()
 
 
 def time_to(module, drawing, moved, settings):
@@ -103,10 +110,10 @@ def measured(peers, numbers):
     from drawings import chain, swing
 
     for n in numbers:
-        for name, module in peers.items():
-            for method, setting_of in A_STEP[name].items():
-                yield "step of four-bars", method, n, seconds_of_a_step(module, swing(n), setting_of, 1e-3)
-                yield "step of a chain", method, n, seconds_of_a_step(module, chain(n), setting_of, 1e-4)
+        methods = {method: (module, setting_of) for name, module in peers.items() for method, setting_of in A_STEP[name].items()}
+        for what, drawing, step in (("step of four-bars", swing(n), 1e-3), ("step of a chain", chain(n), 1e-4)):
+            for method, seconds in seconds_of_steps(methods, drawing, step):
+                yield what, method, n, seconds
         drawing = swing(n)._replace(t_end=1.0, count=20)
         moved = exact(drawing)
         for name, module in peers.items():
