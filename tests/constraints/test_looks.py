@@ -87,8 +87,8 @@ def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
 
 def test_what_is_looked_at_packed_is_what_is_looked_at_dense(program):
     """Chains of bodies, with two or three rows for each two. Packed, shares come from products of rows, and dense, from
-    orthogonal ones: neither believes what the full decision refuses, and they disagree at most about shares near their bound, from
-    which both look further. The program compares what both let rows change by.
+    orthogonal ones: neither believes what the full decision refuses, and they disagree at most about shares near their bound,
+    from which both look further. The program compares what both let rows change by.
     """
     rng, draws = np.random.default_rng(5), []
     for i, bodies in enumerate(rng.integers(2, 12, 60)):
