@@ -34,6 +34,7 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     if (!status) status = zd_motion_accelerate(&run->motion);
     if (!status && !zd_is_finite(system->nv, run->motion.point->vdot)) status = ZD_NOT_FINITE;
     memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
+    zd_rank_find_multipliers(run->motion.point);
     if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
     return finish(run, status, message, message_size);
 }

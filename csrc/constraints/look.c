@@ -8,10 +8,14 @@
  * Below NEAR, shares are at most so much smaller than they were, and any two such C have rows that span spaces less than a right angle apart,
  * as 2 NEAR + NEAR^2 < 1. So the sum also tells that no bifurcation lies between them, see safeguards/crossing.c. C0 is kept in single
  * precision, whose rounding is nothing beside that. Where the structure is declared, there is a smaller bound, by bodies.
+ *
+ * Where some rows are redundant, C is what was chosen among them: as long as little of that has changed, there are as many independent rows,
+ * and the choice is as good as it was. Only beyond is it made anew, see rows.c.
  */
 #include "look.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../linalg/small.h"
 #include "../point/matrices.h"
@@ -26,6 +30,7 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows take their place */
     zd_look self = {
+        .m = (int)m,
         .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
         .weight = zd_take_doubles(arena, m),
         .share = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
@@ -42,6 +47,30 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
+
+/* Rows that are chosen are dense, whatever the system declares. */
+zd_look *zd_look_take_choice(zd_arena *arena, const zd_system *system)
+{
+    size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
+    zd_look self = {
+        .m = (int)m,
+        .row = zd_take(arena, m * sizeof(int)),
+        .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
+        .weight = zd_take_doubles(arena, m),
+        .share = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
+        .close = {
+            .n = (int)n,
+            .Q = zd_take_doubles(arena, m * n),
+            .G = zd_take_doubles(arena, m * m),
+            .square = zd_take_doubles(arena, m),
+            .rows = zd_take_doubles(arena, 4 * n),
+            .weighted = zd_take_doubles(arena, n > m ? n : m),
+        },
+    };
+    return zd_take_filled(arena, &self, sizeof self);
+}
+
+static int row_of(const zd_look *self, int k) { return self->row ? self->row[k] : k; }
 
 /* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
  * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each entry has
@@ -77,7 +106,7 @@ static void find_shares(zd_look *self, const zd_layout *layout, int b)
 static double find_change(const zd_look *self, const zd_point *point)
 {
     double sum = 0;
-    for (int k = 0; k < self->close.m; k++) {
+    for (int k = 0; k < self->m; k++) {
         double squares[4] = {0, 0, 0, 0};
         const zd_row_of_C row = zd_point_row(point, k);
         const double *c = row.x;
@@ -97,7 +126,7 @@ static void find_weights(zd_look *self)
 {
     const int m = self->close.m;
     double *G = self->close.G, *g = self->close.weighted;
-    for (int k = 0; k < m; k++) self->weight[k] = 0;
+    for (int k = 0; k < self->m; k++) self->weight[k] = 0;
     for (int i = 0; i < m; i++) {
         double *x = G + i * m, inverse_square = x[i];
         for (int j = 0; j < i; j++) g[j] = x[j], x[j] = 0;
@@ -105,10 +134,10 @@ static void find_weights(zd_look *self)
             for (int k = 0; k < j; k++) x[k] -= g[j] * G[j * m + k];
             x[j] -= g[j];
         }
-        for (int k = 0; k < i; k++) self->weight[k] += inverse_square * x[k] * x[k];
-        self->weight[i] += inverse_square;
+        for (int k = 0; k < i; k++) self->weight[row_of(self, k)] += inverse_square * x[k] * x[k];
+        self->weight[row_of(self, i)] += inverse_square;
     }
-    for (int k = 0; k < m; k++) self->weight[k] = sqrt(self->weight[k]);
+    for (int k = 0; k < self->m; k++) self->weight[k] = sqrt(self->weight[k]);
 }
 
 /* The same from blocks: that length is what the diagonal of (C C^T)^-1 has, in its inverse square. */
@@ -129,11 +158,13 @@ static void keep(zd_look *self, const zd_point *point)
     const int m = self->close.m, stored = zd_size_of_C(point->system);
     const double *C = point->terms.C, *start_square = point->rank->start_square;
     const double *square = self->close.square;
-    if (point->layout) find_weights_by_blocks(self, point->layout);
+    if (point->layout && !self->row) find_weights_by_blocks(self, point->layout);
     else find_weights(self);
     self->is_known = 1;
-    for (int k = 0; k < m; k++)
-        self->is_known &= 1 > AMPLE * square[k] * self->weight[k] * self->weight[k] && square[k] > AMPLE * start_square[k];
+    for (int k = 0; k < m; k++) {
+        const double weight = self->weight[row_of(self, k)];
+        self->is_known &= 1 > AMPLE * square[k] * weight * weight && square[k] > AMPLE * start_square[row_of(self, k)];
+    }
     for (int i = 0; i < stored; i++) self->C[i] = (float)C[i];
     for (int b = 0; point->layout && b < point->layout->blocks; b++) find_shares(self, point->layout, b);
 }
@@ -188,4 +219,20 @@ int zd_look_is_doubtful(zd_look *self, zd_point *point)
     if (is_short || shares.rows < self->close.m) return 1;
     if (!is_ill) keep(self, point);
     return 0;
+}
+
+void zd_look_keep_choice(zd_look *self, zd_point *point)
+{
+    const zd_selection *selection = point->rank->selection;
+    self->is_known = 0;
+    self->close.m = selection->independent;
+    self->close.C = point->C;
+    memcpy(self->row, selection->row, (size_t)self->m * sizeof *self->row);
+    if (zd_orthogonalize(&self->close, DOUBTFUL).rows == self->close.m) keep(self, point);
+}
+
+int zd_look_is_near(const zd_look *self, const zd_point *point)
+{
+    const double bound = point->layout ? bound_by_bodies(self, point) : INFINITY;
+    return bound < NEAR * NEAR || fmin(sqrt(bound), find_change(self, point)) < NEAR;
 }

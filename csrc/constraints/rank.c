@@ -63,6 +63,7 @@ static void *take_selection(zd_arena *arena, const void *of)
         .L = zd_take_doubles(arena, n * n),
         .rhs = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
+        .lambda_r = zd_take_doubles(arena, m),
         .R = zd_take_doubles(arena, m * m),
     };
     return zd_take_filled(arena, &self, sizeof self);
@@ -176,6 +177,14 @@ static int rank_of(const zd_point *point)
     return other < rank ? orthogonalize(point, NULL) : other;
 }
 
+/* The same of rows that are chosen already. */
+static void orthogonalize_chosen(const zd_point *point)
+{
+    zd_selection *self = point->rank->selection;
+    set_rows(point, NULL);
+    for (int a = 0; a < self->independent; a++) take_out(self, self->row[a], a);
+}
+
 /* T, in the rows of G that do not count: T G_r = G_d, where G_r is triangular in the order of choice. */
 static void express_others(zd_selection *self, int rank)
 {
@@ -212,12 +221,25 @@ void zd_rank_use_all(zd_point *point)
     point->rank->lost = 0;
 }
 
+/* G and K of a choice that was kept. A later step does not depend on whether this was asked for. */
+static void express(const zd_point *point)
+{
+    zd_selection *self = point->rank->selection;
+    const int was_ill_conditioned = self->rank->was_ill_conditioned;
+    self->tolerance = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
+    set_rows(point, has_metric(point) ? self->L : NULL);
+    set_weights(self);
+    orthogonalize_chosen(point);
+    express_others(self, self->independent);
+    set_shares(self, self->independent);
+    self->is_expressed = 1;
+    self->rank->was_ill_conditioned = was_ill_conditioned;
+}
+
 static void use_chosen(zd_point *point, int rank)
 {
     zd_selection *self = point->rank->selection;
     int n = self->n;
-    express_others(self, rank);
-    set_shares(self, rank);
     for (int a = 0; a < rank; a++) {
         self->row_at[a] = self->row[a];
         zd_row_of_C row = zd_point_row(point, self->row[a]);
@@ -235,8 +257,22 @@ void zd_rank_choose(zd_point *point, double tolerance)
     zd_selection *self = point->rank->selection;
     self->tolerance = tolerance;
     int rank = rank_of(point);
-    if (rank < self->m) use_chosen(point, rank);
-    else zd_rank_use_all(point);
+    if (rank == self->m) {
+        zd_rank_use_all(point);
+        return;
+    }
+    express_others(self, rank);
+    set_shares(self, rank);
+    self->is_expressed = 1;
+    use_chosen(point, rank);
+}
+
+void zd_rank_use(zd_point *point, const int *row, int independent)
+{
+    zd_selection *self = point->rank->selection;
+    memcpy(self->row, row, (size_t)self->m * sizeof *row);
+    self->is_expressed = 0;
+    use_chosen(point, independent);
 }
 
 /* ---- in natural units ---- */
@@ -269,9 +305,11 @@ void zd_rank_set_basis(const zd_point *point)
 
 /* ---- multipliers of all rows ---- */
 
-void zd_rank_share_out(zd_selection *self, double *lambda)
+void zd_rank_share_out(const zd_point *point, double *lambda)
 {
+    zd_selection *self = point->rank->selection;
     const int rank = self->independent;
+    if (!self->is_expressed) express(point);
     double *y = self->lambda;
     zd_forward(rank, self->K, y, y);
     zd_backward(rank, self->K, y, y);

@@ -5,6 +5,8 @@
 #ifndef ZD_RANK_H
 #define ZD_RANK_H
 
+#include <string.h>
+
 #include "../point/point.h"
 
 typedef struct zd_limits zd_limits;     /* limits.h */
@@ -24,11 +26,13 @@ struct zd_rank {
     int was_ill_conditioned;    /* whether so little of a row was left in this step that v = D u lost digits: see stepping/variables.c */
     int was_turned;         /* whether rows may have come to lie reversed, as beyond a bifurcation, since this was last 0 */
     int lost;               /* rows for which limits stand: the last of the holonomic ones in point->C */
+    int is_aside;           /* whether the points are those of steps that are none of the run's: what is kept from step to step stays */
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *rhs;            /* (m,): for formulations that give the point its velocity; else NULL */
     zd_look *look;          /* NULL where there are few rows, or the formulation's factorization tells that they are independent */
     zd_store *store;        /* the run's, for what it takes once rows may be dependent: */
     zd_selection *selection;    /* NULL until then */
+    zd_look *kept;          /* where some rows are redundant, the choice among them and how little it has changed; NULL until then */
 };
 
 /* An independent choice of rows, where some may follow from others. */
@@ -48,6 +52,9 @@ struct zd_selection {
     double *K;              /* (rows, rows): B^T W B, factored; see rank.c */
     double *L;              /* (n, n): Cholesky factor of M */
     double *rhs, *lambda;   /* (rows,) */
+    int is_expressed;       /* whether G has T and K is factored: of a choice that was kept, once multipliers of all rows are wanted */
+    int are_awaited;        /* whether those of the point's acceleration are not known yet, and `lambda_r` is */
+    double *lambda_r;       /* (rows,) */
     double *R;              /* (independent, independent): C_r = R Q, of zd_rank_set_basis() */
     zd_limits *limits;      /* NULL until rows are lost that limits may stand for */
 };
@@ -84,6 +91,8 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large);
 int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Chooses the rows that count at the point, with so much of their length left; C and M are known there. */
 void zd_rank_choose(zd_point *point, double tolerance);
+/* The rows that count are these (m,), the first of which are independent, as they were where they were chosen. */
+void zd_rank_use(zd_point *point, const int *row, int independent);
 /* All rows count at the point. */
 void zd_rank_use_all(zd_point *point);
 /* Whether all rows count as they are. */
@@ -100,8 +109,22 @@ static inline int zd_rank_row(const zd_point *point, int k)
 void zd_rank_scale(const zd_point *point, int row, double *x);
 /* Q <- an orthonormal basis of the independent rows in natural units. */
 void zd_rank_set_basis(const zd_point *point);
-/* lambda of all rows, the smallest, from those of the rows that count, which self->lambda has without those of limits */
-void zd_rank_share_out(zd_selection *self, double *lambda);
+/* lambda of all rows, the smallest, from those of the rows that count, which self->lambda has without those of limits; M and C are known */
+void zd_rank_share_out(const zd_point *point, double *lambda);
+/* point->lambda <- those of the acceleration there, if they were left until they are wanted. */
+static inline void zd_rank_find_multipliers(const zd_point *point)
+{
+    zd_selection *self = point->rank ? point->rank->selection : NULL;
+    if (!self || !self->are_awaited) return;
+    memcpy(self->lambda, self->lambda_r, (size_t)self->independent * sizeof *self->lambda);
+    zd_rank_share_out(point, point->lambda);
+    self->are_awaited = 0;
+}
+/* Those that were left are given from elsewhere. */
+static inline void zd_rank_forget_awaited(const zd_point *point)
+{
+    if (point->rank->selection) point->rank->selection->are_awaited = 0;
+}
 /* The rows that are redundant, increasing; their number. */
 int zd_rank_redundant(const zd_rank *self, int *rows);
 /* "row 2 follows", "rows 0 'A.x' and 2 'B.x' follow": those that do not count, at the point */

@@ -11,6 +11,25 @@
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
+static void *take_kept(zd_arena *arena, const void *system)
+{
+    return zd_look_take_choice(arena, system);
+}
+
+/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one. */
+static int keep_choice(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost;
+    if (self->is_aside) return ZD_DONE;
+    if (self->kept) self->kept->is_known = 0;
+    if (!is_whole) return ZD_DONE;
+    if (!self->kept) self->kept = zd_store_take(self->store, take_kept, point->system);
+    if (!self->kept) return ZD_NO_MEMORY;
+    zd_look_keep_choice(self->kept, point);
+    return ZD_DONE;
+}
+
 static int reduce(zd_point *point)
 {
     static const double region = ZD_LIMITS_REGION * ZD_LIMITS_REGION;
@@ -29,6 +48,7 @@ static int reduce(zd_point *point)
     }
     int is_deficient = self->lost || point->rows < self->most_rows;
     self->was_deficient |= is_deficient;
+    if (!status) status = keep_choice(point);
     if (is_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
     return status;
@@ -97,6 +117,16 @@ void zd_rows_use_all(zd_point *point)
     point->known |= ZD_RANKED;
 }
 
+/* Returns whether there is a choice that still serves. */
+static int use_kept(zd_point *point)
+{
+    const zd_look *kept = point->rank->kept;
+    if (!kept || !zd_look_is_near(kept, point)) return 0;
+    zd_rank_use(point, kept->row, kept->close.m);
+    point->known |= ZD_RANKED;
+    return 1;
+}
+
 int zd_rows_find(zd_point *point)
 {
     zd_rank *self = point->rank;
@@ -107,6 +137,7 @@ int zd_rows_find(zd_point *point)
     }
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
+    if (use_kept(point)) return ZD_DONE;
     if (self->most_rows < self->m || self->m > self->n) return reduce(point);
     status = need_look(self, point->system);
     if (status) return status;

@@ -19,6 +19,7 @@ double zd_motion_power(const zd_motion *motion)
 {
     const zd_point *point = motion->point;
     double sum = point->terms.power ? *point->terms.power : 0;
+    if (point->terms.Phi_t) zd_rank_find_multipliers(point);
     if (point->terms.Phi_t)
         for (int k = 0; k < zd_constraints(point->system); k++) sum += point->lambda[k] * point->terms.Phi_t[k];
     return sum;

@@ -33,8 +33,13 @@ static void solve_reduced(const zd_point *point, const zd_formulation *formulati
     for (int a = 0; a < point->rows; a++) selection->rhs[a] = rhs[selection->row_at[a]];
     formulation->solve(solver, force, selection->rhs, x, lambda ? selection->lambda : NULL);
     if (!lambda) return;
+    selection->are_awaited = !selection->is_expressed;
+    if (selection->are_awaited) {
+        memcpy(selection->lambda_r, selection->lambda, (size_t)selection->independent * sizeof *selection->lambda);
+        return;
+    }
     memmove(selection->lambda + holonomic, selection->lambda + point->holonomic, (size_t)others * sizeof(double));
-    zd_rank_share_out(selection, lambda);
+    zd_rank_share_out(point, lambda);
 }
 
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
@@ -20,6 +21,7 @@ static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
     if (status) return status;
     copy_row(record->position_violation, row, point->system->mh, point->terms.Phi);     /* (3) */
     zd_point_velocity_violation(point, record->velocity_violation + row * m);            /* (5) */
+    zd_rank_find_multipliers(point);
     copy_row(record->multipliers, row, m, point->lambda);                                /* (7) */
     return ZD_DONE;
 }
@@ -68,6 +70,7 @@ static int record_outputs(const zd_recorder *self, zd_record *record, int64_t ro
     const zd_measures *measures = self->measured->measures;
     const zd_point *point = self->motion->point;
     double *value = record->outputs + row * self->width;
+    zd_rank_find_multipliers(point);
     int status = ZD_DONE;
     for (int i = 0; i < self->outputs->count && !status; i++) {
         const int measure = self->outputs->measure[i];

@@ -22,7 +22,7 @@ zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper)
 void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
 {
     const zd_motion *motion = stepper->motion;
-    const zd_rank *rank = motion->point->rank;
+    zd_rank *rank = motion->point->rank;
     memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
     memcpy(self->of_chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
     zd_copy(motion->rate.size, stepper->y, self->y);
@@ -30,7 +30,7 @@ void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
     self->was_ill_conditioned = rank->was_ill_conditioned;
     self->was_deficient = rank->was_deficient;
     self->was_doubtful = rank->was_doubtful;
-    self->is_set = 1;
+    self->is_set = rank->is_aside = 1;
 }
 
 int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
@@ -40,6 +40,7 @@ int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
     memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
     memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
     zd_variables_restore(stepper, self->formulation);
+    rank->is_aside = 0;
     motion->point->known &= motion->point->constant;    /* it may be there already, with other factors */
     int status = zd_stepper_return_to(stepper, end);
     zd_copy(motion->rate.size, self->y, stepper->y);

@@ -174,6 +174,7 @@ void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates)
     const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->settle || point->terms.A;
     rates->are_known = (point->known & ZD_ACCELERATED) && !has_more;
     if (!rates->are_known) return;
+    zd_rank_find_multipliers(point);
     rates->order = motion->road.order;
     rates->smallest = motion->road.smallest;
     ZD_SIZED(zd_copy, motion->system.nv, point->vdot, rates->vdot);
@@ -186,6 +187,7 @@ void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates)
     zd_motion *motion = self->motion;
     if (!rates->are_known || rates->order != motion->road.order) return;
     motion->point->known |= ZD_ACCELERATED;
+    zd_rank_forget_awaited(motion->point);
     motion->road.smallest = rates->smallest;
     ZD_SIZED(zd_copy, motion->system.nv, rates->vdot, motion->point->vdot);
     ZD_SIZED(zd_copy, zd_constraints(&motion->system), rates->lambda, motion->point->lambda);
