@@ -16,11 +16,12 @@ static void *take_kept(zd_arena *arena, const void *system)
     return zd_look_take_choice(arena, system);
 }
 
-/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one. */
-static int keep_choice(zd_point *point)
+/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one, in the metric of M^-1 as well:
+ * there `is_ill` tells. */
+static int keep_choice(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
-    const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost;
+    const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost && !is_ill;
     if (self->is_aside) return ZD_DONE;
     if (self->kept) self->kept->is_known = 0;
     if (!is_whole) return ZD_DONE;
@@ -40,7 +41,8 @@ static int reduce(zd_point *point)
     if (!zd_is_finite(zd_size_of_C(point->system), point->terms.C)) return ZD_NOT_FINITE;
     status = zd_rank_need_selection(self, point->system);
     if (status) return status;
-    int by_limits = self->is_started && self->may_be_deficient;
+    const int by_limits = self->is_started && self->may_be_deficient, was_ill_conditioned = self->was_ill_conditioned;
+    self->was_ill_conditioned = 0;
     zd_rank_choose(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->most_rows) {
         status = zd_limits_find(point);
@@ -48,7 +50,8 @@ static int reduce(zd_point *point)
     }
     int is_deficient = self->lost || point->rows < self->most_rows;
     self->was_deficient |= is_deficient;
-    if (!status) status = keep_choice(point);
+    if (!status) status = keep_choice(point, self->was_ill_conditioned);
+    self->was_ill_conditioned |= was_ill_conditioned;
     if (is_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
     return status;
@@ -144,6 +147,16 @@ int zd_rows_find(zd_point *point)
     if (is_doubtful(point)) return reduce(point);
     zd_rows_use_all(point);
     return ZD_DONE;
+}
+
+int zd_rows_give_up_kept(zd_point *point)
+{
+    zd_look *kept = point->rank->kept;
+    const int are_kept = kept && kept->is_known;
+    if (!are_kept) return 0;
+    kept->is_known = 0;
+    point->known &= ~ZD_RANKED;
+    return 1;
 }
 
 int zd_rows_find_again(zd_point *point)

@@ -12,6 +12,8 @@ enum { ZD_FEW_ROWS = 2 };       /* so many are looked at themselves */
 
 /* Which rows count at the point, into point->rows, point->C. */
 int zd_rows_find(zd_point *point);
+/* Whether the rows that count there were chosen before: then they are chosen anew where they are found next. */
+int zd_rows_give_up_kept(zd_point *point);
 /* The same again, as the velocity has changed, along which limits are taken. */
 int zd_rows_find_again(zd_point *point);
 

@@ -36,8 +36,9 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
     const zd_structure *structure = system->structure;
     int rows = 0;
     for (int g = 0; structure && g < structure->groups; g++) rows += structure->rows[g];
-    if (!structure || rows != zd_constraints(system)) return NULL;
-    size_t n = (size_t)system->nv, m = (size_t)rows;
+    const int has_redundant = rows != zd_constraints(system);
+    if (!structure || (has_redundant && zd_rank_is_of_many(system))) return NULL;
+    size_t n = (size_t)system->nv, m = (size_t)rows, of_redundant = has_redundant ? m : 0;
     zd_coupling self = {
         .n = (int)n,
         .m = (int)m,
@@ -49,6 +50,9 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
         .rest = zd_take_doubles(arena, m),
         .step = zd_take_doubles(arena, n),
         .least = zd_rank_is_of_many(system) ? NULL : zd_take_doubles(arena, m),
+        .has_redundant = has_redundant,
+        .rhs_of_all = zd_take_doubles(arena, of_redundant),
+        .lambda_of_all = zd_take_doubles(arena, of_redundant),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -126,12 +130,26 @@ static int invert_mass(zd_coupling *self, zd_point *point)
     return ZD_DONE;
 }
 
+/* S of the rows that count, of which C is there. Right sides have another order than what is awaited. */
+static zd_pivots factor_chosen(zd_coupling *self)
+{
+    const zd_selection *chosen = self->chosen;
+    memset(self->without, 0, (size_t)self->weighted->blocks->rows);
+    for (int d = chosen->independent; d < self->m; d++) self->without[self->weighted->strips.place[chosen->row[d]]] = 1;
+    self->begun.x = NULL;
+    return zd_weighted_factor_without(self->weighted, self->C, self->W, self->without);
+}
+
 /* S and its factors, with the right side that is awaited; what it takes of C is there before, or is what a call with ZD_MOVED has left in the
  * scratch. */
 static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
 {
     int status = !self->products ? zd_point_need(point, ZD_C) : point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
     if (status) return status;
+    if (self->chosen) {
+        *pivots = factor_chosen(self);
+        return ZD_DONE;
+    }
     double *y = point->awaited.x ? begin(self, &point->awaited) : NULL;
     self->begun = point->awaited;
     *pivots = self->products ? zd_weighted_factor_by(self->weighted, self->products, self->data, &self->terms, self->W, y)
@@ -151,14 +169,28 @@ static int is_to_be_compared(zd_coupling *self)
     return 1;
 }
 
+static void *take_without(zd_arena *arena, const void *weighted)
+{
+    return zd_take(arena, (size_t)((const zd_weighted *)weighted)->blocks->rows);
+}
+
+/* What is symbolic, once it is first wanted; whether there is memory. */
+static int has_symbolic(zd_coupling *self, const zd_point *point)
+{
+    zd_store *store = point->rank->store;
+    if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
+    if (self->weighted && self->has_redundant && !self->without) self->without = zd_store_take(store, take_without, self->weighted);
+    return self->weighted && (self->without || !self->has_redundant);
+}
+
 int zd_coupling_factor(zd_coupling *self, zd_point *point)
 {
     zd_pivots pivots;
-    if (!self->weighted) self->weighted = zd_weighted_create(point->rank->store, point->layout);
-    if (!self->weighted) return ZD_NO_MEMORY;
+    if (!has_symbolic(self, point)) return ZD_NO_MEMORY;
     self->layout = point->layout;
     self->C = point->terms.C;
-    self->products = zd_weighted_products(self->weighted, point->system);
+    self->chosen = self->without && !zd_rank_is_full(point) ? point->rank->selection : NULL;
+    self->products = self->chosen ? NULL : zd_weighted_products(self->weighted, point->system);
     self->data = point->system->data;
     self->terms = point->terms;
     int status = invert_mass(self, point);
@@ -231,6 +263,8 @@ static double find_rest(const zd_coupling *self, const double *rhs, const double
     for (int k = 0; k < self->m; k++) {
         zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double sum = rhs[k], size = fabs(rhs[k]);
+        rest[k] = 0;
+        if (self->chosen && self->without[self->weighted->strips.place[k]]) continue;
         for (int j = 0; j < row.count; j++) {
             double term = row.x[j] * x[row.column[j]];
             sum -= term;
@@ -262,7 +296,7 @@ static void refine(zd_coupling *self, const double *rhs, double *x, double *lamb
     }
 }
 
-void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
+static void solve_all(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
 {
     const zd_right_side *begun = &self->begun;
     const int has_begun = begun->x == x && begun->rhs == rhs && begun->force == force;
@@ -271,4 +305,17 @@ void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs
     finish(self, force, x);
     if (lambda) zd_weighted_scatter(self->weighted, self->weighted->blocks->x, lambda);
     if (self->is_compared) refine(self, rhs, x, lambda);
+}
+
+void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
+{
+    const zd_selection *chosen = self->chosen;
+    if (!chosen) {
+        solve_all(self, force, rhs, x, lambda);
+        return;
+    }
+    memset(self->rhs_of_all, 0, (size_t)self->m * sizeof *rhs);
+    for (int a = 0; a < chosen->independent; a++) self->rhs_of_all[chosen->row[a]] = rhs[a];
+    solve_all(self, force, self->rhs_of_all, x, lambda ? self->lambda_of_all : NULL);
+    for (int a = 0; lambda && a < chosen->independent; a++) lambda[a] = self->lambda_of_all[chosen->row[a]];
 }

@@ -2,7 +2,7 @@
 #ifndef ZD_COUPLING_H
 #define ZD_COUPLING_H
 
-#include "../point/point.h"
+#include "../constraints/rank.h"
 #include "../point/weighted.h"
 
 typedef struct zd_coupling {
@@ -29,15 +29,19 @@ typedef struct zd_coupling {
     zd_right_side begun;        /* what was awaited where it was factored, until it is solved for; x NULL: nothing */
     const zd_layout *layout;    /* of the point where it was factored, as its C */
     const double *C;
+    int has_redundant;          /* whether not all rows are to count */
+    unsigned char *without;     /* (rows of S,), in its order: those left out */
+    const zd_selection *chosen; /* those that count, where it was factored; NULL: all do */
+    double *rhs_of_all, *lambda_of_all;     /* (m,) */
 } zd_coupling;
 
-/* NULL where the system declares no structure, or not all of its rows are to count. */
+/* NULL where the system declares no structure, or not all of its many rows are to count. */
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system);
-/* All rows count at the point. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
+/* All rows count at the point, or it is known which do, without limits. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
 int zd_coupling_factor(zd_coupling *self, zd_point *point);
 /* zd_rows_are_long() where it was factored, from the diagonal of S if that tells, else from C. */
 int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point);
-/* As the solve of formulation.h. */
+/* As the solve of formulation.h, of the rows that count. */
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda);
 
 #endif

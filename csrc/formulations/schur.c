@@ -32,7 +32,7 @@ typedef struct schur {
     int n, m;
     int most;           /* rows that there is memory for */
     zd_structured *many;        /* in place of all that follows, where the structure has many rows */
-    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and all rows count */
+    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and no limits stand for rows */
     int is_coupled;             /* whether that was factored */
     double *dense_C;    /* (m, n): where the system's own is packed */
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
@@ -168,11 +168,23 @@ static int is_told(const schur *self, zd_point *point)
     return self->coupling->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_coupling_has_long_rows(self->coupling, point);
 }
 
+/* The same where some are redundant: the choice among them is known beforehand. */
+static int factor_chosen(schur *self, zd_point *point)
+{
+    int status = zd_rows_find(point);
+    self->is_coupled = 0;
+    if (status || !self->coupling || point->rank->lost || zd_rank_is_full(point)) return status;
+    status = zd_coupling_factor(self->coupling, point);
+    self->is_coupled = !status && self->coupling->share > SMALL;
+    return status == ZD_DEPENDENT_ROWS ? ZD_DONE : status;
+}
+
 /* By C M^-1 C^T, where all rows count and it keeps enough digits. */
 static int factor_coupled(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
     int status = ZD_DEPENDENT_ROWS;
+    if (rank->most_rows < rank->m) return factor_chosen(self, point);
     if (self->coupling && rank->most_rows == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
         status = zd_coupling_factor(self->coupling, point);
     if (status && status != ZD_DEPENDENT_ROWS) return status;
@@ -197,11 +209,18 @@ static int factor_packed(schur *self, zd_point *point)
     return factor_dense(self, point, zd_dense_M(point, self->L));
 }
 
+static int factor_few(schur *self, zd_point *point)
+{
+    return point->layout ? factor_packed(self, point) : factor_dense(self, point, point->terms.M);
+}
+
+/* A choice of rows that was kept was good in the plain metric: where it is not in that of M^-1, another may be. */
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
     if (self->many) return zd_structured_factor(self->many, point, 1);
-    return point->layout ? factor_packed(self, point) : factor_dense(self, point, point->terms.M);
+    const int status = factor_few(self, point);
+    return status == ZD_DEPENDENT_ROWS && zd_rows_give_up_kept(point) ? factor_few(self, point) : status;
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */

@@ -206,9 +206,10 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
     }
     keep_diagonals_of_any(self);
     for (int k = 0; k < self->count; k++) {
-        const int kernel = left_out ? 0 : self->kernel[k];
+        const int kernel = self->kernel[k];
         if (!kernel) eliminate(size_at(self, k), 0, 0, self, k, left_out, least, x, &pivots);
-        FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, x, &pivots)
+        else if (left_out) FOR_SIZE(eliminate, kernel, 0, self, k, left_out, least, x, &pivots)
+        else FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, x, &pivots)
     }
     return pivots;
 }
