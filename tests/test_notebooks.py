@@ -2,6 +2,7 @@
 
 import pytest
 
+import tolerances as tol
 from support import ROOT
 
 nbformat = pytest.importorskip("nbformat")
@@ -30,7 +31,7 @@ def test_there_is_a_notebook_for_each_figure():
 @pytest.mark.filterwarnings("default")      # what Jupyter warns of is not ours
 def test_notebook_runs(path):
     """The last cell asserts what the notebook states, so running it is the test."""
-    nbclient.NotebookClient(read(path), timeout=120, resources={"metadata": {"path": str(path.parent)}}).execute()
+    nbclient.NotebookClient(read(path), timeout=tol.HUNG, resources={"metadata": {"path": str(path.parent)}}).execute()
 
 
 @pytest.mark.skipif((ROOT / "PKG-INFO").exists(), reason="a source distribution has notebooks without their outputs")

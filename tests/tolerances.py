@@ -24,3 +24,6 @@ REFERENCE = 1e-8            # against DOP853 at rtol 1e-12, for a run at step 1e
 # ---- physics ----
 START = 1e-10               # |Phi|, |Psi| that a start may have: START_TOLERANCE of csrc/run/create.c
 KEYBOARD = 0.1              # s: from Ctrl-C to the partial solution, as promised
+
+# ---- the machine ----
+HUNG = 600                  # s: what takes longer will not end; Dask of 2024 has taken 120 on a busy machine, of which 25 at work

@@ -10,6 +10,7 @@ import sys
 import numpy as np
 import pytest
 
+import tolerances as tol
 import zerodrift as zd
 from small_studies import lowest, pendulum, slow, waits
 from support import ROOT
@@ -56,7 +57,7 @@ def test_a_killed_study_goes_on(tmp_path, monkeypatch):
     folder, counted = tmp_path / "study", tmp_path / "counted"
     environment = os.environ | {"ZERODRIFT_COUNTED": str(counted), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     monkeypatch.setenv("ZERODRIFT_COUNTED", str(counted))
-    killed = subprocess.run([sys.executable, "-c", KILLED, folder], env=environment, timeout=60)
+    killed = subprocess.run([sys.executable, "-c", KILLED, folder], env=environment, timeout=tol.HUNG)
     assert killed.returncode == -signal.SIGKILL
     began, done = len(counted.read_text().splitlines()), int((~zd.load(folder).failed).sum())
     assert 12 <= done <= began <= done + 6      # two chunks of three may have been under way
