@@ -1,8 +1,8 @@
-"""Mechanisms in space: time against error of zerodrift, Exudyn and MuJoCo on a Stewart platform and a double wishbone.
+"""Mechanisms in space: time against error of zerodrift and other programs on a Stewart platform and a double wishbone.
 
 Run it with ``python tests/bench/mechanisms_in_space/run.py``; it writes ``mechanisms_in_space.csv``,
 ``mechanisms_in_space_ratios.csv`` and ``mechanisms_in_space.png`` in ``tests/bench/results``. What is not installed is named and
-left out.
+left out: ``pip install exudyn mujoco pin scipy`` has them all.
 
 All build the same drawing from bodies and joints, start from rest and give every body's centre of mass and rotation at the same
 times; the error is the largest of any of these numbers at any of them. What the others cannot do is said where they are.
@@ -24,7 +24,7 @@ def main():
     asked = argparse.ArgumentParser(description=__doc__)
     asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
     asked = asked.parse_args()
-    peers, rows = installed(["zerodrift", "exudyn", "mujoco"]), []
+    peers, rows = installed(["zerodrift", "exudyn", "mujoco", "pinocchio"]), []
     for drawing in all_of_them():
         rows += measured(drawing, reference(drawing, peers, (64, 128)), peers, asked.every)
     report(rows, "mechanisms_in_space")
