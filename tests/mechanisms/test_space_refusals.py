@@ -1,5 +1,7 @@
 """What there is not in space, and what cannot be: sentences that name the element and say what is allowed."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -233,3 +235,87 @@ def test_a_singular_pose_has_a_way_out():
     sol = zd.simulate(m.system(), 0.1, p, v, step=0.01)
     assert sol.success
     assert np.abs(sol.position_violation).max() < 1e-11
+
+
+# ---- universal joints whose shafts are at a right angle ----
+
+
+def shafts(bend, turned=0.0):
+    """Two shafts, one along x and one at an angle of so many degrees to it; the arm on the first has turned so far from z."""
+    bend, turned = np.radians((bend, turned))
+    out = np.array([np.round(np.cos(bend), 15), np.sin(bend), 0])
+    arm = np.array([0, -np.sin(turned), np.round(np.cos(turned), 15)])
+    across = np.cross(out, arm)
+    m = zd.Mechanism("shafts", dimension=3)
+    one, other = m.link("one", (-1, 0, 0), (0, 0, 0), 1.0), m.link("other", (0, 0, 0), out, 1.0)
+    m.revolute("in", m.ground, one.start, axis=(1, 0, 0))
+    m.cylindrical("out", m.ground, other.end, axis=out)
+    m.universal("cross", one.end, other.start, axes=(arm, across if across.any() else (1, 0, 0)))
+    return m
+
+
+FLAT = "as the cross of universal joint 'cross' lies in the plane of its shafts, the axes of 'in' and 'out'"
+
+
+def test_a_flat_cross_is_told_apart_from_redundancy():
+    """Rows that follow anywhere are redundant; the one that follows where both arms lie along the shafts is a singular pose."""
+    said = str(shafts(90, turned=90))
+    assert "freedom 1 (" in said
+    assert "2 of 13 rows follow from others" in said
+    assert re.search(rf"pose: [^;]+ follows from others as drawn, and not nearby, {FLAT}; zd\.assemble\(m, nudge=", said)
+    for bend, turned in ((90, 0), (90, 80), (60, 90), (89.9, 90)):
+        said = str(shafts(bend, turned))
+        assert "2 of 13 rows follow from others" in said
+        assert "a singular pose" not in said
+        assert ("are 90 degrees apart: at a right angle it hands no turning on" in said) == (bend == 90)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize(("moves", "stays"), [("in.speed", "out"), ("out.angle_speed", "in")])
+def test_assemble_leads_out_of_a_flat_cross_on_either_branch(layout, moves, stays):
+    """With angles a, b of the shafts cos(a) sin(b) = 0, from a right angle on: that turns which is to, the other is stuck."""
+    m = shafts(90, turned=90)
+    m.start({moves: 2.0})
+    system = m.system(layout)
+    with pytest.raises(zd.Bifurcation, match=rf"{FLAT}: zd\.assemble\(m, nudge=True\) starts beside it"):
+        zd.simulate(system, 0.1, step=0.01)
+    p, v = zd.assemble(system, nudge=0.1)
+    sol = zd.simulate(system, 0.5, p, v, step=0.01)
+    np.testing.assert_allclose(sol[f"{moves.split('.')[0]}.angle"], 0.1 + 2.0 * sol.t, rtol=1e-9)
+    assert np.abs(sol[f"{stays}.angle"]).max() < 1e-9
+
+
+def test_a_driven_flat_cross_starts_where_the_start_has_it():
+    """A drive holds its pose at t = 0, so that no nudge leads out: none is offered."""
+    m = shafts(90, turned=90)
+    m.motor("drive", "in", speed=1.0)
+    assert f"{FLAT}; start a little aside, or drive another joint" in str(m)
+    with pytest.raises(zd.Bifurcation, match=f"{FLAT}: start a little aside, or drive another joint"):
+        zd.simulate(m, 0.1, step=0.01)
+    m.start({"in.angle": 0.1})
+    np.testing.assert_allclose(zd.simulate(m, 0.5, step=0.01)["in.angle"][-1], 0.6, rtol=1e-9)
+
+
+def test_how_far_a_nudge_goes():
+    m = shafts(90, turned=90)
+    m.start({"in.speed": 1.0})
+    for nudge, far in ((True, 1e-3), (np.True_, 1e-3), (0.25, 0.25), (False, 0.0)):
+        assert abs(zd.assemble(m, nudge=nudge)[0][0] - far) < 1e-12
+    with pytest.raises(ValueError, match="nudge must be greater than 0, not -1"):
+        zd.assemble(m, nudge=-1)
+
+
+def test_angles_that_shafts_do_not_let_a_cross_have():
+    """They tilt it by 30 degrees either way, as drawn about its first arm; what is left over is in rad."""
+    kept = "the shafts of universal joint 'cross' stay 30 degrees apart in 'in' and 'out', which limits its angles"
+    for angle, value, left in (("angle1", -1.3, f"{1.3 - np.pi / 3:.3g} rad"),
+                               ("angle2", 7, f"{7 - np.pi / 6:.3g} rad. Angles are in rad: 7 degrees are 0.1222")):
+        m = shafts(30)
+        m.start({f"cross.{angle}": value})
+        with pytest.raises(zd.InconsistentStart, match=rf"'cross\.{angle}' by {left}; {kept}"):
+            m.system().start_at(0.0)
+    m = shafts(30)
+    m.start({"cross.angle1": -0.1})     # from where no step changes it, as it is as large as can be
+    sol = zd.simulate(m, 0.01, step=0.01)
+    np.testing.assert_allclose(np.tan(sol["in.angle"]) * np.cos(np.pi / 6), np.tan(sol["out.angle"]), rtol=1e-9)
+    assert abs(sol["cross.angle1"][0] + 0.1) < 1e-9

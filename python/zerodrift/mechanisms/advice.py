@@ -9,9 +9,13 @@ import numpy as np
 
 from .._gateway import Variable
 from .._gateway.mechanisms import MechanismCore
+from . import space_advice
+from .aside import OTHERWISE
 from .drawing import Drawing, Inertias
 from .forces import Actuator, Motor
 from .numbers import Numbers
+from .space_tables import SpaceTables
+from .starting import Starting
 from .tables import Tables
 
 NEAR = 0.2          # of the largest singular value of rows of length one: how nearly they depend on each other near a dead centre
@@ -19,17 +23,25 @@ TAKES_PART = 0.2    # of a row in what depends
 MOST_ROWS = 300     # whose singular values take a moment
 
 
-def at_start(error: str, drawing: Drawing, numbers: Numbers, constraints: Sequence[Variable]) -> str | None:
+def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> str | None:
     """Of an error at the start: bodies without mass, or rows that are singular as drawn."""
+    drawing = start.drawing
     if "mass matrix" in error:
-        return _of_mass(drawing, numbers)
+        return _of_mass(drawing, start.numbers)
     said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one row, or several
     rows = sorted(set(map(int, re.findall(said, error))))
     if not rows or "follow" not in error:
         return None
     is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor | Actuator) for row in rows)
-    helps = "start a little aside, or drive another joint" if is_driven else "zd.assemble(m, nudge=True) starts beside it"
-    return f"in this pose {drawing.name!r} is singular, as links in line are: {helps}"
+    helps = OTHERWISE if is_driven else start.way_out()
+    return f"in this pose {drawing.name!r} is singular, {_why(start)}: {helps}"
+
+
+def _why(start: Starting) -> str:
+    """What is drawn so that the pose is singular: a cross in the plane of its shafts, or likely links in line."""
+    tables, assembly, p = start.closed(0.0)
+    flat = space_advice.flat_crosses(tables, assembly.core, p) if isinstance(tables, SpaceTables) else []
+    return f"as {' and '.join(flat)}" if flat else "as links in line are"
 
 
 def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:

@@ -6,7 +6,7 @@ Steps are least in the mass metric.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so
 RANK = 1e-9             # of the largest singular value: what counts as dependent
 MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
 MOST_TOLD = 8           # names in a sentence
+ANGLES = "angle", "angle1", "angle2"
 
 
 class Assembly:
@@ -76,11 +77,11 @@ class Assembly:
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
         """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
-        if not self._is_closed(p, held):
+        if not self.is_closed(p, held):
             p = self._nearest(p, self._track(self._close(p), held), held)
         return self._approach(p, held, wished) if wished else p
 
-    def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
+    def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """Whether all rows and held targets are met."""
         if not held and self._rows_are_met(p):
             return True     # whatever the sizes of the rows, for which their matrix would have to be made
@@ -135,15 +136,7 @@ class Assembly:
         size = np.linalg.norm(rows, axis=1, keepdims=True)
         return rows / np.where(size > 1e-9 * self.length, size, self.length)
 
-    def nudged(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
-        """Positions that are moved a little along a random free direction, without the rows left out, and assembled."""
-        free = _nullspace(np.delete(self.scaled_rows(p), sorted(left_out), axis=0))
-        if not free.shape[1]:
-            return p
-        direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
-        return self._nearby(self._moved(p, NUDGE * direction / np.abs(direction).max()), left_out)
-
-    def _nearby(self, p: np.ndarray, left_out: set[int]) -> np.ndarray:
+    def nearby(self, p: np.ndarray, left_out: Collection[int] = ()) -> np.ndarray:
         """The positions nearest to these in which all rows are met but those left out; these, where there are none."""
         kept = [i for i, row in enumerate(self.kept) if row not in left_out]
 
@@ -162,7 +155,7 @@ class Assembly:
         """The mass matrix (nv, nv), and a basis (nv, k) of the velocities that all rows leave free, in scaled coordinates."""
         terms = self._evaluate(p)
         rows = terms["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
-        return terms["M"] * np.outer(self.scale, self.scale), _nullspace(rows)
+        return terms["M"] * np.outer(self.scale, self.scale), nullspace(rows)
 
     def _track(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
         """Leads drives, couplings and held targets from where they are to where they shall be, in small steps on one branch."""
@@ -178,16 +171,23 @@ class Assembly:
             p = moved
         else:
             return p
-        closest, residual = self._least_squares(p, lambda p: self._residual(p, held))
-        if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
-            raise self._unmet(self._left_over(p, held, residual), held)
-        return closest
+        for begin in (p, self._aside(p)):
+            closest, residual = self._least_squares(begin, lambda p: self._residual(p, held))
+            if np.abs(residual).max(initial=0.0) <= 1e3 * CLOSED:
+                return closest
+        raise self._unmet(self._left_over(p, held, residual), held)
+
+    def _aside(self, p: np.ndarray) -> np.ndarray:
+        """Positions a little aside: at a dead centre, or in a straight chain, no step leads away from it."""
+        step = NUDGE * np.random.default_rng(0).standard_normal(self.core.nv)
+        closed = self._newton(self._moved(p, step), self._joints)
+        return p if closed is None else closed
 
     def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
         """What remains as near to what is held as closed joints allow; that of least squares, where drives are not met there."""
         if not self.is_joint.all() or not held:
             return residual
-        return self._residual(self._approach(p, (), held), held)[0]
+        return self._residual(self._approach(self._aside(p), (), held), held)[0]
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
         """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
@@ -270,7 +270,7 @@ class Assembly:
         count = len(self.kept) + len(held)
         for _ in range(ATTEMPTS):
             residual, rows = self._residual(p, [*held, *wished])
-            free = _nullspace(rows[:count])
+            free = nullspace(rows[:count])
             step = free @ _least_along(rows[count:], free, -residual[count:])
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
             nearer = self._nearer(p, step, held, wished)
@@ -302,7 +302,7 @@ class Assembly:
         worst = [int(i) for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
         apart = np.abs(residual) * self._size[len(held)]
         told = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {self._unit_of(names[i])}".rstrip() for i in worst[:4])
-        turns = [target for target in held if target.name.endswith("angle") and abs(target.value) > 2 * np.pi]
+        turns = [target for target in held if self._unit_of(target.name) == "rad" and abs(target.value) > 2 * np.pi]
         hint = f". Angles are in rad: {turns[0].value:g} degrees are {np.radians(turns[0].value):.4g}" if turns else ""
         return InconsistentStart(f"what the start holds and what is driven cannot be met together; nearest to it there are left: "
                                  f"{told}{hint}")
@@ -312,7 +312,7 @@ class Assembly:
         quantity = name.split(".")[1:]
         if not quantity or quantity[-1].endswith("]"):      # a cosine has none either
             return ""
-        return "rad" if quantity[-1] == "angle" else "m"
+        return "rad" if quantity[-1] in ANGLES else "m"
 
     # ---- velocities ----
 
@@ -332,7 +332,7 @@ class Assembly:
             raise self._contradiction(left, size, names)
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
-            free = _nullspace(rows / self.weight) / self.weight[:, None]
+            free = nullspace(rows / self.weight) / self.weight[:, None]
             scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
 
@@ -393,7 +393,7 @@ def _least_along(rows: np.ndarray, free: np.ndarray, right: np.ndarray) -> np.nd
     return vt[counts].T @ ((u.T @ right)[counts] / s[counts])
 
 
-def _nullspace(rows: np.ndarray) -> np.ndarray:
+def nullspace(rows: np.ndarray) -> np.ndarray:
     """An orthonormal basis (n, k) of what the rows leave free."""
     if not len(rows):
         return np.eye(rows.shape[1])

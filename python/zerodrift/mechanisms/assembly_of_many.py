@@ -13,7 +13,7 @@ import numpy as np
 
 from .._gateway.consistent import nearest_velocities
 from .._gateway.mechanisms import MechanismCore
-from .assembly import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, NUDGE, SMALLEST, TRACKED, Assembly
+from .assembly import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
 from .many_bodies import SparseRows, Target, are_met, sparse_rows
 
 MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
@@ -40,7 +40,7 @@ class AssemblyOfMany(Assembly):
 
     # ---- positions ----
 
-    def _is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
+    def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         allowed = CLOSED * SMALLEST * self.length
         if self._rows_are_met(p) and are_met(self.core, p, held, allowed):
             return True
@@ -107,12 +107,6 @@ class AssemblyOfMany(Assembly):
             if np.abs(residual).max(initial=0.0) <= 1e3 * CLOSED:
                 return closest
         raise self._unmet(self._left_over(p, held, residual), held)
-
-    def _aside(self, p: np.ndarray) -> np.ndarray:
-        """Positions a little aside: at a dead centre, as of a chain that is straight, no step leads away from it."""
-        step = NUDGE * np.random.default_rng(0).standard_normal(self.core.nv)
-        closed = self._newton(self._moved(p, step), self._joints)
-        return p if closed is None else closed
 
     def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
         """What remains as near to drives, couplings and what is held as closed joints allow."""

@@ -9,11 +9,14 @@ import numpy as np
 
 from .._gateway import Variable
 from .._gateway.consistent import nearest_velocities, redundant_rows
+from . import space_advice
+from .aside import nudged
 from .assembly import Assembly
 from .assembly_of_many import is_of_many
 from .drawing import Drawing
 from .forces import Actuator, Motor
 from .numbers import AS_GIVEN
+from .space_tables import SpaceTables
 from .starting import Starting
 from .system import row_names
 from .tabulated import tables_of
@@ -37,6 +40,8 @@ class Count(NamedTuple):
     is_of_many : bool
         Whether there are so many rows that the core has decided which follow from others, and that it was not looked for which
         reactions are not determined.
+    notes : tuple of str
+        What is to be said of the pose: universal joints at a right angle, what makes it singular, and what helps then.
     """
 
     velocities: int
@@ -46,6 +51,7 @@ class Count(NamedTuple):
     undetermined: tuple[str, ...]
     singular: tuple[str, ...]
     is_of_many: bool = False
+    notes: tuple[str, ...] = ()
 
     @property
     def freedom(self) -> int:
@@ -68,12 +74,25 @@ def count(drawing: Drawing) -> Count:
     rows = assembly.scaled_rows(p)
     names = [variable.name for variable in row_names(tables, assembly.core)]
     here = dependent(rows)
-    there = dependent(assembly.scaled_rows(assembly.nudged(p, _driven(drawing, assembly)))) if here else set()
+    there = dependent(assembly.scaled_rows(nudged(assembly, p, _driven(drawing, assembly)))) if here else set()
     redundant = here & there
     left = _left_null(rows) if redundant else np.zeros((len(rows), 0))
     undetermined = np.flatnonzero(np.abs(left).max(axis=1, initial=0.0) > 1e-6)
+    singular = _named(names, here - there)
     return Count(assembly.core.nv, len(rows), len(rows) - len(redundant), _named(names, redundant), _named(names, undetermined),
-                 _named(names, here - there))
+                 singular, notes=_notes(start, tables, assembly, p, singular))
+
+
+def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, singular: tuple[str, ...]) -> tuple[str, ...]:
+    """What is to be said of the pose; a singular one is told first."""
+    in_space = isinstance(tables, SpaceTables)
+    notes = space_advice.at_right_angles(tables, assembly.core, p) if in_space else []
+    if singular:
+        why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
+        told = f", as {' and '.join(why)}" if why else ""
+        return (f"a singular pose: {', '.join(singular)} follows from others as drawn, and not nearby{told}; {start.way_out()}",
+                *notes)
+    return tuple(notes)
 
 
 def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:

@@ -42,9 +42,7 @@ def report(drawing: Drawing) -> str:
         lines.append(" which reactions that leaves undetermined was not looked for among so many rows")
     if counted.undetermined:
         lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
-    if counted.singular:
-        lines.append(f" a singular pose: {', '.join(counted.singular)} follows from others as drawn, and not nearby; "
-                     "assemble(..., nudge=True) starts nearby")
+    lines += [f" {note}" for note in counted.notes]
     driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
     driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
     if driven:

@@ -12,6 +12,7 @@ from .._gateway.mechanisms import MechanismCore
 from .._rotations import quaternion_of
 from ..errors import CorrectionFailed, InconsistentStart, SingularSystem
 from . import columns
+from .aside import aside, way_out
 from .assembly import Assembly, Target
 from .assembly_of_many import assembly_of, is_of_many
 from .bodies import Body, Point
@@ -21,6 +22,8 @@ from .joints import Joint
 from .measuring import measuring
 from .numbers import Numbers
 from .readings import Reading, checked_reading, reading_of_start
+from .space_advice import of_angles
+from .space_tables import SpaceTables
 from .tables import Tables
 from .tabulated import tables_of
 from .tree import loop
@@ -85,17 +88,23 @@ class Starting:
             return tables, assembly, assembly.led_to(self.closed(0.0)[2])
         return tables, assembly, self._positions(tables, assembly)
 
-    def at(self, t: float, *, nudge: bool = False) -> tuple[np.ndarray, ...]:
-        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged a little, where asked for.
+    def at(self, t: float, *, nudge: float = 0.0) -> tuple[np.ndarray, ...]:
+        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged as far as asked for.
 
         In space poses are (bodies, 7), and the angles of joints come third.
         """
         assembly, p = self.assembled(t)
-        if nudge:
-            p = assembly.nudged(p, set())
         held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
+        if nudge:
+            p = aside(assembly, p, nudge, held)
         poses = assembly.core.poses(p, assembly.velocities(p, held, wished))
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
+
+    def way_out(self) -> str:
+        """What helps where the assembled start is singular: a nudge, if it leads out, and drives allow it."""
+        assembly, p = self.assembled(0.0)
+        held = self.targets(self.drawing.held, assembly.core, rates=True)
+        return way_out(assembly, p, held)
 
     def _tables(self, starts: Mapping[str, float]) -> Tables:
         if self._known is None or starts:
@@ -119,7 +128,7 @@ class Starting:
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
         except InconsistentStart as error:
-            raise InconsistentStart(f"{error}{self._loop_in_words()}") from None
+            raise InconsistentStart(f"{error}{self._loop_in_words(tables, assembly, p)}") from None
 
     def _drawn(self, tables: Tables) -> np.ndarray:
         """Poses of mass centres as drawn; of bodies whose rotation is held, with that: no small steps lead half a turn away."""
@@ -183,10 +192,10 @@ class Starting:
         return (f"the joints cannot all close: nearest to it there stay open {told} (m, or rad); look at the lengths, or draw it "
                 "nearer")
 
-    def _loop_in_words(self) -> str:
-        """Which loop something held or driven is in."""
-        if self.drawing.dimension == 3:
-            return ""
+    def _loop_in_words(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> str:
+        """Which loop something held or driven is in; in space, which shafts keep the angles of a universal joint."""
+        if isinstance(tables, SpaceTables):
+            return of_angles(tables, assembly.core, p, [*self.drawing.held])
         tables = Tables(self.drawing, self.numbers, in_tree=True)
         owners = [self.drawing.elements[name.partition(".")[0]] for name in self.drawing.held]
         owners += [motor.joint for motor in self.drawing.of(Motor)]

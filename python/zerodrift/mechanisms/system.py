@@ -182,7 +182,7 @@ class MechanismSystem(BaseSystem):
         p, v = self._core.state(*self._start.at(t))
         return _check.frozen(p), _check.frozen(v)
 
-    def _assembled(self, held: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
+    def _assembled(self, held: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
         """The state at a time that holds and wishes more than the mechanism's own start does."""
         drawing = self._drawing
         more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
@@ -288,7 +288,7 @@ class MechanismSystem(BaseSystem):
             told = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
             if told:
                 return told
-        return advice.at_start(str(error), self._drawing, self._numbers, self.constraints)
+        return advice.at_start(str(error), self._start, self.constraints)
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
         """Whether a motor has come to a dead centre; in space, whether a disc falls flat, or shafts are at a right angle."""

@@ -13,10 +13,11 @@ from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import settings
 
 TOL, ITERATIONS = 1e-12, 100      # of `assemble`, where nothing else is asked for
+NUDGE = 1e-3                      # in rad or parts of a mechanism's size
 
 
 def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *, wish: Mapping[Any, Any] | None = None,
-             nudge: bool = False, t: float = 0.0, tol: float = TOL,
+             nudge: bool | float = False, t: float = 0.0, tol: float = TOL,
              max_iterations: int = ITERATIONS) -> tuple[np.ndarray, np.ndarray]:
     """Find a consistent state near a guess, or that of a mechanism near its drawing.
 
@@ -37,9 +38,11 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         `system.velocities`.
     wish : dict of measure to value
         Of a mechanism: what is met as nearly as possible after that.
-    nudge : bool
-        Of a mechanism: whether it starts a thousandth of its size from the assembled position, along a random free direction; for
-        drawings that are singular, as a stretched linkage is.
+    nudge : bool or float
+        Of a mechanism: how far aside of the assembled position it starts, held ones included, in rad or parts of its size,
+        whichever coordinate moves most; True is a thousandth. It moves along the velocities that are held or driven, if there
+        are any, and else along a random free direction. For drawings that are singular, as a stretched linkage is, or a
+        universal joint at a right angle.
     t : float
         Time in s, for constraints that depend on it.
     tol : float
@@ -69,7 +72,7 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     (1.2, 2.0)
     """
     if isinstance(p, Mapping) or isinstance(system, Makes) or (p is None and hasattr(system, "_assembled")):
-        return _assembled(system_of(system), p, v, hold, wish, nudge, _check.number("t", t))
+        return _assembled(system_of(system), p, v, hold, wish, _far(nudge), _check.number("t", t))
     core_of(system)
     if wish is not None or nudge:
         raise TypeError(f"wish and nudge are for mechanisms, and {system.name} is none")
@@ -86,7 +89,14 @@ def assembly(system: BaseSystem, hold: Any = ()) -> _gateway.Assembly:
     return _gateway.Assembly(_options("augmented", projection), *_holds(system, hold))
 
 
-def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: bool, t: float) -> tuple[np.ndarray, np.ndarray]:
+def _far(nudge: bool | float) -> float:
+    """How far aside."""
+    if isinstance(nudge, bool | np.bool_):
+        return NUDGE if nudge else 0.0
+    return _check.number("nudge", nudge, above=0)
+
+
+def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
     """The state of a mechanism near its drawing."""
     core_of(system)
     if v is not None or hold != () or not (held is None or isinstance(held, Mapping)):
