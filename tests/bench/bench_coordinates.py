@@ -60,7 +60,7 @@ def main():
         of["joint"].append(cost.parts_of_joint(tables))
         of["absolute"].append(cost.parts_of_absolute(tables))
         of["times"].append(times)
-        taken, faster = counted.cheaper, "joint" if times[0] < times[1] else "absolute"
+        taken, faster = counted.taken, "joint" if times[0] < times[1] else "absolute"
         lost = max(times[taken == "absolute"] / min(times), 1.0)
         rows.append((make.__name__, n, len(mechanism.bodies), *(f"{1e6 * time:.3g}" for time in times),
                      *(f"{1e6 * cost.seconds(each):.3g}" for each in counted), faster, taken, f"{lost:.2f}"))

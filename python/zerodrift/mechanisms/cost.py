@@ -5,14 +5,21 @@ many of them as take its time. A step is a corrected one of "rk4" in "schur", wh
 coordinates n, and m rows that close loops:
 
     joint       5 (n^3/6 + n^2 m + n m^2/2 + m^3/6 + 2 (n^2 + n m + m^2)) + b B + d D + r R
-    absolute    a + s 5 S
+    absolute    a + l m + s 5 S
 
 D is the sum of the bodies' depths in the tree, and R that of the depths of both bodies of each row that closes a loop, as these
 are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in
 the order in which a run eliminates; all else that a step does for each body and joint grows with them. Weights are those that
 tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies; but a is larger, as
 mechanisms of unequal bodies that share loops take more in absolute coordinates, Andrews' three times what is counted. In space
-they are those of chains of hinges and of balls, stars, trees and rows of linkages of 1 to 33 bodies.
+they are those of chains of hinges and of balls, stars, trees, rows of linkages and worked models of 1 to 33 bodies. Loops there
+often have rows that follow from others, or unequal joints whose blocks have no kernel; neither is in S, and l is what they take
+by the row, in space alone.
+
+What costs less is taken, but for loops in space that are closed by a joint of one freedom or none: as loops are cut where there
+are most freedoms, all their joints are such, and with fewer than seven of them they move only because rows follow from others.
+Where such a loop lies flat its rank falls: joint coordinates have stopped there with runs that absolute ones went through,
+Bennett's linkage among them, so absolute ones are taken up to some times the cost.
 """
 
 from __future__ import annotations
@@ -25,8 +32,9 @@ from .tables import Tables
 
 FACTORIZATIONS = 5
 JOINT = {2: (1.0, 700.0, 40.0, 650.0), 3: (1.0, 3000.0, 100.0, 500.0)}      # 1, b, d, r; in the plane, and in space
-ABSOLUTE = {2: (16000.0, 2.5), 3: (4000.0, 1.0)}                            # a, s
+ABSOLUTE = {2: (16000.0, 0.0, 2.5), 3: (2500.0, 3000.0, 1.3)}               # a, l, s
 NANOSECONDS = 0.38      # of an operation, there
+SURER = 3.0             # so many times as much may absolute coordinates cost where they are taken for going through
 DEARER = 3.0            # so many times the operations are worth a sentence, and
 WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
 
@@ -36,11 +44,12 @@ class Cost(NamedTuple):
 
     joint: float
     absolute: float         # infinite where they cannot be taken: a body has no mass, or a row touches none
+    allowed: float = 1.0    # times what joint coordinates cost is what absolute ones may
 
     @property
-    def cheaper(self) -> str:
-        """The layout that costs less; of equal ones that of fewer coordinates."""
-        return "absolute" if self.absolute < self.joint else "joint"
+    def taken(self) -> str:
+        """The layout that costs less than it may; of equal ones that of fewer coordinates."""
+        return "absolute" if self.absolute < self.allowed * self.joint else "joint"
 
     @property
     def ratio(self) -> float:
@@ -51,9 +60,9 @@ class Cost(NamedTuple):
     def in_words(self) -> str:
         """Both, those that are taken first."""
         counts = {"joint": self.joint, "absolute": self.absolute}
-        other = "joint" if self.cheaper == "absolute" else "absolute"
+        other = "joint" if self.taken == "absolute" else "absolute"
         more = "" if counts[other] == np.inf else f", in {other} ones {counts[other]:.3g}"
-        return f"{counts[self.cheaper]:.3g} operations a step{more}"
+        return f"{counts[self.taken]:.3g} operations a step{more}"
 
 
 def cost(tables: Tables, exact: bool = False) -> Cost:
@@ -65,24 +74,35 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
     if joint <= least and not exact:
         return Cost(joint, least)
     parts = parts_of_absolute(tables)
-    return Cost(joint, float(np.dot(ABSOLUTE[dimension], parts)) if parts[-1] else np.inf)
+    absolute = float(np.dot(ABSOLUTE[dimension], parts)) if parts[-1] else np.inf
+    return Cost(joint, absolute, SURER if dimension == 3 and _has_stiff_loops(tables) else 1.0)
+
+
+def _has_stiff_loops(tables: Tables) -> bool:
+    """Whether a loop has joints of one freedom or none alone."""
+    return any(rows >= 5 for rows, _ in _loops(tables))
 
 
 def parts_of_absolute(tables: Tables) -> tuple[float, ...]:
-    """One, and 5 S."""
-    return 1.0, FACTORIZATIONS * tables.absolute().core().structure_count()
+    """One, m, and 5 S."""
+    rows = sum(rows for rows, _ in _loops(tables)) + len(tables.relations)
+    return 1.0, float(rows), FACTORIZATIONS * tables.absolute().core().structure_count()
 
 
 def parts_of_joint(tables: Tables) -> tuple[float, ...]:
     """Five times the dense matrices, B, D and R."""
-    depth, ends = _depths(tables), _ends(tables)
-    carriers = {joint for joint in tables.carrier if joint >= 0}
-    loops = [(len(joint.row.rows), depth[first] + depth[second])
-             for i, (joint, (first, second)) in enumerate(zip(tables.joints, ends, strict=True)) if i not in carriers]
+    depth, loops = _depths(tables), _loops(tables)
     n, m = tables.joint_coordinates(), sum(rows for rows, _ in loops) + len(tables.relations)
     dense = n**3 / 6 + n**2 * m + n * m**2 / 2 + m**3 / 6 + 2 * (n**2 + n * m + m**2)
-    passed = sum(rows * depths for rows, depths in loops)
+    passed = sum(rows * (depth[first] + depth[second]) for rows, (first, second) in loops)
     return FACTORIZATIONS * dense, float(len(tables.parts)), float(sum(depth)), float(passed)
+
+
+def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
+    """Of each joint that closes a loop its rows, how many they are, and its bodies."""
+    carriers = {joint for joint in tables.carrier if joint >= 0}
+    return [(len(joint.row.rows), ends)
+            for i, (joint, ends) in enumerate(zip(tables.joints, _ends(tables), strict=True)) if i not in carriers]
 
 
 def _ends(tables: Tables) -> list[tuple[int, int]]:

@@ -90,7 +90,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             "absolute": three coordinates a body, and all joints are constraints; what that costs follows the number of bodies,
             where joint coordinates cost up to its third power. None: those that cost less, by a count of what a step does: joint
             ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
-            body has no mass, and for `compiled`. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
+            body has no mass, and for `compiled`. Loops of hinges and sliders alone in space take absolute ones up to three times
+            the cost, as these go through flat poses where joint ones can stop. Which were taken is in ``repr``, and `print` of a
+            mechanism has both counts.
             In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
             and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges

@@ -48,7 +48,7 @@ def report(drawing: Drawing) -> str:
     if driven:
         lines.append(f" driven: {', '.join(driven)}")
     found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
-    lines.append(f" a simulation takes {found.cheaper} coordinates: {found.in_words}")
+    lines.append(f" a simulation takes {found.taken} coordinates: {found.in_words}")
     return "\n".join(lines)
 
 

@@ -67,7 +67,7 @@ class MechanismSystem(BaseSystem):
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
         self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
-        self.layout = layout or ("joint" if compiled else cost.cost(self._tables).cheaper)
+        self.layout = layout or ("joint" if compiled else cost.cost(self._tables).taken)
         if self.layout == "absolute":
             self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
