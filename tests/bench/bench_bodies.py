@@ -6,6 +6,8 @@ velocity correction. It is compiled with plain flags and runs in turn with the o
 least of many short windows.
 """
 
+import ctypes
+import multiprocessing
 import platform
 import re
 import subprocess
@@ -129,6 +131,20 @@ def of_chains(floor):
     yield "kB of a run per body, chain of 1000 links", memory(system, system.p0, system.v0, "schur") * 1.024 / 1000, 3
 
 
+def of_creation(links=10_000):
+    """Processor time of what stands between a drawing and the first step, the least of five drawings."""
+    options = handed(formulation=list(zd.formulations()).index("schur"), step=1e-3)
+    least = np.inf
+    for _ in range(5):
+        drawn = hanging_links(links)
+        begin = time.process_time()
+        system = drawn.system("absolute")
+        run = _gateway.Run(system._core, options, system.p0, system.v0)
+        least = min(least, time.process_time() - begin)
+        del run
+    yield f's of m.system("absolute"), its start and the creation of a run, chain of {links:,} links', least, 0.5
+
+
 def referenced():
     """Bytes of the pages that this process has used since they were last forgotten, but those of files, which libraries are."""
     mappings = re.split(r"^(?=[0-9a-f]+-[0-9a-f]+ )", Path("/proc/self/smaps").read_text(), flags=re.M)[1:]
@@ -154,13 +170,29 @@ def touched(system, bodies, integrator, **corrections):
     return least / bodies
 
 
-def of_memory():
-    """On Linux. Euler's own are, for each body, the state, where the step began, twice, a rate and a stage."""
+def of_memory(channel):
+    """Sends rows; on Linux. Euler's own are, for each body, the state, where the step began, twice, a rate and a stage."""
+    ctypes.CDLL(None, use_errno=True).prctl(41, 1, 0, 0, 0)     # PR_SET_THP_DISABLE: of a huge page all 2 MiB count as used
     system = mechanism(5000)
     of_projection = [parameter.initial[0] for parameter in zd.corrections()["projection"].parameters]
     whole, plain = touched(system, 10_001, "rk4", projection=of_projection), touched(system, 10_001, "euler")
-    yield "kB per body that a corrected step of rk4 touches", whole / 1000, None
-    yield "kB per body that an evaluation touches: a step of euler, less the 30 doubles of its own", (plain - 240) / 1000, 1
+    of_evaluation = "kB per body that an evaluation touches: sixteen steps of euler, less the 30 doubles of its own"
+    channel.send([("kB per body that sixteen corrected steps of rk4 touch", whole / 1000, None),
+                  (of_evaluation, (plain - 240) / 1000, 1)])
+
+
+def by_itself(measured):
+    """Rows that are measured in a fresh process: NumPy asks for huge pages for its large arrays, and what it lets go a run is
+    given next.
+    """
+    context = multiprocessing.get_context("spawn")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=measured, args=(there,))
+    process.start()
+    there.close()
+    rows = here.recv()
+    process.join()
+    return rows
 
 
 def main():
@@ -173,7 +205,8 @@ def main():
     rows = [(f"microseconds of a step: {kind}, {n} four-bars", times[kind, n], None) for kind, n in times]
     rows += [(f"microseconds of a step: floor of {kind}, {n} four-bars", us, None) for (kind, n), us in floor.least.items()]
     rows += [*ratios(times, floor), *of_chains(floor)]
-    rows += of_memory() if Path("/proc/self/clear_refs").exists() else []
+    rows += by_itself(of_memory) if Path("/proc/self/clear_refs").exists() else []
+    rows += of_creation()
     machine = f"{date.today()}, {platform.machine()}, python {platform.python_version()}"
     record("bodies", rows, ("what", f"value ({machine})", "at most"))
 
