@@ -221,19 +221,32 @@ void zd_rank_use_all(zd_point *point)
     point->rank->lost = 0;
 }
 
-/* G and K of a choice that was kept. A later step does not depend on whether this was asked for. */
-static void express(const zd_point *point)
+/* T of a choice that was kept. A later step does not depend on whether this was asked for. */
+static void express_kept(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
     const int was_ill_conditioned = self->rank->was_ill_conditioned;
     self->tolerance = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
-    set_rows(point, has_metric(point) ? self->L : NULL);
-    set_weights(self);
     orthogonalize_chosen(point);
     express_others(self, self->independent);
+    self->rank->was_ill_conditioned = was_ill_conditioned;
+}
+
+/* The same, and K */
+static void express(const zd_point *point)
+{
+    zd_selection *self = point->rank->selection;
+    self->tolerance = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
+    set_rows(point, has_metric(point) ? self->L : NULL);
+    set_weights(self);
+    express_kept(point);
     set_shares(self, self->independent);
     self->is_expressed = 1;
-    self->rank->was_ill_conditioned = was_ill_conditioned;
+}
+
+void zd_rank_express_others(const zd_point *point)
+{
+    if (!point->rank->selection->is_expressed) express_kept(point);
 }
 
 static void use_chosen(zd_point *point, int rank)

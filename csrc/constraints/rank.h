@@ -105,6 +105,8 @@ static inline int zd_rank_row(const zd_point *point, int k)
 {
     return zd_rank_is_full(point) ? k : point->rank->selection->row_at[k];
 }
+/* selection->G has T of the rows that do not count; C is known, and no limits stand for rows. */
+void zd_rank_express_others(const zd_point *point);
 /* x, of this row, in natural units. */
 void zd_rank_scale(const zd_point *point, int row, double *x);
 /* Q <- an orthonormal basis of the independent rows in natural units. */

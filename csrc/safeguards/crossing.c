@@ -6,6 +6,12 @@
  * Introduction to Numerical Continuation Methods, section 8). It changes as well if the mechanism only comes near one and the step
  * leads straight on, where the motion would have turned away.
  *
+ * Where some rows are redundant, those that were chosen may come to follow from each other, and so be reversed, at places that are no
+ * bifurcations: what is left out then takes their place. So all rows are compared. With C1 = B C1_r, where B = [I; T], the product of those
+ * eigenvalues of C1 W C0^T that are not zero anyway is det(C1_r W C0^T B). It is the sum of det(C1_s W C0_s^T) over all choices s, and does
+ * not depend on which was taken; it stays positive as long as neither what the rows span nor how they follow from each other turns by a
+ * right angle.
+ *
  * Where there are more than two rows, this is asked only where they have turned noticeably from one point of the step to the next: see what
  * sets `was_turned` of a rank.
  *
@@ -118,18 +124,40 @@ ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *a
     return zd_dot(n, a, a0) * zd_dot(n, b, b0) - zd_dot(n, a, b0) * zd_dot(n, b, a0);
 }
 
-/* det(C1 W C0^T), of the rows that count at the point; of more than two in units of their sizes */
+/* x <- C1_a W C0^T, a row of the product, of so many rows in units of their sizes: those that count at the point, then the others */
+static void multiply_row(const zd_point *point, const double *C0, int a, int count, double *x)
+{
+    const zd_row_of_C now = zd_counted_row(point, a);
+    for (int b = 0; b < count; b++) {
+        const int row = b < point->rows ? zd_rank_row(point, b) : point->rank->selection->row[b];
+        const zd_row_of_C before = zd_row_in(point, C0, row);
+        x[b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[row] * zd_row_product(&now, &before);
+    }
+}
+
+/* x <- x B, in the same units */
+static void gather_others(const zd_point *point, double *x)
+{
+    const zd_selection *selection = point->rank->selection;
+    for (int d = point->rows; d < selection->m; d++) {
+        const int row = selection->row[d];
+        const double *T = selection->G + row * selection->m, share = x[d] * point->inverse_size[row];
+        for (int b = 0; b < point->rows; b++) x[b] += share * T[b] * point->size[selection->row[b]];
+    }
+}
+
+/* det(C1 W C0^T B), of the rows that count at the point, and B of those that follow from them; of more than two in units of their sizes */
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
-    const int n = point->rank->n, rows = point->rows;
-    if (rows == 2 && !point->layout) return ZD_SIZED(turn_of_two, n, point, C0 + zd_rank_row(point, 0) * n, C0 + zd_rank_row(point, 1) * n);
+    const int n = point->rank->n, rows = point->rows, has_others = !zd_rank_is_full(point) && !point->rank->lost;
+    if (rows == 2 && !point->layout && !has_others)
+        return ZD_SIZED(turn_of_two, n, point, C0 + zd_rank_row(point, 0) * n, C0 + zd_rank_row(point, 1) * n);
     double *turn = self->memory->turn;
-    for (int a = 0; a < rows; a++)
-        for (int b = 0; b < rows; b++) {
-            zd_row_of_C now = zd_counted_row(point, a), before = zd_row_in(point, C0, zd_rank_row(point, b));
-            turn[a * rows + b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[zd_rank_row(point, b)]
-                               * zd_row_product(&now, &before);
-        }
+    if (has_others) zd_rank_express_others(point);
+    for (int a = 0; a < rows; a++) {        /* what a row has of others is overwritten by the next */
+        multiply_row(point, C0, a, has_others ? point->rank->m : rows, turn + a * rows);
+        if (has_others) gather_others(point, turn + a * rows);
+    }
     if (rows == 1) return turn[0];
     int *order = self->memory->order;
     return zd_lu_factor(rows, turn, order) == rows ? zd_lu_determinant(rows, turn, order) : 0;

@@ -246,6 +246,44 @@ def test_no_motion_near_a_bifurcation_is_wrong_in_silence(off):
     assert outcomes["stopped"] > 5 or abs(off) > 1e-7, outcomes
 
 
+def loop_of_hinges(dimension, ground, angle, rate):
+    """Nearly a parallelogram; in space three of its rows are redundant."""
+    def at(x):
+        return (*x, 0.0)[:dimension]
+
+    crank_end, hinge = 0.3 * np.array([np.cos(angle), np.sin(angle)]), np.array([ground, 0.0])
+    far, along = np.linalg.norm(hinge - crank_end), (hinge - crank_end) / np.linalg.norm(hinge - crank_end)
+    part = (1 - 0.3**2 + far**2) / (2 * far)
+    rocker_end = crank_end + part * along + np.sqrt(1 - part**2) * np.array([-along[1], along[0]])
+    loop = zd.Mechanism("loop", dimension=dimension, gravity=(0, -9.81, 0)[:dimension])
+    crank = loop.link("crank", at((0, 0)), at(crank_end), mass=1.0)
+    coupler = loop.link("coupler", at(crank_end), at(rocker_end), mass=2.0)
+    rocker = loop.link("rocker", at(hinge), at(rocker_end), mass=1.5)
+    axis = {"axis": (0, 0, 1)} if dimension == 3 else {}
+    for name, one, other, place in (("A", loop.ground, crank, (0, 0)), ("B", crank, coupler, crank_end),
+                                    ("C", coupler, rocker, rocker_end), ("D", loop.ground, rocker, hinge)):
+        loop.revolute(name, one, other, at=at(place), **axis)
+    loop.start({"A.speed": rate})
+    return loop
+
+
+@pytest.mark.parametrize("off", [-1.4901644640105651e-09, -3.860264840669051e-07])
+def test_a_choice_that_comes_back_reversed_hides_no_bifurcation(off, formulation):
+    """Where all links lie in line, so does the axis of a turn that the chosen rows leave to others: as they pass
+    it, they are reversed twice.
+    """
+    place = 1 + off, 1.5577951322998254, 8.790239812924861
+    exact = zd.simulate(loop_of_hinges(2, *place).system("joint"), 0.5, integrator="dop853", rtol=1e-11, atol=1e-11)
+    for step in (0.013893485314687357, 0.0135, 0.0142):
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            sol = zd.simulate(loop_of_hinges(3, *place).system("absolute"), 0.5, step=step, formulation=formulation,
+                              integrator="rk4", energy=True, on_failure="return")
+        assert sol.stats["redundant"]
+        is_right = sol.success and all(abs(sol[name][-1] - exact[name][-1]) < 0.05 for name in ("A.angle", "D.angle"))
+        assert is_right or said or not sol.success, (step, sol["A.angle"][-1], sol["D.angle"][-1])
+
+
 @pytest.mark.parametrize("ground", [1.000001, 1.0001, 1.01, 0.9999])
 def test_chosen_steps_follow_a_sharp_turn(ground, formulation):
     """With the longer ground the crank, which the system itself takes for independent, turns back."""
