@@ -12,9 +12,9 @@ are passed inward joint by joint. S are the multiplications in C M^-1 C^T, in it
 the order in which a run eliminates; all else that a step does for each body and joint grows with them. Weights are those that
 tests/bench/bench_coordinates.py measured on chains, rows of four-bars, stars and trees of 1 to 129 bodies; but a is larger, as
 mechanisms of unequal bodies that share loops take more in absolute coordinates, Andrews' three times what is counted. In space
-they are those of chains of hinges and of balls, stars, trees, rows of linkages and worked models of 1 to 33 bodies. Loops there
-often have rows that follow from others, or unequal joints whose blocks have no kernel; neither is in S, and l is what they take
-by the row, in space alone.
+b, d and r are measured in the same way, on chains of hinges and of balls, stars, trees and rows of linkages of 1 to 33 bodies;
+a, l and s are set by hand, so that of the worked models that were timed the count takes the faster. Loops there often have rows
+that follow from others, or unequal joints whose blocks have no kernel. Neither is in S, and l stands for it, in space alone.
 
 What costs less is taken, but for loops in space that are closed by a joint of one freedom or none: as loops are cut where there
 are most freedoms, all their joints are such, and with fewer than seven of them they move only because rows follow from others.
