@@ -66,7 +66,7 @@ class SpacePlan(NamedTuple):
     angles: tuple[Angle, ...]
     followers: int                      # how many of the last entries of p follow the others
     gravity: Any
-    has_rates: bool                         # whether rates of p are more than v
+    has_rates: bool                     # whether rates of p are more than v
 
 
 def plan_of(core: SpaceCore) -> SpacePlan:

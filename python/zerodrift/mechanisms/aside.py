@@ -7,10 +7,9 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from ..errors import CorrectionFailed, InconsistentStart
-from .assembly import NUDGE, Assembly, Target, nullspace
+from .assembly import NUDGE, RANK, Assembly, Target, nullspace
 from .assembly_of_many import is_of_many
 
-RANK = 1e-9             # of the largest singular value
 NUDGED = "zd.assemble(m, nudge=True) starts beside it"
 OTHERWISE = "start a little aside, or drive another joint"
 

@@ -19,7 +19,7 @@ from .many_bodies import SparseRows, Target, are_met, sparse_rows
 MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
 HALVINGS = 6            # of a step of Newton's method that gains nothing
 SMALLEST_PART = 1e-3    # of the way that drives and targets go: where shorter ones are not met, none are
-MOST_TIMES = 20.0       # its length: how far a step towards the drawing is taken
+MOST_TIMES = 20.0       # a step towards the drawing is lengthened or shortened so many times at most
 LEAST_GAIN = 1e-6       # of the squares that are left: damped steps end where they gain less
 WISHED = 1e-6           # a wish weighs as much as steps that are so many times smaller
 

@@ -34,7 +34,7 @@ FACTORIZATIONS = 5
 JOINT = {2: (1.0, 700.0, 40.0, 650.0), 3: (1.0, 3000.0, 100.0, 500.0)}      # 1, b, d, r; in the plane, and in space
 ABSOLUTE = {2: (16000.0, 0.0, 2.5), 3: (2500.0, 3000.0, 1.3)}               # a, l, s
 NANOSECONDS = 0.38      # of an operation, there
-SURER = 3.0             # so many times as much may absolute coordinates cost where they are taken for going through
+PASSES_FLAT_POSES = 3.0 # absolute coordinates may cost so many times as much where flat poses have stopped joint ones
 DEARER = 3.0            # so many times the operations are worth a sentence, and
 WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
 
@@ -44,11 +44,11 @@ class Cost(NamedTuple):
 
     joint: float
     absolute: float         # infinite where they cannot be taken: a body has no mass, or a row touches none
-    allowed: float = 1.0    # times what joint coordinates cost is what absolute ones may
+    allowed: float = 1.0    # how many times the cost of joint coordinates absolute ones may have and still be taken
 
     @property
     def taken(self) -> str:
-        """The layout that costs less than it may; of equal ones that of fewer coordinates."""
+        """The layout to take: absolute coordinates where they cost less than `allowed` times as much as joint ones."""
         return "absolute" if self.absolute < self.allowed * self.joint else "joint"
 
     @property
@@ -75,7 +75,7 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
         return Cost(joint, least)
     parts = parts_of_absolute(tables)
     absolute = float(np.dot(ABSOLUTE[dimension], parts)) if parts[-1] else np.inf
-    return Cost(joint, absolute, SURER if dimension == 3 and _has_stiff_loops(tables) else 1.0)
+    return Cost(joint, absolute, PASSES_FLAT_POSES if dimension == 3 and _has_stiff_loops(tables) else 1.0)
 
 
 def _has_stiff_loops(tables: Tables) -> bool:

@@ -6,7 +6,7 @@ is written out without being known. Terms follow from kinetic and potential ener
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -17,6 +17,7 @@ from .._gateway.uses import Effort, Relation
 from ..symbolics.derivation import Derivation, Given
 from ..symbolics.graph import Graph, Node
 from .law_rows import Laws
+from .node_relations import Relations
 
 HALF = Fraction(1, 2)
 Vector = tuple[Node, Node]
@@ -94,7 +95,7 @@ class Reading(NamedTuple):
     rate: Node
 
 
-class Equations:
+class Equations(Relations):
     """Energies, forces and rows of a plan whose numbers are nodes.
 
     Parameters
@@ -201,11 +202,6 @@ class Equations:
         value = self.difference(value, zero)
         return Reading(value, self.rate_of(value))
 
-    def _of(self, gauges: Iterable[int]) -> tuple[list[Node], list[Node]]:
-        """Values and rates."""
-        readings = [self.readings[gauge] for gauge in gauges]
-        return [reading.value for reading in readings], [reading.rate for reading in readings]
-
     # ---- energies, forces, rows ----
 
     def _kinetic(self) -> Node:
@@ -235,15 +231,3 @@ class Equations:
                 efforts.append((self._law(effort.law, effort.inputs) if law else effort.value, rate))
         along = [graph.derivative_along({v: graph.one}) for v in self.v]
         return [graph.plus(*(graph.times(value, of(rate)) for value, rate in efforts if value is not graph.zero)) for of in along]
-
-    def _row(self, row: Any) -> Node:
-        graph = self.graph
-        if row.law >= 0:
-            return self._law(row.law, row.gauges)
-        values, rates = self._of(row.gauges)
-        sum_of = graph.dot(row.coefficients, rates if row.nonholonomic else values)
-        return graph.plus(sum_of, graph.minus(row.constant), graph.minus(graph.times(row.slope, self.t)))
-
-    def _law(self, law: int, gauges: Iterable[int]) -> Node:
-        values, rates = self._of(gauges)
-        return self.laws.rows[law].written(self, values, rates)

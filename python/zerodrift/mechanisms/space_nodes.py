@@ -23,6 +23,7 @@ from ..symbolics.gradient import Gradient
 from ..symbolics.graph import Node
 from . import nodes
 from .law_rows import Laws
+from .node_relations import Relations
 from .node_vectors import Vector
 from .space_frames import Frames
 
@@ -61,7 +62,7 @@ def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
         gravity=tuple(map(number, plan.gravity)))
 
 
-class Equations:
+class Equations(Relations):
     """The terms of a plan whose numbers are nodes; arguments are those of `nodes.Equations`.
 
     Attributes
@@ -159,11 +160,6 @@ class Equations:
         there = of.plus(there, of.cross(second.spin, way), of.cross(of.plus(arm, apart, way), first.spin))
         return nodes.Reading(graph.zero, graph.dot(a, there))
 
-    def _of(self, gauges: Iterable[int]) -> tuple[list[Node], list[Node]]:
-        """Values and rates."""
-        readings = [self.readings[gauge] for gauge in gauges]
-        return [reading.value for reading in readings], [reading.rate for reading in readings]
-
     # ---- terms ----
 
     def terms(self) -> dict[str, list[Node]]:
@@ -241,18 +237,6 @@ class Equations:
         at_rest = graph.substitution(dict.fromkeys(self.v, graph.zero))
         return {"Phi": rows[:self.mh], "C": [entry for row in Psi for entry in self._row_of(row)],
                 "Phi_t": [at_rest(row) for row in Psi], "xi": [graph.minus(self.rate_of(row)) for row in Psi]}
-
-    def _row(self, row: Any) -> Node:
-        graph = self.graph
-        if row.law >= 0:
-            return self._law(row.law, row.gauges)
-        values, rates = self._of(row.gauges)
-        sum_of = graph.dot(row.coefficients, rates if row.nonholonomic else values)
-        return graph.plus(sum_of, graph.minus(row.constant), graph.minus(graph.times(row.slope, self.t)))
-
-    def _law(self, law: int, gauges: Iterable[int]) -> Node:
-        values, rates = self._of(gauges)
-        return self.laws.rows[law].written(self, values, rates)
 
 
 class Moving(NamedTuple):
