@@ -29,7 +29,7 @@ DISTRIBUTIONS = {"sundials": "scikit-sundae", "pinocchio": "pin"}
 KINDS = {"Python system": ":", "absolute": "--"}      # how lines of zerodrift that run another kind of system are drawn
 ROUNDS = 3
 LONG = 0.3              # s: what takes longer is timed once more only
-AT = (1e-3, 1e-6, 1e-9)
+AT = (1e-3, 1e-6, 1e-9)     # errors at which methods are compared
 
 
 class Row(NamedTuple):
@@ -107,17 +107,17 @@ def least(rows, error):
     return min((row.seconds for row in rows if row.error <= error), default=math.nan)
 
 
-def ratios(rows):
+def ratios(rows, errors):
     """Per problem, peer and method: the least time at each error, over that of the best of zerodrift's."""
     for problem in dict.fromkeys(row.problem for row in rows):
         here = [row for row in rows if row.problem == problem]
-        own = [least([row for row in here if row.peer == "zerodrift"], error) for error in AT]
+        own = [least([row for row in here if row.peer == "zerodrift"], error) for error in errors]
         yield problem, "zerodrift's best, in ms", [1e3 * seconds for seconds in own]
         for column in ("peer", "method"):
             for name in dict.fromkeys(getattr(row, column) for row in here):
                 of = [row for row in here if getattr(row, column) == name]
                 yield (problem, f"best of {name}" if column == "peer" else name,
-                       [least(of, error) / best for error, best in zip(AT, own, strict=True)])
+                       [least(of, error) / best for error, best in zip(errors, own, strict=True)])
 
 
 def write(path, header, rows):
@@ -138,7 +138,7 @@ def draw(rows, path):
     problems = list(dict.fromkeys(row.problem for row in rows))
     figure, axes = zd.plot.panels(2, math.ceil(len(problems) / 2), width=12, height=9)
     colours = dict(zip(dict.fromkeys(row.peer for row in rows), itertools.cycle(zd.plot.COLOURS), strict=False))
-    markers, used = "os^Dv<>pPX*", {}
+    markers, used = "os^Dv<>pPX*hd8H", {}
     for problem, ax in zip(problems, axes.flat, strict=False):
         for method in dict.fromkeys(row.method for row in rows if row.problem == problem):
             of = [row for row in rows if (row.problem, row.method) == (problem, method) and row.error < 1]
@@ -151,7 +151,7 @@ def draw(rows, path):
             ax.plot([1e3 * row.seconds for row in of], [row.error for row in of], dashes,
                     color=colours[of[0].peer], marker=marker, markersize=4, linewidth=1.8 if of[0].peer == "zerodrift" else 0.9)
         ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |error| [rad, m]", title=problem,
-               ylim=(1e-12, 1))
+               ylim=(1e-13, 1))
     handles = [Line2D([], [], color=colours[peer], marker=markers[place], markersize=4,
                       label=name if name.startswith(peer) else f"{peer}: {name}")
                for peer, names in used.items() for name, place in names.items()]
@@ -161,17 +161,17 @@ def draw(rows, path):
     figure.savefig(path, dpi=110)
 
 
-def report(rows, name):
+def report(rows, name, errors=AT):
     """Print all rows and ratios, write them to tables of this name, and draw them."""
     for row in rows:
         print(f"{row.problem:20} {row.method:52} {row.setting:28} "
               + (row.message or f"{row.error:9.1e} {1e3 * row.seconds:10.3f} ms"))
-    table = list(ratios(rows))
-    print(f"\ntime to reach an error, over that of zerodrift's best\n{'':74}" + "".join(f"{error:>10.0e}" for error in AT))
+    table = list(ratios(rows, errors))
+    print(f"\ntime to reach an error, over that of zerodrift's best\n{'':74}" + "".join(f"{error:>10.0e}" for error in errors))
     for problem, method, numbers in table:
         print(f"{problem:20} {method:52} " + "".join(f"{number:10.3g}" for number in numbers))
     write(RESULTS / f"{name}.csv", Row._fields,
           [(*row[:4], f"{row.error:.3g}", f"{row.seconds:.3g}", row.message) for row in rows])
-    write(RESULTS / f"{name}_ratios.csv", ["problem", "method", *(f"at {error:.0e}" for error in AT)],
+    write(RESULTS / f"{name}_ratios.csv", ["problem", "method", *(f"at {error:.0e}" for error in errors)],
           [(problem, method, *(f"{number:.3g}" for number in numbers)) for problem, method, numbers in table])
     draw(rows, RESULTS / f"{name}.png")

@@ -11,7 +11,7 @@ import heyoka as hy
 import numpy as np
 from equations import eliminated, with_all
 
-TOLERANCES = 10.0 ** -np.arange(3, 14, 0.5)
+TOLERANCES = 10.0 ** -np.arange(3, 16, 0.5)
 FUNCTIONS = {"sin": hy.sin, "cos": hy.cos, "sqrt": hy.sqrt}
 
 
@@ -36,11 +36,18 @@ def solve(chain, setting):
     return values[:, :chain.n], seconds
 
 
+def extended(chain):
+    """Angles (k, n) at the outputs, rounded to doubles, of a run in the processor's extended numbers, with digits of 64 bits."""
+    integrator, start = _integrator(chain, "velocities eliminated", 1e-18, np.longdouble)
+    integrator.state[:] = np.asarray(start, np.longdouble)
+    return integrator.propagate_grid(chain.outputs.astype(np.longdouble))[-1][:, :chain.n].astype(float)
+
+
 @functools.cache
-def _integrator(chain, equations, tolerance):
+def _integrator(chain, equations, tolerance, number=float):
     make = _reduced if equations == "velocities eliminated" else _with_all
     system, start = make(chain)
-    return hy.taylor_adaptive(system, start, tol=tolerance), start
+    return hy.taylor_adaptive(system, [number(x) for x in start], tol=number(tolerance), fp_type=number), start
 
 
 def _reduced(chain):
