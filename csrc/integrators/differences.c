@@ -40,7 +40,6 @@ void zd_differences_choose_units(zd_differences *self)
 int zd_differences_make(zd_differences *self, const zd_rate *rate, double t, double h, double share, double *y, const double *f, double *J)
 {
     const int n = self->size;
-    zd_differences_choose_units(self);
     for (int j = 0; j < n; j++) {
         const double here = y[j];
         y[j] = here + increment(self, j, here, h * f[j]);

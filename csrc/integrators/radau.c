@@ -2,9 +2,10 @@
  *
  *     z_i = h sum_j a_ij f(t + c_j h, y + z_j),    y <- y + z_3
  *
- * It is stable for steps of any size and damps what it cannot resolve. Z is found by Newton's iteration; with A^-1 = T Lambda T^-1 and W = T^-1 Z,
- * its equations (Lambda / h) W - J W = T^-1 F(Z) - (Lambda / h) W fall apart into one real and one complex system of the state's size. J is kept from
- * step to step as long as the iteration contracts well with it, and its factors as long as h stays.
+ * It is stable for steps of any size and damps what it cannot resolve. Z is found by Newton's iteration; with A^-1 = T Lambda T^-1 and
+ * W = T^-1 Z, its equations (Lambda / h) W - J W = T^-1 F(Z) - (Lambda / h) W fall apart into one real and one complex system of the state's
+ * size, or of half of that: radau_pairs.c. J is kept from step to step as long as the iteration contracts well with it, and its factors as
+ * long as h stays. Where steps are longer than one J serves, each stage has its own: radau_stages.c.
  *
  * E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd edition, 1996, section IV.8: the numbers, the estimate of the error,
  * and when to make J anew.
@@ -15,36 +16,28 @@
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
 #include "../linalg/roots.h"
-#include "../linalg/small.h"
 #include "radau_matrices.h"
+#include "radau_stages.h"
 
 enum {
-    STAGES = 3,
+    STAGES = ZD_RADAU_STAGES,
     MOST_ITERATIONS = 40,   /* to rounding; */
     WORTHWHILE = 10,        /* where an error is allowed, shorter steps are cheaper than more of them */
 };
 
-static const double c[STAGES] = {0.15505102572168219018, 0.64494897427831780982, 1};
-static const double GAMMA = ZD_RADAU_GAMMA, ALPHA = ZD_RADAU_ALPHA, BETA = ZD_RADAU_BETA;
-static const double T[STAGES][STAGES] = {
-    {0.0944387624889752415, -0.141255295020954208, 0.0300291941051474245},
-    {0.250213122965333311, 0.204129352293799932, -0.382942112757261938},
-    {1, 1, 0},
-};
-static const double T_inverse[STAGES][STAGES] = {
-    {4.17871859155190473, 0.327682820761062387, 0.523376445499449548},
-    {-4.17871859155190473, -0.327682820761062387, 0.476623554500550452},
-    {0.502872634945786876, -2.57192694985560543, 0.596039204828224925},
-};
+static const double *const c = zd_radau_c;
 /* Of the error's estimate, in the stages: (-13 - 7 sqrt(6)) / 3, (-13 + 7 sqrt(6)) / 3, -1 / 3 */
 static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, -1.0 / 3};
 
 static const double SLOW = 0.001;               /* J is made anew for the next step when an iteration has left more of the one before */
-static const double SMALL = 0.001;              /* of the error that is allowed: what the iteration may leave */
+static const double SMALL = 0.0001;              /* of the error that is allowed: what the iteration may leave, which adds up over steps */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
 static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding */
 static const double LEAST = 1e-3;               /* of the largest entry of the state: the others are varied by no less */
-static const double SHORTER = 0.5, GROWTH = 0.005;  /* the bound: of a step that was too long for the iteration; more with each that was not */
+static const double WORTH_STAGES = 2;         /* times the bound: a step so much longer is worth a J for each stage */
+static const double LONGER = 2;               /* times the step before: where its polynomial still leads near enough to solve with J there */
+static const double SHORTER = 0.5;              /* the bound, of a step that was too long for the iteration with one J, */
+static const double GROWTH = 0.005;             /* and by how much more it grows with each step after that */
 static const double STALLED = 0.5;              /* of the change before: an iteration that changes more has stalled */
 
 typedef struct radau {
@@ -57,11 +50,13 @@ typedef struct radau {
     double *error_scale;    /* (size,): what the error of the step is measured by, */
     int has_scale;          /* if it is: values within a step, which are not, are solved to rounding, as they have to be the same whenever asked for */
     zd_radau_matrices matrices;
+    zd_radau_stages stages;
+    int by_stages;          /* whether the step last made was solved with a J for each of them */
     double *seen;           /* (size,): the differences' scale */
     double t0, h;           /* of the step last made, from its beginning */
     double before_h;        /* 0: there was no step before */
     double contraction;     /* what the last iteration left of the change before */
-    double bound;           /* s: of steps, from one that was too long for the iteration, and growing since; 0: there was none */
+    double bound;           /* s: of steps with one J, from one that was too long for the iteration, and growing since; 0: there was none */
     int steps_since;        /* that */
     double norm_before;     /* of the iteration before, in this step; 0: there was none */
     int iterations;
@@ -91,17 +86,11 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .stage = zd_take_doubles(arena, n),
         .error_scale = zd_take_doubles(arena, n),
         .matrices = zd_radau_matrices_take(arena, size),
+        .stages = zd_radau_stages_take(arena, size),
         .contraction = 1,
     };
     self.seen = self.matrices.differences.scale;
     return zd_take_filled(arena, &self, sizeof self);
-}
-
-/* to (STAGES, n) <- matrix (STAGES, STAGES) times from */
-static void transform(int n, const double matrix[STAGES][STAGES], const double *from, double *to)
-{
-    for (int s = 0; s < STAGES; s++)
-        for (int i = 0; i < n; i++) to[s * n + i] = matrix[s][0] * from[i] + matrix[s][1] * from[n + i] + matrix[s][2] * from[2 * n + i];
 }
 
 /* ---- Newton's iteration ---- */
@@ -142,11 +131,15 @@ static void solve(radau *self)
     const int n = self->size;
     const double h = self->h, *w = self->w;
     double *x = self->change;
-    transform(n, T_inverse, self->f, x);
+    zd_radau_transform(n, zd_radau_T_inverse, self->f, x);
     for (int i = 0; i < n; i++) {
-        x[i] -= GAMMA / h * w[i];
-        x[n + i] -= (ALPHA * w[n + i] + BETA * w[2 * n + i]) / h;
-        x[2 * n + i] -= (ALPHA * w[2 * n + i] - BETA * w[n + i]) / h;
+        x[i] -= ZD_RADAU_GAMMA / h * w[i];
+        x[n + i] -= (ZD_RADAU_ALPHA * w[n + i] + ZD_RADAU_BETA * w[2 * n + i]) / h;
+        x[2 * n + i] -= (ZD_RADAU_ALPHA * w[2 * n + i] - ZD_RADAU_BETA * w[n + i]) / h;
+    }
+    if (self->by_stages) {
+        zd_radau_stages_solve(&self->stages, &self->matrices, x);
+        return;
     }
     zd_radau_solve_real(&self->matrices, x);
     zd_radau_solve_complex(&self->matrices, x + n, x + 2 * n);
@@ -156,7 +149,7 @@ static int add_change(void *context)
 {
     radau *self = context;
     for (int i = 0; i < STAGES * self->size; i++) self->w[i] += self->change[i];
-    transform(self->size, T, self->w, self->z);
+    zd_radau_transform(self->size, zd_radau_T, self->w, self->z);
     return ZD_DONE;
 }
 
@@ -203,7 +196,7 @@ static int iterate(radau *self, zd_statistics *statistics)
     const zd_newton newton = {residual, add_change, 1, MOST_ITERATIONS, 0, NULL};
     int iterations;
     double left;
-    transform(self->size, T_inverse, self->z, self->w);
+    zd_radau_transform(self->size, zd_radau_T_inverse, self->z, self->w);
     self->norm_before = 0;
     self->iterations = 0;
     self->contraction = power(zd_root(fmax(self->contraction, 0x1p-52), 5), 4);     /* it may have changed since */
@@ -214,19 +207,6 @@ static int iterate(radau *self, zd_statistics *statistics)
 
 /* ---- a step ---- */
 
-/* The value at a share of the step of the polynomial through 0 and the three stages z */
-static double value_between(const double *z, int n, double x)
-{
-    double sum = 0;
-    for (int i = 0; i < STAGES; i++) {
-        double basis = x / c[i];
-        for (int j = 0; j < STAGES; j++)
-            if (j != i) basis *= (x - c[j]) / (c[i] - c[j]);
-        sum += basis * z[i * n];
-    }
-    return sum;
-}
-
 /* z from where the step before leads, or from nothing */
 static void start(radau *self)
 {
@@ -235,16 +215,16 @@ static void start(radau *self)
     if (self->before_h == 0) return;
     for (int s = 0; s < STAGES; s++)
         for (int i = 0; i < n; i++)
-            self->z[s * n + i] = value_between(self->before + i, n, 1 + c[s] * self->h / self->before_h) - self->before[2 * n + i];
+            self->z[s * n + i] = zd_radau_value_between(self->before + i, n, 1 + c[s] * self->h / self->before_h) - self->before[2 * n + i];
 }
 
 /* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
-static void remember(radau *self, double t, double h, int size)
+static void remember(radau *self, double t, double h, const zd_rate *rate)
 {
-    if (size != self->size) {
-        self->size = size;
+    if (rate->size != self->size || rate->pairs != self->matrices.pairs) {
+        self->size = rate->size;
         self->h = self->before_h = 0;
-        zd_radau_matrices_resize(&self->matrices, size);
+        zd_radau_matrices_resize(&self->matrices, rate->size, rate->pairs);
     }
     const double end = self->t0 + self->h;
     if (self->h != 0 && fabs(t - end) <= ROUNDING * fabs(end)) {
@@ -252,6 +232,7 @@ static void remember(radau *self, double t, double h, int size)
         self->before = self->z;
         self->z = old;
         self->before_h = self->h;
+        if (self->by_stages) zd_radau_stages_give_J(&self->stages, &self->matrices);
     } else if (t != self->t0) self->before_h = 0;
     self->t0 = t;
     self->h = h;
@@ -260,33 +241,64 @@ static void remember(radau *self, double t, double h, int size)
 static int solve_step(radau *self, double *y, int with_new_J, zd_statistics *statistics)
 {
     zd_radau_matrices *matrices = &self->matrices;
+    self->by_stages = 0;
     int status = with_new_J ? zd_radau_make_J(matrices, self->rate, self->t0, self->h, y, self->f0) : ZD_DONE;
     if (with_new_J) self->contraction = 1;
-    if (!status && matrices->h != self->h) status = zd_radau_factor(matrices, self->h);
+    if (!status) status = zd_radau_factor(matrices, self->h);
     if (status) return status;
     start(self);
     return iterate(self, statistics);
 }
 
+static int iterate_by_stages(radau *self, double *y, zd_statistics *statistics)
+{
+    int status = zd_radau_stages_make(&self->stages, &self->matrices, self->rate, self->t0, self->h, y, self->z, self->stage, self->f);
+    self->contraction = 1;
+    return status ? status : iterate(self, statistics);
+}
+
+/* With a J for each stage: where it is thought to be, and where the iteration has led if that does not serve. The estimate of the error has
+ * that of the beginning. */
+static int solve_by_stages(radau *self, double *y, zd_statistics *statistics)
+{
+    zd_radau_matrices *matrices = &self->matrices;
+    self->by_stages = 1;
+    int status = matrices->has_J ? ZD_DONE : zd_radau_make_J(matrices, self->rate, self->t0, self->h, y, self->f0);
+    if (!status) status = zd_radau_factor_real(matrices, self->h);
+    if (status) return status;
+    start(self);
+    status = iterate_by_stages(self, y, statistics);
+    return status == ZD_NO_CONVERGENCE && self->contraction < 1 ? iterate_by_stages(self, y, statistics) : status;
+}
+
+/* Longer steps than the iteration has just been able to solve with one J are solved with that of each stage. */
+static int solve_somehow(radau *self, double *y, zd_statistics *statistics)
+{
+    const int had_J = self->matrices.has_J, has_stages = self->matrices.pairs > 0;
+    if (has_stages && self->bound > 0 && self->h > self->bound) return solve_by_stages(self, y, statistics);
+    int status = solve_step(self, y, !had_J, statistics);
+    if (status && status != ZD_CALLBACK && had_J) status = solve_step(self, y, 1, statistics);
+    if (!status) return ZD_DONE;
+    self->bound = SHORTER * self->h;
+    self->steps_since = 0;
+    return status == ZD_CALLBACK || !has_stages ? status : solve_by_stages(self, y, statistics);
+}
+
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
 {
     radau *self = memory;
-    remember(self, t, h, rate->size);
+    remember(self, t, h, rate);
     self->rate = rate;
     self->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
     self->matrices.differences.least_size = LEAST * zd_max_abs(rate->size, y);
     for (int i = 0; i < rate->size; i++) self->seen[i] = fmax(self->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
-    const int had_J = self->matrices.has_J;
-    status = solve_step(self, y, !had_J, statistics);
-    if (status && status != ZD_CALLBACK && had_J) status = solve_step(self, y, 1, statistics);
+    status = solve_somehow(self, y, statistics);
     self->has_scale = 0;
     self->matrices.has_J = !status && (self->contraction <= SLOW || self->iterations <= 2);
     if (status) {
         self->contraction = 1;
-        self->bound = SHORTER * h;
-        self->steps_since = 0;
         self->h = 0;
         return status == ZD_NO_CONVERGENCE || status == ZD_NOT_FINITE ? ZD_NO_STEP : status;
     }
@@ -341,10 +353,11 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
 }
 
 /* What the iteration contracts by is not known beforehand, as J changes within a step: so it is tried. */
-static double longest(const void *memory)
+static double fit(const void *memory, double h)
 {
     const radau *self = memory;
-    return self->bound > 0 ? self->bound : INFINITY;
+    if (self->bound == 0 || h <= self->bound) return h;
+    return self->matrices.pairs && h > WORTH_STAGES * self->bound ? fmin(h, LONGER * self->h) : self->bound;
 }
 
 /* The polynomial that the stages lie on */
@@ -357,7 +370,7 @@ static int spread(void *self, const zd_rate *rate, double t, double h, const dou
 static void between(const void *memory, double share, const double *y0, double *y)
 {
     const radau *self = memory;
-    for (int i = 0; i < self->size; i++) y[i] = y0[i] + value_between(self->z + i, self->size, share);
+    for (int i = 0; i < self->size; i++) y[i] = y0[i] + zd_radau_value_between(self->z + i, self->size, share);
 }
 
 const zd_integrator zd_radau = {
@@ -380,7 +393,7 @@ const zd_integrator zd_radau = {
     .step = step,
     .weigh = weigh,
     .error = error,
-    .longest = longest,
+    .fit = fit,
     .spread = spread,
     .between = between,
 };

@@ -5,6 +5,7 @@
 #include "../linalg/complex_lu.h"
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
+#include "radau_pairs.h"
 
 zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size)
 {
@@ -12,6 +13,8 @@ zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size)
     return (zd_radau_matrices){
         .size = size,
         .differences = zd_differences_take(arena, size),
+        .inverse_unit = zd_take_doubles(arena, n),
+        .inverse_slope = zd_take_doubles(arena, n),
         .J = zd_take_doubles(arena, n * n),
         .real = zd_take_doubles(arena, n * n),
         .re = zd_take_doubles(arena, n * n),
@@ -19,36 +22,48 @@ zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size)
         .weight = zd_take_doubles(arena, n),
         .real_order = zd_take(arena, n * sizeof(int)),
         .complex_order = zd_take(arena, n * sizeof(int)),
+        .scaled = zd_take_doubles(arena, n),
+        .right = zd_take_doubles(arena, n),
     };
 }
 
-void zd_radau_matrices_resize(zd_radau_matrices *self, int size)
+void zd_radau_matrices_resize(zd_radau_matrices *self, int size, int pairs)
 {
     self->size = size;
+    self->pairs = pairs;
     self->has_J = 0;
-    self->h = 0;
+    self->h = self->complex_h = 0;
     zd_differences_resize(&self->differences, size);
 }
 
 /* From the rate's own derivatives, where they are known. */
-static int take_J(zd_radau_matrices *self, const zd_rate *rate, double t, const double *y)
+static int take_J(const zd_radau_matrices *self, const zd_rate *rate, double t, const double *y, double *J)
 {
     const int n = self->size;
     const double *unit = self->differences.unit;
-    int status = rate->jacobian(rate->context, t, y, self->J);
+    int status = rate->jacobian(rate->context, t, y, J);
     if (status) return status;
-    zd_differences_choose_units(&self->differences);
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) self->J[i * n + j] *= unit[j] / unit[i];
+        for (int j = 0; j < n; j++) J[i * n + j] *= unit[j] * self->inverse_unit[i];
     return ZD_DONE;
 }
 
-int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, const double *f)
+int zd_radau_evaluate_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f, int knows_f, double *J)
 {
-    int status = rate->jacobian ? take_J(self, rate, t, y) : ZD_SINGULAR;
-    if (status) status = zd_differences_make(&self->differences, rate, t, h, 1, y, f, self->J);
+    int status = rate->jacobian ? take_J(self, rate, t, y, J) : ZD_SINGULAR;
+    if (!status) return ZD_DONE;
+    status = knows_f ? ZD_DONE : rate->evaluate(rate->context, t, y, f);
+    return status ? status : zd_differences_make(&self->differences, rate, t, h, 1, y, f, J);
+}
+
+int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f)
+{
+    zd_differences_choose_units(&self->differences);
+    for (int i = 0; i < self->size; i++) self->inverse_unit[i] = 1 / self->differences.unit[i];
+    if (self->pairs) zd_radau_pairs_measure(self);
+    int status = zd_radau_evaluate_J(self, rate, t, h, y, f, 1, self->J);
     self->has_J = !status;
-    self->h = 0;
+    self->h = self->complex_h = 0;
     return status;
 }
 
@@ -60,43 +75,82 @@ static double size_of_row(const zd_radau_matrices *self, int i, double h)
     return ldexp(1, exponent);
 }
 
-int zd_radau_factor(zd_radau_matrices *self, double h)
+static int factor_real(zd_radau_matrices *self, double h)
 {
     const int n = self->size;
     for (int i = 0; i < n; i++) {
-        const double share = 1 / size_of_row(self, i, h);
+        const double share = self->weight[i] = 1 / size_of_row(self, i, h);
+        for (int j = 0; j < n; j++) self->real[i * n + j] = -self->J[i * n + j] * share;
+        self->real[i * n + i] += ZD_RADAU_GAMMA / h * share;
+    }
+    return zd_lu_factor(n, self->real, self->real_order) == n;
+}
+
+/* After the real one, whose rows are multiplied by the same. */
+static int factor_complex(zd_radau_matrices *self, double h)
+{
+    const int n = self->size;
+    for (int i = 0; i < n; i++) {
+        const double share = self->weight[i];
         for (int j = 0; j < n; j++) {
-            self->real[i * n + j] = self->re[i * n + j] = -self->J[i * n + j] * share;
+            self->re[i * n + j] = -self->J[i * n + j] * share;
             self->im[i * n + j] = 0;
         }
-        self->real[i * n + i] += ZD_RADAU_GAMMA / h * share;
         self->re[i * n + i] += ZD_RADAU_ALPHA / h * share;
         self->im[i * n + i] = -ZD_RADAU_BETA / h * share;
-        self->weight[i] = share / self->differences.unit[i];
     }
-    const int is_factored = zd_lu_factor(n, self->real, self->real_order) == n
-                         && zd_complex_lu_factor(n, self->re, self->im, self->complex_order) == n;
+    return zd_complex_lu_factor(n, self->re, self->im, self->complex_order) == n;
+}
+
+int zd_radau_factor_real(zd_radau_matrices *self, double h)
+{
+    if (self->h == h) return ZD_DONE;
+    const int is_factored = self->pairs ? zd_radau_pairs_factor_real(self, h) : factor_real(self, h);
     self->h = is_factored ? h : 0;
+    self->complex_h = 0;
     return is_factored ? ZD_DONE : ZD_NO_STEP;
 }
 
-static void multiply(int n, const double *by, double *x)
+int zd_radau_factor(zd_radau_matrices *self, double h)
 {
-    for (int i = 0; i < n; i++) x[i] *= by[i];
+    int status = zd_radau_factor_real(self, h);
+    if (status || self->complex_h == h) return status;
+    const int is_factored = self->pairs ? zd_radau_pairs_factor_complex(self, h) : factor_complex(self, h);
+    self->complex_h = is_factored ? h : 0;
+    return is_factored ? ZD_DONE : ZD_NO_STEP;
+}
+
+/* x <- unit times solution of what has been multiplied by weight and divided by unit */
+static void weigh(const zd_radau_matrices *self, double *x)
+{
+    for (int i = 0; i < self->size; i++) x[i] *= self->weight[i] * self->inverse_unit[i];
+}
+
+static void give_units(const zd_radau_matrices *self, double *x)
+{
+    for (int i = 0; i < self->size; i++) x[i] *= self->differences.unit[i];
 }
 
 void zd_radau_solve_real(const zd_radau_matrices *self, double *x)
 {
-    multiply(self->size, self->weight, x);
+    if (self->pairs) {
+        zd_radau_pairs_solve_real(self, x);
+        return;
+    }
+    weigh(self, x);
     zd_lu_solve(self->size, self->real, self->real_order, x);
-    multiply(self->size, self->differences.unit, x);
+    give_units(self, x);
 }
 
 void zd_radau_solve_complex(const zd_radau_matrices *self, double *x, double *y)
 {
-    multiply(self->size, self->weight, x);
-    multiply(self->size, self->weight, y);
+    if (self->pairs) {
+        zd_radau_pairs_solve_complex(self, x, y);
+        return;
+    }
+    weigh(self, x);
+    weigh(self, y);
     zd_complex_lu_solve(self->size, self->re, self->im, self->complex_order, x, y);
-    multiply(self->size, self->differences.unit, x);
-    multiply(self->size, self->differences.unit, y);
+    give_units(self, x);
+    give_units(self, y);
 }

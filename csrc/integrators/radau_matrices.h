@@ -3,28 +3,31 @@
 #define ZD_RADAU_MATRICES_H
 
 #include "differences.h"
-
-/* The eigenvalues of A^-1: Lambda = [[gamma, 0, 0], [0, alpha, beta], [0, -beta, alpha]] */
-#define ZD_RADAU_GAMMA 3.6378342527444957322
-#define ZD_RADAU_ALPHA 2.6810828736277521339
-#define ZD_RADAU_BETA 3.0504301992474105694
+#include "radau_coefficients.h"
 
 typedef struct zd_radau_matrices {
-    int size;
+    int size, pairs;        /* of the rate */
     zd_differences differences;
+    double *inverse_unit;   /* (size,): of the differences' unit, */
+    double *inverse_slope;  /* (pairs,): in which dv/d(pdot) is this */
     double *J;              /* (size, size): df/dy in the units of the differences */
-    double *real, *re, *im; /* (size, size): gamma / h - J, (alpha - i beta) / h - J in these units, factored, */
+    double *real, *re, *im; /* gamma / h - J, (alpha - i beta) / h - J in these units, factored: (size, size), or as radau_pairs.c has it, */
     double *weight;         /* (size,): after each row has been multiplied by this and its unit */
     int *real_order, *complex_order;
-    double h;               /* that they are factored for; 0: the factors are of another J */
+    double *scaled, *right; /* (size,): working space */
+    double h, complex_h;    /* that the real ones and the others are factored for; 0: the factors are of another J */
     int has_J;
 } zd_radau_matrices;
 
 zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size);
-void zd_radau_matrices_resize(zd_radau_matrices *self, int size);
-/* J at (t, y), where f is known: the rate's own, or by differences; y is as it was afterwards. */
-int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, const double *f);
+void zd_radau_matrices_resize(zd_radau_matrices *self, int size, int pairs);
+/* J at (t, y): the rate's own, or by differences, where f is known or, with knows_f 0, evaluated; y is as it was afterwards. In the units
+ * that were chosen last. */
+int zd_radau_evaluate_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f, int knows_f, double *J);
+/* The same for self->J, in units that are chosen for it. */
+int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f);
 /* For steps of size h; ZD_NO_STEP where a matrix is singular. */
+int zd_radau_factor_real(zd_radau_matrices *self, double h);
 int zd_radau_factor(zd_radau_matrices *self, double h);
 /* x (size,) <- (gamma / h - J)^-1 x */
 void zd_radau_solve_real(const zd_radau_matrices *self, double *x);

@@ -67,6 +67,7 @@ static int rate_at_end(trapezoidal *self, double *f)
 static int factor_matrix(trapezoidal *self)
 {
     const int n = self->size;
+    zd_differences_choose_units(&self->differences);
     int status = zd_differences_make(&self->differences, self->rate, self->t1, self->h, -0.5 * self->h, self->y1, self->f1, self->J);
     if (status) return status;
     for (int i = 0; i < n; i++) self->J[i * n + i] += 1;

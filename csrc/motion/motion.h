@@ -21,6 +21,7 @@ typedef struct zd_rate {
     int (*evaluate)(void *context, double t, const double *y, double *ydot);
     void *context;
     int size;               /* of the state */
+    int pairs;              /* n where it begins with p (n,) and v (n,), pdot = v, and nothing depends on what follows these; else 0 */
     /* Where the state is (p, v) and nothing but a direct function is behind it, that function; else NULL. */
     const zd_elimination *direct;
     const zd_system *system;
@@ -133,6 +134,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Gives the motion the state (rate.size,), whose sizes are known once all corrections are. */
 void zd_motion_attach(zd_motion *motion, double *state);
+/* Once the formulation and all corrections are there: see zd_rate. */
+void zd_motion_count_pairs(zd_motion *motion);
 
 /* solve.c */
 int zd_motion_factor_anew(zd_motion *motion);

@@ -46,9 +46,21 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
     zd_rank *rank = take_rank(motion, arena, independent);
     if (motion->point) motion->point->rank = rank;
-    motion->rate = (zd_rate){zd_motion_rate, motion, motion->formulation_size + zd_has_input(system), NULL, &motion->system, NULL,
-                             system->jacobian ? zd_motion_jacobian : NULL};
+    motion->rate = (zd_rate){
+        .evaluate = zd_motion_rate,
+        .context = motion,
+        .size = motion->formulation_size + zd_has_input(system),
+        .system = &motion->system,
+        .jacobian = system->jacobian ? zd_motion_jacobian : NULL,
+    };
+    zd_motion_count_pairs(motion);
     if (system->jacobian) motion->scratch = zd_take_doubles(arena, (size_t)system->jacobian->scratch);
+}
+
+void zd_motion_count_pairs(zd_motion *motion)
+{
+    const int are_pairs = !motion->formulation->settle && !(motion->system.provides & ZD_A) && !motion->corrections_size;
+    motion->rate.pairs = are_pairs ? motion->system.nv : 0;
 }
 
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)
@@ -63,6 +75,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
     motion->is_stabilized |= correction->stabilize != NULL;
     motion->corrections_size += size;
     motion->rate.size += size;
+    zd_motion_count_pairs(motion);
 }
 
 void zd_motion_attach(zd_motion *motion, double *state)

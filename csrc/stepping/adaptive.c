@@ -176,8 +176,8 @@ int zd_adaptive_step(zd_course *course)
         }
         if (!status && norm <= 1) {
             course->control.h = h * fmin(largest, factor(course, norm));
-            if (course->stepper->integrator->longest)
-                course->control.h = fmin(course->control.h, course->stepper->integrator->longest(course->stepper->memory));
+            if (course->stepper->integrator->fit)
+                course->control.h = course->stepper->integrator->fit(course->stepper->memory, course->control.h);
             zd_pace_step(&course->control.pace, t1);
             return ZD_DONE;
         }

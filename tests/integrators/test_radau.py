@@ -68,6 +68,25 @@ def test_stiff_bushings(formulation):
     assert np.abs(sol.position_violation).max() <= 1e-12
 
 
+def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
+    """Beside the same crank with a pin that gives nothing. With one Jacobian for all stages, steps would go as stiffness^(-1/4)."""
+    m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0.1, 0), mass=0.5)
+    rod = m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
+    piston = m.particle("piston", 0.4, at=(0.4, 0))
+    for name, a, b in (("main", m.ground, crank.start), ("pin", crank.end, rod.start), ("wrist", rod.end, piston)):
+        m.revolute(name, a, b)
+    m.slot("cylinder", m.ground, piston, axis=(1, 0))
+    options = {"rtol": 1e-5, "atol": 1e-5, "t_eval": np.linspace(0, 0.3, 4)}
+    exact = zd.simulate(m.system(), 0.3, integrator="dop853", **options)
+    steps = []
+    for stiffness in (1e8, 1e10):
+        sol = zd.simulate(bushed_crank(stiffness, stiffness / 1e4), 0.3, integrator="radau", **options)
+        assert np.abs(sol["crank.angle"] - exact["crank.angle"]).max() < 1e-3
+        steps.append(sol.stats["steps"])
+    assert steps[1] < 2 * steps[0] < 400
+
+
 @pytest.mark.parametrize("omega", [1e2, 1e5, 1e8])
 def test_steps_do_not_shrink_as_a_system_becomes_stiffer(omega):
     """A slow mass, and a light one that follows it by a hard spring and damper: beside SciPy's Radau, which shares no code."""
