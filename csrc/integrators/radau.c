@@ -16,7 +16,7 @@
 #include "../linalg/newton.h"
 #include "../linalg/norms.h"
 #include "../linalg/roots.h"
-#include "radau_matrices.h"
+#include "radau_factors.h"
 #include "radau_stages.h"
 
 enum {
@@ -30,12 +30,12 @@ static const double *const c = zd_radau_c;
 static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, -1.0 / 3};
 
 static const double SLOW = 0.001;               /* J is made anew for the next step when an iteration has left more of the one before */
-static const double SMALL = 0.0001;              /* of the error that is allowed: what the iteration may leave, which adds up over steps */
+static const double SMALL = 0.0001;             /* of the error that is allowed: what the iteration may leave, which adds up over steps */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
 static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding */
 static const double LEAST = 1e-3;               /* of the largest entry of the state: the others are varied by no less */
-static const double WORTH_STAGES = 2;         /* times the bound: a step so much longer is worth a J for each stage */
-static const double LONGER = 2;               /* times the step before: where its polynomial still leads near enough to solve with J there */
+static const double WORTH_STAGES = 2;           /* times the bound: a step so much longer is worth a J for each stage */
+static const double LONGER = 2;                 /* times the step before: where its polynomial still leads near enough to solve with J there */
 static const double SHORTER = 0.5;              /* the bound, of a step that was too long for the iteration with one J, */
 static const double GROWTH = 0.005;             /* and by how much more it grows with each step after that */
 static const double STALLED = 0.5;              /* of the change before: an iteration that changes more has stalled */

@@ -1,4 +1,4 @@
-/* The matrices of Newton's iteration in radau.c: J = df/dy, and gamma / h - J and (alpha - i beta) / h - J, factored. */
+/* What Newton's iteration in radau.c keeps: J = df/dy, and the factors of gamma / h - J and (alpha - i beta) / h - J. */
 #ifndef ZD_RADAU_MATRICES_H
 #define ZD_RADAU_MATRICES_H
 
@@ -26,12 +26,5 @@ void zd_radau_matrices_resize(zd_radau_matrices *self, int size, int pairs);
 int zd_radau_evaluate_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f, int knows_f, double *J);
 /* The same for self->J, in units that are chosen for it. */
 int zd_radau_make_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f);
-/* For steps of size h; ZD_NO_STEP where a matrix is singular. */
-int zd_radau_factor_real(zd_radau_matrices *self, double h);
-int zd_radau_factor(zd_radau_matrices *self, double h);
-/* x (size,) <- (gamma / h - J)^-1 x */
-void zd_radau_solve_real(const zd_radau_matrices *self, double *x);
-/* x + i y (size,) <- ((alpha - i beta) / h - J)^-1 (x + i y) */
-void zd_radau_solve_complex(const zd_radau_matrices *self, double *x, double *y);
 
 #endif

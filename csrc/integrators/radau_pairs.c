@@ -25,13 +25,6 @@ static double size_of_row(const zd_radau_matrices *self, int i, double mu)
     return ldexp(1, exponent);
 }
 
-void zd_radau_pairs_measure(zd_radau_matrices *self)
-{
-    const int n = self->pairs;
-    const double *unit = self->differences.unit;
-    for (int i = 0; i < n; i++) self->inverse_slope[i] = unit[i] / unit[n + i];
-}
-
 int zd_radau_pairs_factor_real(zd_radau_matrices *self, double h)
 {
     const int n = self->pairs;

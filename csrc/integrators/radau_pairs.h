@@ -4,8 +4,6 @@
 
 #include "radau_matrices.h"
 
-/* By how much pdot changes with v, once the units are chosen. */
-void zd_radau_pairs_measure(zd_radau_matrices *self);
 /* 0 where the matrix is singular. */
 int zd_radau_pairs_factor_real(zd_radau_matrices *self, double h);
 int zd_radau_pairs_factor_complex(zd_radau_matrices *self, double h);

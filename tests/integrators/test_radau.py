@@ -69,7 +69,7 @@ def test_stiff_bushings(formulation):
 
 
 def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
-    """Beside the same crank with a pin that gives nothing. With one Jacobian for all stages, steps would go as stiffness^(-1/4)."""
+    """Beside the same crank with a pin that gives nothing. With one J for all stages, steps would go as stiffness^(-1/4)."""
     m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
     crank = m.link("crank", (0, 0), (0.1, 0), mass=0.5)
     rod = m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
