@@ -30,40 +30,67 @@ ZD_INLINE double zd_added(int i, const int size, const int terms, const double *
     return y[i] + h * sum;
 }
 
-ZD_INLINE void zd_add_stages(const int size, const int terms, const double *weight, double h, const double *restrict k,
-                             const double *restrict y, double *restrict to)
+/* n of the entries, the first being `begin`, also to `copy` */
+ZD_INLINE void zd_add_stages(const int begin, const int n, const int size, const int terms, const double *weight, double h, const double *k,
+                             const double *y, double *to, double *copy)
 {
-    ZD_UNROLL
-    for (int i = 0; i + 1 < size; i += 2)
-        zd_store_pair(zd_added(i, size, terms, weight, h, k, y), zd_added(i + 1, size, terms, weight, h, k, y), to + i);
-    if (size % 2) to[size - 1] = zd_added(size - 1, size, terms, weight, h, k, y);
+    for (int i = begin; i + 1 < begin + n; i += 2) {
+        const double a = zd_added(i, size, terms, weight, h, k, y), b = zd_added(i + 1, size, terms, weight, h, k, y);
+        zd_store_pair(a, b, to + i);
+        if (copy) zd_store_pair(a, b, copy + i - begin);
+    }
+    if (n % 2 == 0) return;
+    to[begin + n - 1] = zd_added(begin + n - 1, size, terms, weight, h, k, y);
+    if (copy) copy[n - 1] = to[begin + n - 1];
 }
 
-/* Of n entries: how they change in the step, and the stages that the polynomial has besides, behind the rate at the end. */
-ZD_INLINE int zd_spread_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
-                              const double *y0, const double *y1)
+/* The stages that the polynomial has besides, behind the rate at the end: of n coordinates whose rates are the n velocities, and of these by
+ * a direct function alone; and of any state. */
+ZD_INLINE int zd_spread_directly(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
+                                 const double *y0)
+{
+    const int first = T->stages + 1, all = first + T->more, size = 2 * n;
+    double *stage = self->stage;
+    int status = ZD_DONE;
+    ZD_UNROLL
+    for (int i = 0; i < T->more; i++) {
+        double *rates = self->k + (first + i) * size;
+        const double *weight = T->more_a + i * all, of_stage = t + T->more_c[i] * h;
+        if (status) return ZD_CALLBACK;
+        zd_add_stages(0, n, size, first + i, weight, h, self->k, y0, stage, NULL);
+        zd_add_stages(n, n, size, first + i, weight, h, self->k, y0, stage, rates);
+        status = rate->direct->accelerate(rate->system->data, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
+    }
+    return status ? ZD_CALLBACK : ZD_DONE;
+}
+
+ZD_INLINE int zd_spread_any(const int size, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
+                            const double *y0)
 {
     const int first = T->stages + 1, all = first + T->more;
-    double *k = self->k;
-    int status = zd_rate_of_beginning(rate, t + h, y1, k + T->stages * size);
+    int status = ZD_DONE;
     ZD_UNROLL
     for (int i = 0; i < T->more; i++) {
         if (status) return status;
-        zd_add_stages(size, first + i, T->more_a + i * all, h, k, y0, self->stage);
-        status = zd_rate_of_stage(rate, t + T->more_c[i] * h, self->stage, k + (first + i) * size);
+        zd_add_stages(0, size, size, first + i, T->more_a + i * all, h, self->k, y0, self->stage, NULL);
+        status = zd_rate_of_stage(rate, t + T->more_c[i] * h, self->stage, self->k + (first + i) * size);
     }
-    for (int i = 0; i < size; i++) self->change[i] = y1[i] - y0[i];
     return status;
 }
 
-/* Of three and four coordinates with as many velocities, whose sums are written out; and of any */
+/* Three and four coordinates with as many velocities are those whose sums are written out. */
 ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0,
                                     const double *y1)
 {
+    const int size = self->size, is_plain = rate->direct && !(rate->system->provides & ZD_A);
     self->h = h;
-    return self->size == 6   ? zd_spread_sized(6, T, self, rate, t, h, y0, y1)
-         : self->size == 8   ? zd_spread_sized(8, T, self, rate, t, h, y0, y1)
-                             : zd_spread_sized(self->size, T, self, rate, t, h, y0, y1);
+    for (int i = 0; i < size; i++) self->change[i] = y1[i] - y0[i];
+    int status = zd_rate_of_beginning(rate, t + h, y1, self->k + T->stages * size);
+    return status || !T->more    ? status
+         : is_plain && size == 6 ? zd_spread_directly(3, T, self, rate, t, h, y0)
+         : is_plain && size == 8 ? zd_spread_directly(4, T, self, rate, t, h, y0)
+         : size == 6             ? zd_spread_any(6, T, self, rate, t, h, y0)
+                                 : zd_spread_any(size, T, self, rate, t, h, y0);
 }
 
 /* What h k_j counts for at a share x of the step, (all,) */
@@ -96,7 +123,6 @@ ZD_INLINE void zd_between_sized(const int size, const zd_tableau *T, const zd_ru
     const double z = 1 - x, of_change = x * x * (x + 3 * z);     /* x - x z + 2 x^2 z */
     double weight[ZD_MOST_STAGES];
     zd_weigh_stages(T, self->h, x, weight);
-    ZD_UNROLL
     for (int i = 0; i + 1 < size; i += 2)
         zd_store_pair(zd_value_between(i, size, T, self, of_change, weight, y0), zd_value_between(i + 1, size, T, self, of_change, weight, y0), y + i);
     if (size % 2) y[size - 1] = zd_value_between(size - 1, size, T, self, of_change, weight, y0);

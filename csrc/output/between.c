@@ -77,9 +77,10 @@ static int leave(zd_output *self, int is_end)
     self->is_away = 1;
     self->is_spread = self->has_polynomial && !is_end && zd_stepper_may_spread(stepper, self->before.t);
     self->is_short = self->is_spread && zd_short_may_stay(stepper);
-    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);
-    else zd_output_keep_end(self);
-    return self->is_spread ? zd_stepper_spread(stepper) : ZD_DONE;
+    if (!self->is_short) zd_output_keep_end(self);
+    const int status = self->is_spread ? zd_stepper_spread(stepper) : ZD_DONE;
+    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
+    return status;
 }
 
 static int come_back(zd_output *self)

@@ -87,8 +87,10 @@ int zd_recorder_add(zd_recorder *self, zd_record *record)
     zd_motion *motion = self->motion;
     int64_t row = record->rows;
     zd_point *point = motion->point;
-    int status = zd_motion_accelerate(motion);
-    if (!status) status = zd_point_need(point, self->needs);
+    /* What is wanted here besides comes in one evaluation with what the acceleration needs. */
+    const int more = (point->known & ZD_ACCELERATED) || zd_is_direct(motion) ? 0 : motion->acceleration_needs;
+    int status = zd_point_need(point, self->needs | more);
+    if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = record_constraints(motion, record, row);
     if (!status) status = record_energy(motion, record, row);
     if (!status && self->outputs) status = record_outputs(self, record, row);

@@ -85,42 +85,39 @@ int zd_short_land_between(zd_stepper *stepper, double t, double *y)
     return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t, y);
 }
 
-ZD_INLINE void copy_rates(const int n, int rows, const zd_rates_there *from, const zd_rates_there *to)
+/* What is known at the end changes places with memory for what is known between: a copy would take as long as a row of a table. */
+static void exchange(double **a, double **b)
 {
-    zd_copy(n, from->vdot, to->vdot);
-    zd_copy(n, from->pivots, to->pivots);
-    for (int k = 0; k < rows; k++) to->lambda[k] = from->lambda[k];
+    double *kept = *a;
+    *a = *b;
+    *b = kept;
 }
 
-static zd_rates_there rates_of(const zd_motion *motion)
+static void exchange_rates(zd_motion *motion, zd_rates_there *rates)
 {
-    const zd_point *point = motion->point;
-    return (zd_rates_there){.vdot = point->vdot, .lambda = point->lambda, .pivots = motion->road.pivots};
+    exchange(&motion->point->vdot, &rates->vdot);
+    exchange(&motion->point->lambda, &rates->lambda);
+    exchange(&motion->road.pivots, &rates->pivots);
 }
 
 void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates)
 {
-    const zd_motion *motion = stepper->motion;
-    const zd_rates_there here = rates_of(motion);
-    rates->smallest = motion->road.smallest;
-    ZD_SIZED(copy_rates, motion->system.nv, zd_constraints(&motion->system), &here, rates);
+    rates->smallest = stepper->motion->road.smallest;
+    exchange_rates(stepper->motion, rates);
 }
 
-ZD_INLINE void return_to_end(const int n, zd_stepper *stepper, const zd_rates_there *rates)
+ZD_INLINE void return_to_end(const int n, const double *y, const zd_point *point)
 {
-    zd_motion *motion = stepper->motion;
-    zd_point *point = motion->point;
-    const zd_rates_there here = rates_of(motion);
-    zd_copy(n, stepper->y, point->p);
-    zd_copy(n, stepper->y + n, point->v);
-    copy_rates(n, zd_constraints(&motion->system), rates, &here);
+    zd_copy_pairs(n, y, point->p);
+    zd_copy_pairs(n, y + n, point->v);
 }
 
-void zd_short_return_to_end(zd_stepper *stepper, double t, const zd_rates_there *rates)
+void zd_short_return_to_end(zd_stepper *stepper, double t, zd_rates_there *rates)
 {
     zd_motion *motion = stepper->motion;
     motion->point->t = stepper->t = t;
     motion->point->known = ZD_ACCELERATED;
     motion->road.smallest = rates->smallest;
-    ZD_SIZED(return_to_end, motion->system.nv, stepper, rates);
+    exchange_rates(motion, rates);
+    ZD_SIZED(return_to_end, motion->system.nv, stepper->y, motion->point);
 }

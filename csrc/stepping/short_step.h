@@ -22,6 +22,6 @@ static inline int zd_short_may_stay(const zd_stepper *stepper)
 /* The point to where a state y of such a step is, between ends that are believed; and back to the end, with what is kept there. */
 int zd_short_land_between(zd_stepper *stepper, double t, double *y);
 void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates);
-void zd_short_return_to_end(zd_stepper *stepper, double t, const zd_rates_there *rates);
+void zd_short_return_to_end(zd_stepper *stepper, double t, zd_rates_there *rates);
 
 #endif
