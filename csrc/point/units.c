@@ -12,11 +12,19 @@
 #include <math.h>
 
 #include "../linalg/norms.h"
+#include "../linalg/small.h"
 #include "matrices.h"
 
 static const double NO_ROW = 0x1p-40;   /* of the largest: so little of a row is rounding */
 
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[i]; }
+
+static int has_lengths(const zd_system *system)
+{
+    int any = 0;
+    for (int i = 0; system->lengths && i < system->nq + system->nv; i++) any |= system->lengths[i];
+    return any;
+}
 
 /* The lever arm of a row: its largest entry for an angle, over the largest for a length */
 static double lever(const zd_point *point, int k)
@@ -52,28 +60,49 @@ static void settle_sizes(int m, double *size, double *inverse_size)
     }
 }
 
+static void set_units(zd_point *point, double length)
+{
+    const zd_system *system = point->system;
+    const double inverse = 1 / length;
+    for (int i = 0; i < system->nq; i++) point->inverse_unit_p[i] = is_length(system, i) ? inverse : 1;
+    for (int i = 0; i < system->nv; i++) {
+        const int has_length = is_length(system, system->nq + i);
+        point->unit[i] = has_length ? length : 1;
+        point->inverse_unit[i] = has_length ? inverse : 1;
+    }
+}
+
+ZD_INLINE double largest_share(const int n, const double *row, const double *unit)
+{
+    double largest = 0;
+    for (int i = 0; i < n; i++) {
+        const double share = fabs(row[i]) * unit[i];
+        largest = share > largest ? share : largest;
+    }
+    return largest;
+}
+
+static double size_of_row(const zd_point *point, int k)
+{
+    const int nv = point->system->nv;
+    if (!point->layout) return ZD_SIZED(largest_share, nv, point->terms.C + k * nv, point->unit);
+    zd_row_of_C row = zd_point_row(point, k);
+    double size = 0;
+    for (int j = 0; j < row.count; j++) {
+        const double share = fabs(row.x[j]) * point->unit[zd_column(&row, j)];
+        if (share > size) size = share;
+    }
+    return size;
+}
+
 int zd_point_measure(zd_point *point)
 {
     const zd_system *system = point->system;
-    int nv = system->nv;
     if (point->measured) return ZD_DONE;
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
-    double length = system->lengths ? length_of(point) : 1;
-    for (int i = 0; i < system->nq; i++) point->inverse_unit_p[i] = 1 / (is_length(system, i) ? length : 1);
-    for (int i = 0; i < nv; i++) {
-        point->unit[i] = is_length(system, system->nq + i) ? length : 1;
-        point->inverse_unit[i] = 1 / point->unit[i];
-    }
-    for (int k = 0; k < zd_constraints(system); k++) {
-        zd_row_of_C row = zd_point_row(point, k);
-        double size = 0;
-        for (int j = 0; j < row.count; j++) {
-            const double share = fabs(row.x[j]) * point->unit[zd_column(&row, j)];
-            if (share > size) size = share;
-        }
-        point->size[k] = size;
-    }
+    set_units(point, has_lengths(system) ? length_of(point) : 1);
+    for (int k = 0; k < zd_constraints(system); k++) point->size[k] = size_of_row(point, k);
     settle_sizes(zd_constraints(system), point->size, point->inverse_size);
     point->measured = 1;
     return ZD_DONE;
