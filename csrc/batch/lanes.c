@@ -174,39 +174,39 @@ void zd_lanes_copy(zd_lanes *self, int from, int to)
 
 static void load(const zd_lanes *self, int lane, int64_t count, const double *from, double *to)
 {
-    const int stride = self->lanes;
+    const int64_t stride = self->lanes;
     to += lane;
-    for (int64_t i = 0; i < count; i++) to[i * stride] = from[i];
+    for (; count >= 4; count -= 4, from += 4, to += 4 * stride)
+        to[0] = from[0], to[stride] = from[1], to[2 * stride] = from[2], to[3 * stride] = from[3];
+    for (; count > 0; count--, from++, to += stride) *to = *from;
 }
 
 static void load_state(zd_lanes *self, int lane, const zd_run *run)
 {
     const zd_point *point = run->motion.point;
-    const zd_road *road = &run->motion.road;
-    const double *rate = self->has_A ? road->pdot : point->v;
-    const int64_t to_v = self->nq * self->lanes;
-    double speed = 0;
-    for (int i = 0; i < self->nq; i++) speed += (rate[i] * point->inverse_unit_p[i]) * (rate[i] * point->inverse_unit_p[i]);
     load(self, lane, self->nq, point->p, self->y);
-    load(self, lane, self->nq, point->p, self->y0);
-    load(self, lane, self->nv, point->v, self->y + to_v);
-    load(self, lane, self->nv, point->v, self->y0 + to_v);
-    if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0), zd_lane_set(self, self->y0, self->size - 1, lane, 0);
-    load(self, lane, self->has_A ? self->nq : 0, road->pdot, self->pdot);
+    load(self, lane, self->nv, point->v, self->y + self->nq * self->lanes);
+    if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0);
+}
+
+/* Which order of elimination serves, and the rates of that one, are found for all lanes at once. */
+static void load_road(zd_lanes *self, int lane, zd_run *run)
+{
+    zd_direct_measure(&run->motion);
+    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.road.scale, self->scale);
+    self->order[lane] = NAN;
+}
+
+static void load_pins(zd_lanes *self, int lane, const zd_run *run, const double *data)
+{
+    const zd_point *point = run->motion.point;
+    double speed = 0;
+    for (int i = 0; i < self->nv; i++) speed += (point->v[i] * point->inverse_unit[i]) * (point->v[i] * point->inverse_unit[i]);
     load(self, lane, self->nv, point->vdot, self->vdot);
     self->order[lane] = 0;
     self->speed[lane] = speed;
-}
-
-/* What is known of the direct functions at the start. */
-static void load_road(zd_lanes *self, int lane, zd_run *run)
-{
-    const zd_road *road = &run->motion.road;
-    zd_direct_measure(&run->motion);
-    load(self, lane, (int64_t)self->direct->orders * self->nv, road->scale, self->scale);
-    load(self, lane, self->nv, road->pivots, self->pivots);
-    self->order[lane] = (double)(road->order - road->direct->order);
-    self->power[lane] = road->power;
+    self->pins->is_turned = 0;
+    self->pins->refines[lane] = zd_pins_are_unequal(self->pins->of, data);
 }
 
 /* What stays as it is from the start on: sizes of the rows of C, by which Phi is measured. */
@@ -221,8 +221,10 @@ static void load_units(zd_lanes *self, int lane, const zd_run *run)
 
 static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers)
 {
-    double *const end = numbers + count * self->lanes;
-    for (double *number = numbers + lane; number < end; number += self->lanes) *number = 0;
+    const int64_t stride = self->lanes;
+    numbers += lane;
+    for (; count >= 4; count -= 4, numbers += 4 * stride) numbers[0] = numbers[stride] = numbers[2 * stride] = numbers[3 * stride] = 0;
+    for (; count > 0; count--, numbers += stride) *numbers = 0;
 }
 
 /* When it is first looked closely: see guard.c. */
@@ -240,8 +242,7 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     load_state(self, lane, run);
     load_units(self, lane, run);
     if (self->direct) load_road(self, lane, run);
-    if (self->pins) self->pins->is_turned = 0;
-    if (self->pins) self->pins->refines[lane] = zd_pins_are_unequal(self->pins->of, data);
+    else load_pins(self, lane, run, data);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->course.control.h;

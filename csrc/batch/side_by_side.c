@@ -197,6 +197,12 @@ static int is_over(zd_lane_group *self, int lane)
     return 1;
 }
 
+/* Runs that have just begun, all at once: where one has no order of elimination that serves, it leaves. */
+static void have_rates(zd_lane_group *self)
+{
+    if (self->lanes.direct) self->functions->choose(&self->lanes);
+}
+
 /* Lanes whose runs are over get others; whether one has begun, whose first row may be due. */
 static int replace(zd_lane_group *self)
 {
@@ -208,6 +214,7 @@ static int replace(zd_lane_group *self)
             has_begun |= self->run_of[lane].number >= 0;
         } else if (self->run_of[lane].number >= 0) zd_lane_group_set_next(self, lane);
     }
+    if (has_begun) have_rates(self);
     return has_begun;
 }
 
@@ -231,6 +238,7 @@ static void run_all(zd_lane_group *self)
     self->lanes.of = self;
     if (self->run->motion.corrections > 1) self->lanes.correct_rest = zd_lane_group_correct_rest;
     for (int lane = 0; lane < self->lanes.lanes; lane++) fill(self, lane);
+    have_rates(self);
     while (self->active && !zd_batch_is_stopped(self->batch)) {
         look(self);
         if (self->active) self->functions->advance(&self->lanes);

@@ -253,6 +253,13 @@ static int are_independent(const zd_motion *motion)
     return motion->point->rank->is_large && motion->statistics.smallest_pivot > LEAST;
 }
 
+static int choose_step_directly(zd_run *run, double *states, const double *p0, const double *v0)
+{
+    if (run->settings.step > 0) return ZD_DONE;
+    zd_direct_choose(&run->motion);
+    return zd_is_direct(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
+}
+
 /* What else is checked of a start follows from its pivots being large. */
 static int check_elsewhere(zd_run *run, const workspace *work, const double *p0, const double *v0)
 {
@@ -262,13 +269,9 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (status) return status;
-    if (motion->road.direct) {
-        zd_direct_choose(motion);
-        if (!zd_is_direct(motion)) return ZD_SINGULAR;
-    } else {
-        status = zd_motion_accelerate(motion);
-        if (status || !are_independent(motion)) return ZD_SINGULAR;
-    }
+    if (motion->road.direct) return choose_step_directly(run, work->states, p0, v0);
+    status = zd_motion_accelerate(motion);
+    if (status || !are_independent(motion)) return ZD_SINGULAR;
     status = choose_step(run, work->states, p0, v0);
     return status ? status : zd_motion_accelerate(motion);
 }
