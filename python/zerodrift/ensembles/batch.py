@@ -197,27 +197,35 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
 def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
     """The first of the runs, as many as were made."""
     count = len(doubtful)
-    rows, t = made.rows[:count], made.columns["t"][:count]
-    if plan.t_eval is not None:     # a run that ends between two of these has its end besides
-        rows = np.minimum(rows, len(plan.t_eval))
-        is_other = (rows > 0) & (t[np.arange(count), rows - 1] != plan.t_eval[rows - 1])
-        rows = rows - is_other
-    kept = np.arange(batch.rows) < rows[:, None]
-    longest = t[np.argmax(rows), :rows.max(initial=0)]
-    is_shared = (np.where(kept[:, :len(longest)], t[:, :len(longest)], longest) == longest).all()
+    rows, t, kept = _kept(plan, made.rows[:count], made.columns["t"][:count])
     none = [None] * count
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
     status = made.status[:count]
     ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
-    roads = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE)
-    return Part(rows, longest.copy() if is_shared else t[kept],
-                {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()},
-                ~ended, messages[:count], roads.astype(np.uint8), doubtful, none, t_events, none)
+    roads = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
+    arrays = {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()}
+    return Part(rows, t, arrays, ~ended, messages[:count], roads, doubtful, none, t_events, none)
 
 
-def _rows(column: np.ndarray, kept: np.ndarray) -> np.ndarray:
-    """Of a column (n, rows, ...) the rows that are kept, one run behind another; mostly all are."""
-    return column.reshape(-1, *column.shape[2:]) if kept.all() else column[kept]
+def _kept(plan: Plan, rows: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, slice | np.ndarray]:
+    """How many rows of each run are kept, their times as a part has them, and which of all rows those are."""
+    wanted, count = plan.t_eval, rows[0]
+    times = t[0, :count] if wanted is None else wanted
+    if count == len(times) and (rows == count).all() and (t[:, :count] == times).all():     # as mostly
+        return rows, times.copy(), slice(count)
+    if wanted is not None:      # a run that ends between two of these has its end besides
+        rows = np.minimum(rows, len(wanted))
+        is_other = (rows > 0) & (t[np.arange(len(rows)), rows - 1] != wanted[rows - 1])
+        rows = rows - is_other
+    kept = np.arange(t.shape[1]) < rows[:, None]
+    longest = t[np.argmax(rows), :rows.max(initial=0)]
+    is_shared = (np.where(kept[:, :len(longest)], t[:, :len(longest)], longest) == longest).all()
+    return rows, longest.copy() if is_shared else t[kept], kept
+
+
+def _rows(column: np.ndarray, kept: slice | np.ndarray) -> np.ndarray:
+    """Of a column (n, rows, ...) the rows that are kept, one run behind another."""
+    return np.array(column[:, kept]).reshape(-1, *column.shape[2:]) if isinstance(kept, slice) else column[kept]
 
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:

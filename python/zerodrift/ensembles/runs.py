@@ -190,12 +190,12 @@ class Runs:
             return None, None
         sizes = {"p0": tables.core.nq, "v0": tables.core.nv}
         own = {"p0": tables.p0, "v0": np.zeros(sizes["v0"]) if tables.v0 is None else tables.v0}
-        found = []
-        for name, size in sizes.items():
+        found = [np.empty((last - first, size)) for size in sizes.values()]
+        for name, start in zip(sizes, found, strict=True):
             array = self.states.get(name)
-            given = own[name] if array is None else array[first:last] if array.ndim == 2 else array
-            found.append(np.array(np.broadcast_to(given, (last - first, size)), order="C"))
-        found[0][list(tables.refused)] = np.nan
+            start[:] = own[name] if array is None else array[first:last] if array.ndim == 2 else array
+        if tables.refused:
+            found[0][list(tables.refused)] = np.nan
         return found[0], found[1]
 
     def start(self, run: int, system: BaseSystem, t: float) -> tuple[Any, Any]:
