@@ -4,6 +4,12 @@ eight, and what a run takes beyond its steps.
 Run it with ``python tests/bench/bench_lanes.py``; it needs a C compiler, and heyoka.py for the rows beside that. It writes
 ``results/lanes.csv``. All but the row of threads is processor time of one thread, least of interleaved rounds, of ensembles of
 the paper's four-bar over 8 s whose speeds differ.
+
+What a run takes beyond its steps is what runs of 1, 2, 4 and 8 steps take more than so many steps: the mean of the four. A step
+is that of runs of 72: a call of any of these is over within some milliseconds, so that the least of some in a row is undisturbed;
+in the time of 800 steps the machine may be slow in every round, and what is subtracted would be too much. A straight line through
+the four, extrapolated to no step, would be as steady, but its slope would swallow looks at the first steps, which are closer than
+later ones and belong to what a run costs.
 """
 
 import ctypes
@@ -32,7 +38,8 @@ FLAGS = {"avx2": ["-mavx2", "-mfma", "-DLANES=4"], "avx512": ["-mavx512f", "-mav
 LANES = {"avx2": 4, "avx512": 8}
 RUNS, STEPS, STEP, END = 1024, 800, 0.01, 8.0
 RTOLS = {1e-6: 10.0 ** -np.arange(7, 8.6, 0.25), 1e-9: 10.0 ** -np.arange(10, 12.6, 0.25)}
-ROUNDS = 9
+ROUNDS = 20
+SHORT, MORE, IN_A_ROW = (1, 2, 4, 8), 72, 5     # steps of runs that hardly make any, and of some more; their calls of a round
 FEW, FINE = 32, 1e-3     # runs and steps of many bodies
 BAR = zd.systems.four_bar()
 SPEEDS = np.linspace(0.9, 1.1, RUNS)
@@ -45,6 +52,11 @@ def cpu(call):
         call()
         return time.process_time() - start
     return seconds
+
+
+def least_in_a_row(call):
+    """The least of some calls, of one that takes so little that what was before it counts."""
+    return lambda: min(call() for _ in range(IN_A_ROW))
 
 
 def runs(end=END, count=RUNS, outputs=("alpha1", "alpha2", "alpha3"), **options):
@@ -82,6 +94,12 @@ def floor(folder, unit, *flags):
     return steps
 
 
+def beyond_steps(seconds):
+    """What a run takes beyond its steps, from what all runs take of each number of steps: see above."""
+    step = (seconds[MORE] - seconds[SHORT[-1]]) / (MORE - SHORT[-1])
+    return np.mean([seconds[n] - n * step for n in SHORT]) / RUNS
+
+
 def steps_of_fixed_size():
     """Rows: a step in lanes, by hand and here, and what a run takes besides."""
     with tempfile.TemporaryDirectory() as folder:
@@ -91,24 +109,25 @@ def steps_of_fixed_size():
             calls[unit, "by hand"] = floor(folder, unit)
             calls[unit, "factored by hand"] = floor(folder, unit, "-DSCHUR")
             calls[unit, "here"] = runs(step=STEP, vector=unit)
-            calls[unit, "short"] = runs(4 * STEP, step=STEP, vector=unit)
-            calls[unit, "alone"] = without_lanes(runs(4 * STEP, step=STEP, vector=unit))
-            calls[unit, "alone, long"] = without_lanes(runs(104 * STEP, step=STEP, vector=unit))
+            for n in (*SHORT, MORE):
+                calls[unit, "here", n] = runs(n * STEP, step=STEP, vector=unit)
+                calls[unit, "alone", n] = without_lanes(calls[unit, "here", n])
             for hand in ("by hand", "factored by hand"):
                 apart = np.abs(calls[unit, "here"]()[0].arrays["alpha1"] - calls[unit, hand]()).max()
                 assert apart < 1e-7, apart
-        times = dict(zip(calls, least(ROUNDS, *map(cpu, calls.values())), strict=True))
+        measures = [least_in_a_row(cpu(call)) if len(what) == 3 else cpu(call) for what, call in calls.items()]
+        times = dict(zip(calls, least(ROUNDS, *measures), strict=True))
     for unit in units:
-        hand, factored, here, short, alone, long = (
-            times[unit, what] / RUNS for what in ("by hand", "factored by hand", "here", "short", "alone", "alone, long"))
-        step = (here - short) / (STEPS - 4)
+        hand, factored, step = (times[unit, what] / RUNS for what in ("by hand", "factored by hand", "here"))
+        step = (step - times[unit, "here", SHORT[-1]] / RUNS) / (STEPS - SHORT[-1])
+        lanes, alone = (beyond_steps({n: times[unit, what, n] for n in (*SHORT, MORE)}) for what in ("here", "alone"))
         yield f"{unit}: a corrected step of rk4 by hand in {LANES[unit]} lanes", 1e9 * hand / STEPS, "ns", None
         yield f"{unit}: the same where M and S are factored", 1e9 * factored / STEPS, "ns", None
         yield f"{unit}: the same here", 1e9 * step, "ns", None
         yield f"{unit}: its rate to that where M and S are factored (at least 0.6)", factored / STEPS / step, "", None
         yield f"{unit}: its rate to that by hand", hand / STEPS / step, "", None
-        yield f"{unit}: a run beyond its steps, in lanes", 1e6 * (short - 4 * step), "us", 1
-        yield f"{unit}: a run beyond its steps, by itself", 1e6 * (alone - 4 * (long - alone) / 100), "us", 5
+        yield f"{unit}: a run beyond its steps, in lanes", 1e6 * lanes, "us", 1
+        yield f"{unit}: a run beyond its steps, by itself", 1e6 * alone, "us", 5
 
 
 def error_of(values, exact):
