@@ -117,3 +117,20 @@ def test_functions_without_derivatives_leave_it_to_differences(force, why):
 def test_what_would_be_too_long_is_not_written(monkeypatch):
     monkeypatch.setattr(zd.symbolics.jacobian, "MOST_STATEMENTS", 3)
     assert "more than 3 statements" in swinging()._jacobian.why_none
+
+
+@pytest.mark.parametrize("coordinates", ["joint", "absolute"])
+def test_of_a_mechanism_that_is_written_out(coordinates):
+    """Differences of the rates of its interpreted tables, which share no code with it."""
+    m = zd.Mechanism("four-bar", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0, 0.1), mass=0.5)
+    rod = m.link("rod", (0, 0.1), (0.3, 0.2), mass=0.3)
+    rocker = m.link("rocker", (0.3, 0.2), (0.3, 0), mass=0.4)
+    for name, a, b in (("a", m.ground, crank.start), ("b", crank.end, rod.start), ("c", rod.end, rocker.start)):
+        m.revolute(name, a, b)
+    m.bushing("d", rocker.end, m.ground, stiffness=50.0, damping=2.0)
+    written, tables = (m.system(coordinates, compiled=compiled) for compiled in (True, False))
+    (at, p, v), = consistent_states(tables, count=1)
+    n = tables.nq + tables.nv
+    by_differences = np.transpose([along(lambda y: rate(tables, at, y), (np.concatenate([p, v]), e)) for e in np.eye(n)])
+    assert_close(jacobian_of(written, at, p, v)[:n], by_differences, 10 * tol.DIFFERENCE)

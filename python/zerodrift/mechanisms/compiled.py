@@ -31,6 +31,7 @@ from ..symbolics import cache as kept
 from ..symbolics import compilers, compiling
 from ..symbolics.direct_functions import DIRECT, DirectFunctions
 from ..symbolics.plain import Plain
+from ..symbolics.series_functions import JacobianFunctions
 from . import nodes, space_nodes
 from .law_rows import Laws
 
@@ -93,6 +94,7 @@ class Written:
         if not self.is_compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
                           NoCompilerWarning, stacklevel=6)
+        self._jacobian = JacobianFunctions(self._code.program, self._sizes, DATA)
         self.core = self._compiled(None) if self.is_compiled else core
 
     def _derive(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
@@ -128,7 +130,8 @@ class Written:
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
         return Code(list(terms), not knows_time, constants, scratch, c_source, direct.as_json(lowering, outputs))
 
-    def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline") -> MechanismCore | SpaceCore:
+    def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline",
+                  jacobian: Any = None) -> MechanismCore | SpaceCore:
         """The system with compiled functions."""
         code = self._code
         numbers = np.concatenate([self._values, np.zeros(code.constants + (direct.constants if direct else 0) + 1)])
@@ -142,7 +145,13 @@ class Written:
             libraries[1].zd_symbolic_direct_constants(ctypes.c_void_p(numbers.ctypes.data))
             address = _gateway.address_of(libraries[1], DIRECT)
         numbers.flags.writeable = False
-        return with_functions(self._interpreted, numbers, libraries, terms=terms, direct=address)
+        rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
+        return with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
+
+    def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
+        """The same with the derivatives of its rates for a vector unit, where there are any."""
+        library = self._jacobian.library(vector) if self.is_compiled else None
+        return self._compiled(None, vector, library) if library else self.core
 
     def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> DirectFunctions:
         """The direct functions; their orders of elimination are those for these numbers and the start p0."""

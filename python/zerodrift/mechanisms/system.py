@@ -160,6 +160,9 @@ class MechanismSystem(BaseSystem):
             cores[vector, embeds] = self._written.with_direct(functions.embedding if embeds else functions, vector)
         return cores[vector, embeds]
 
+    def _with_jacobian(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
+        return self._written.with_jacobian(vector) if self.compiled and core is self._core else core
+
     def _why_not_direct(self, embeds: bool = False) -> str | None:
         if not self._is_written_out:
             return None
