@@ -15,18 +15,18 @@ typedef struct zd_lane_energy {
     int skipped_since_row;
 } zd_lane_energy;
 
-/* What is looked for in the step that a lane has just made: where events happen, by steps to times within it. */
+/* What is looked for in the step that a lane has just made: where events happen, at times within it. */
 typedef struct zd_lane_search {
-    enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
+    enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_LOCATES_END, ZD_CUTS, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
     int event;              /* which it is at */
     double *before, *now;   /* (events,): their values at the ends of the step */
     double number_of_now;   /* the step whose end that is; -1: none */
-    double number_of_happening;     /* the last step in which anything has happened; -1: none */
     zd_bracket *bracket;    /* (events,): when they happen; at infinity where they do not */
     double *early;          /* (size,): the state before the event, */
     double *mixed;          /* (size,): and where it happens */
     int ended;              /* which ends the run, counted from 1, */
     double end;             /* and when */
+    int is_cut;             /* whether the last step has been made again, to there */
     int is_at_end;          /* whether the lane has got there, and its rows before that are saved */
 } zd_lane_search;
 

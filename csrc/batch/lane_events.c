@@ -1,6 +1,6 @@
-/* Events in lanes, as output/events.c finds them: a change of sign is narrowed down to the rounding of t by shorter steps, and the states on
- * both sides are mixed until the function of the mixture is zero. Each lane looks for its own, one after the other; the steps that this takes are
- * made in all lanes at once.
+/* Events in lanes, as output/events.c finds them: a change of sign is narrowed down to the rounding of t, on the polynomial of the step or by
+ * shorter ones; where a run ends, the last step is made to there. Each lane looks for its own, one after the other; what this takes is made
+ * in all lanes at once.
  */
 #include <math.h>
 
@@ -74,10 +74,16 @@ static int next_reported(const zd_lane_group *self, const zd_lane_search *search
     return last;
 }
 
+/* Whether the state there is mixed of those at both sides */
+static int is_mixed(const zd_lane_group *self, const zd_lane_search *search)
+{
+    return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->bracket[search->event]);
+}
+
 static void go_to_next(zd_lane_group *self, zd_lane_search *search)
 {
     search->event = next_reported(self, search, search->event);
-    search->stage = search->event < 0 ? ZD_FOUND_ALL : ZD_GOES_BEFORE;
+    search->stage = search->event < 0 ? ZD_FOUND_ALL : is_mixed(self, search) ? ZD_GOES_BEFORE : ZD_GOES_BEHIND;
 }
 
 /* The event is located: whether the run ends there depends on how often it has happened. */
@@ -87,9 +93,28 @@ static void note_end(zd_lane_group *self, int lane)
     zd_lane_search *search = &self->run_of[lane].search;
     const double b = search->bracket[search->event].b;
     const int64_t number = *zd_found_count(self->batch, run->number, search->event) + 1;
-    if (b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
+    if (search->is_cut || b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
     search->end = b;
     search->ended = search->event + 1;
+}
+
+static zd_bracket bracket_of_step(const zd_lanes *lanes, const zd_lane_search *search, int lane, int event)
+{
+    return zd_bracket_of(lanes->t_before[lane], lanes->t[lane], search->before[event], search->now[event], resolution_of(lanes, lane));
+}
+
+/* All are located. On a polynomial, the one that ends the run is near where it does. */
+static void go_to_places(zd_lane_group *self, int lane)
+{
+    zd_lane_search *search = &self->run_of[lane].search;
+    if (!search->ended || search->is_cut || !zd_lanes_may_spread(&self->lanes)) {
+        go_to_next(self, search);
+        return;
+    }
+    search->event = search->ended - 1;
+    zd_bracket *bracket = &search->bracket[search->event];
+    *bracket = zd_bracket_near(bracket->b, bracket_of_step(&self->lanes, search, lane, search->event));
+    search->stage = ZD_LOCATES_END;
 }
 
 /* On from this event to the first that has to be narrowed down; where there is none, to the places themselves. */
@@ -99,13 +124,26 @@ static void locate_from(zd_lane_group *self, int lane, int event)
     zd_lane_search *search = &self->run_of[lane].search;
     for (search->event = event; search->event < lanes->events; search->event++) {
         const int i = search->event;
+        if (search->is_cut && i == search->ended - 1) continue;
+        search->bracket[i].b = INFINITY;
         if (!happens(self, search, i)) continue;
-        search->number_of_happening = lanes->number[lane];
-        search->bracket[i] = zd_bracket_of(lanes->t_before[lane], lanes->t[lane], search->before[i], search->now[i], resolution_of(lanes, lane));
+        search->bracket[i] = bracket_of_step(lanes, search, lane, i);
         if (is_wide(lanes, lane, &search->bracket[i])) return;
         note_end(self, lane);
     }
-    go_to_next(self, search);
+    go_to_places(self, lane);
+}
+
+/* The step has been made again, to where the run ends: on its polynomial to what happens until then. */
+static void locate_until_end(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    zd_lane_search *search = &self->run_of[lane].search;
+    search->end = lanes->t[lane];
+    search->is_cut = 1;
+    search->stage = ZD_LOCATES;
+    evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
+    locate_from(self, lane, 0);
 }
 
 /* ---- the places themselves ---- */
@@ -128,7 +166,7 @@ static void settle(zd_lane_group *self, int lane)
     zd_lane_run *run = &self->run_of[lane];
     const zd_bracket *located = &run->search.bracket[run->search.event];
     zd_bracket it = zd_bracket_of(0, 1, located->ga, located->gb, RESOLUTION);
-    while (it.gb != 0 && it.b - it.a > RESOLUTION) {
+    while (is_mixed(self, &run->search) && it.gb != 0 && it.b - it.a > RESOLUTION) {
         const double share = zd_bracket_choose(&it);
         mix(self, lane, share, run->search.mixed);
         zd_bracket_narrow(&it, share, evaluate(self, lane, run->search.event, located->b));
@@ -160,7 +198,6 @@ static void begin(zd_lane_group *self, int lane)
     if (search->number_of_now != lanes->number[lane] - 1) evaluate_all(self, lane, lanes->t_before[lane], lanes->y0, search->before);
     evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
     search->number_of_now = lanes->number[lane];
-    for (int i = 0; i < lanes->events; i++) search->bracket[i].b = INFINITY;
     search->stage = ZD_LOCATES;
     search->end = INFINITY;
     if (self->lanes.leaves[lane] == 0) locate_from(self, lane, 0);
@@ -169,7 +206,8 @@ static void begin(zd_lane_group *self, int lane)
 static double time_to_look_at(const zd_lane_search *search)
 {
     const zd_bracket *bracket = &search->bracket[search->event];
-    return search->stage == ZD_LOCATES ? zd_bracket_choose(bracket) : search->stage == ZD_GOES_BEFORE ? bracket->a : bracket->b;
+    const int locates = search->stage == ZD_LOCATES || search->stage == ZD_LOCATES_END;
+    return locates ? zd_bracket_choose(bracket) : search->stage == ZD_GOES_BEFORE ? bracket->a : bracket->b;
 }
 
 /* What a lane makes of the state at the time it has asked for. */
@@ -180,12 +218,18 @@ static void go_on(zd_lane_group *self, int lane)
     zd_bracket *bracket = &search->bracket[search->event];
     switch (search->stage) {
     case ZD_LOCATES:
+    case ZD_LOCATES_END:
         zd_lane_group_gather(self, lane, lanes->y_row);
         zd_bracket_narrow(bracket, lanes->t_row[lane], evaluate(self, lane, search->event, lanes->t_row[lane]));
         if (is_wide(lanes, lane, bracket)) return;
+        if (search->stage == ZD_LOCATES_END) {
+            search->stage = ZD_CUTS;
+            return;
+        }
         note_end(self, lane);
         locate_from(self, lane, search->event + 1);
         return;
+    case ZD_CUTS: locate_until_end(self, lane); return;
     case ZD_GOES_BEFORE:
         for (int i = 0; i < lanes->size; i++) search->early[i] = zd_lane_number(lanes, lanes->y_row, i, lane);
         search->stage = ZD_GOES_BEHIND;
@@ -198,15 +242,39 @@ static void go_on(zd_lane_group *self, int lane)
     }
 }
 
-/* Whether a lane still looks for something; then it says when it wants to know. */
-static int ask(zd_lane_group *self, int lane)
+/* How a lane gets to what it looks for. */
+enum { BETWEEN, BY_SHORTER_STEP, BY_CUT, WAYS };
+
+static int way_of(const zd_lane_search *search)
+{
+    return search->stage == ZD_LOCATES_END ? BY_SHORTER_STEP : search->stage == ZD_CUTS ? BY_CUT : BETWEEN;
+}
+
+/* Whether a lane still looks for something that it gets to so; then it says when it wants to know. */
+static int ask(zd_lane_group *self, int lane, int way)
 {
     zd_lanes *lanes = &self->lanes;
     const zd_lane_run *run = &self->run_of[lane];
-    const int asks = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
+    const int is_looking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
+    const int asks = is_looking && way_of(&run->search) == way;
     lanes->is_wanted[lane] = asks;
     lanes->t_row[lane] = asks ? time_to_look_at(&run->search) : lanes->t[lane];
     return asks;
+}
+
+/* Whether any lane has gone on in that way. */
+static int go_all(zd_lane_group *self, int way)
+{
+    zd_lanes *lanes = &self->lanes;
+    int any = 0;
+    for (int lane = 0; lane < lanes->lanes; lane++) any |= ask(self, lane, way);
+    if (!any) return 0;
+    if (way == BETWEEN) self->functions->move_between(lanes, 0);
+    else if (way == BY_SHORTER_STEP) self->functions->substep(lanes);
+    else self->functions->cut(lanes);
+    for (int lane = 0; lane < lanes->lanes; lane++)
+        if (lanes->is_wanted[lane] != 0 && lanes->leaves[lane] == 0) go_on(self, lane);
+    return 1;
 }
 
 void zd_lane_group_locate(zd_lane_group *self)
@@ -218,12 +286,8 @@ void zd_lane_group_locate(zd_lane_group *self)
         lanes->has_event[lane] = 0;
         if (has) begin(self, lane);
     }
-    for (;;) {
-        int any = 0;
-        for (int lane = 0; lane < lanes->lanes; lane++) any |= ask(self, lane);
-        if (!any) return;
-        self->functions->substep(lanes, 0);
-        for (int lane = 0; lane < lanes->lanes; lane++)
-            if (lanes->is_wanted[lane] != 0 && lanes->leaves[lane] == 0) go_on(self, lane);
+    for (int any = 1; any;) {
+        any = 0;
+        for (int way = 0; way < WAYS; way++) any |= go_all(self, way);
     }
 }

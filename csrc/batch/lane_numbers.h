@@ -94,6 +94,9 @@ typedef struct zd_lanes {
     int has_polynomial;
 } zd_lanes;
 
+/* Whether values within a step come from a polynomial. */
+static inline int zd_lanes_may_spread(const zd_lanes *self) { return !self->is_fixed && self->method.tableau->coefficients; }
+
 /* What one vector unit does. */
 typedef struct zd_lane_functions {
     enum zd_unit unit;
@@ -104,8 +107,9 @@ typedef struct zd_lane_functions {
     void (*advance)(zd_lanes *self);
     /* y_row at t_row, where it is wanted; its multipliers, too, where `multipliers`. */
     void (*move_between)(zd_lanes *self, int multipliers);
-    /* The same by a shorter step of the method whatever polynomial it has, as events are looked for. */
-    void (*substep)(zd_lanes *self, int multipliers);
+    /* The same by a shorter step whatever polynomial the method has; and where that step takes the place of the one made. */
+    void (*substep)(zd_lanes *self);
+    void (*cut)(zd_lanes *self);
     /* What lanes that are wanted see in the step they have just made, and when they look again. */
     void (*look)(zd_lanes *self);
 } zd_lane_functions;

@@ -161,8 +161,8 @@ ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
 
 /* ---- within the last step ---- */
 
-/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: interpolation.h */
-ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_real h)
+/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: interpolation.h. Of these lanes */
+ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_condition which, zd_real h)
 {
     const zd_method *method = &self->method;
     const int size = self->size, f1 = method->stages;
@@ -176,12 +176,14 @@ ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_real h)
     zd_stored *F = REAL(self->polynomial), *k = REAL(self->k);
     for (int i = 0; i < size; i++) {
         const zd_real change = REAL(self->y)[i] - REAL(self->y0)[i];
-        F[i] = change;
-        F[size + i] = h * k[i] - change;
-        F[2 * size + i] = 2 * change - h * (k[f1 * size + i] + k[i]);
+        F[i] = ZD_WHERE(which, change, F[i]);
+        F[size + i] = ZD_WHERE(which, h * k[i] - change, F[size + i]);
+        F[2 * size + i] = ZD_WHERE(which, 2 * change - h * (k[f1 * size + i] + k[i]), F[2 * size + i]);
     }
-    for (int i = 3; i < method->tableau->coefficients; i++)
-        ZD_NAMED(combine)(self, 0, size, &method->d[i - 3], h, NULL, self->polynomial + i * size * ZD_LANES);
+    for (int i = 3; i < method->tableau->coefficients; i++) {
+        ZD_NAMED(combine)(self, 0, size, &method->d[i - 3], h, NULL, self->stage);
+        ZD_NAMED(take_where)(which, size, self->stage, self->polynomial + i * size * ZD_LANES);
+    }
 }
 
 ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
@@ -206,9 +208,9 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 {
     const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_row = *REAL(self->t_row);
     const zd_condition inside = HOLDS(self->is_wanted) & (t_row != t);
-    const int is_spread = !self->is_fixed && self->method.tableau->coefficients;
-    if (is_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t - before);
-    self->has_polynomial = is_spread;
+    const int may_spread = zd_lanes_may_spread(self);
+    if (may_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t == t, t - before);
+    self->has_polynomial = may_spread;
     return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_row - before, ZD_SPLAT(0.0))};
 }
 
@@ -236,11 +238,26 @@ ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
     ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
 }
 
-/* The polynomial, which rows may ask for yet, is made of the stages that this takes for itself. */
-ZD_KERNEL void ZD_NAMED(substep)(zd_lanes *self, int multipliers)
+/* The polynomial, which others may ask for yet, is made of the stages that this takes for itself. */
+ZD_KERNEL zd_condition ZD_NAMED(make_shorter)(zd_lanes *self)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
     const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
     ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
-    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
+    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, 0);
+    return at.inside;
+}
+
+ZD_KERNEL void ZD_NAMED(substep)(zd_lanes *self)
+{
+    ZD_NAMED(make_shorter)(self);
+}
+
+/* The same where this takes the place of the step made: it ends there, and the polynomial is its own. */
+ZD_KERNEL void ZD_NAMED(cut)(zd_lanes *self)
+{
+    const zd_condition inside = ZD_NAMED(make_shorter)(self);
+    ZD_NAMED(take_where)(inside, self->size, self->y_row, self->y);
+    *REAL(self->t) = ZD_WHERE(inside, *REAL(self->t_row), *REAL(self->t));
+    ZD_NAMED(spread)(self, inside, *REAL(self->t) - *REAL(self->t_before));
 }

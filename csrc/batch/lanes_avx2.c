@@ -4,9 +4,10 @@
 #define ZD_LANES 4
 #include "lanes_advance.h"
 
-const zd_lane_functions zd_lanes_avx2 = {1, 4, ZD_NAMED(choose), ZD_NAMED(advance), ZD_NAMED(move_between), ZD_NAMED(substep), ZD_NAMED(look)};
+const zd_lane_functions zd_lanes_avx2 = {1, 4, ZD_NAMED(choose), ZD_NAMED(advance), ZD_NAMED(move_between), ZD_NAMED(substep),
+                                           ZD_NAMED(cut), ZD_NAMED(look)};
 #else
 #include "lane_numbers.h"
 
-const zd_lane_functions zd_lanes_avx2 = {1, 0, NULL, NULL, NULL, NULL, NULL};
+const zd_lane_functions zd_lanes_avx2 = {1, 0, NULL, NULL, NULL, NULL, NULL, NULL};
 #endif

@@ -73,22 +73,15 @@ static int is_due(zd_lane_group *self, int lane, double *when)
     return run->next == 0 && (lanes->number[lane] >= lanes->next_number[lane] || lanes->t[lane] == lanes->end);
 }
 
-/* Steps in which events were looked for are made again in parts, as any run does it that has made such parts already. */
-static int is_in_parts(const zd_lane_group *self, int lane)
-{
-    return self->lanes.watches && self->run_of[lane].search.number_of_happening == self->lanes.number[lane];
-}
-
-/* Marks the lanes that have a row due, of those whose step is made in parts or of the others; whether any has, and whether one of those lies
- * within the step. */
-static int mark(zd_lane_group *self, int in_parts, int *is_within)
+/* Marks the lanes that have a row due; whether any has, and whether one of those lies within the step. */
+static int mark(zd_lane_group *self, int *is_within)
 {
     zd_lanes *lanes = &self->lanes;
     int any = 0;
     *is_within = 0;
     for (int lane = 0; lane < lanes->lanes; lane++) {
         double when = lanes->t[lane];
-        const int due = is_in_parts(self, lane) == in_parts && is_due(self, lane, &when);
+        const int due = is_due(self, lane, &when);
         lanes->is_wanted[lane] = due;
         lanes->t_row[lane] = due ? when : lanes->t[lane];
         any |= due;
@@ -108,23 +101,15 @@ static void save_marked(zd_lane_group *self)
     }
 }
 
-static void save_of(zd_lane_group *self, int in_parts)
+void zd_lane_group_save(zd_lane_group *self)
 {
     zd_lanes *lanes = &self->lanes;
-    const int multipliers = self->batch->multipliers != NULL;
+    const int by_time = self->batch->settings->t_eval != NULL, multipliers = self->batch->multipliers != NULL;
     int is_within;
-    while (mark(self, in_parts, &is_within)) {
-        if ((is_within || multipliers) && in_parts) self->functions->substep(lanes, multipliers);
-        else if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
+    while (mark(self, &is_within)) {
+        if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
         else memcpy(lanes->y_row, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
         save_marked(self);
     }
-}
-
-void zd_lane_group_save(zd_lane_group *self)
-{
-    const int by_time = self->batch->settings->t_eval != NULL;
-    save_of(self, 0);
-    if (self->lanes.watches) save_of(self, 1);
-    for (int lane = 0; lane < self->lanes.lanes && !by_time; lane++) self->run_of[lane].next = 0;
+    for (int lane = 0; lane < lanes->lanes && !by_time; lane++) self->run_of[lane].next = 0;
 }

@@ -2,7 +2,7 @@
  * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
  *
  * A method that has a polynomial between the ends of a step does it for less where steps are chosen: its values, corrected alike, err by as
- * much as such steps do. Steps of fixed size may be too long for it, and events need values that are the same whenever they are asked for.
+ * much as such steps do. Steps of fixed size may be too long for it.
  */
 #include "between.h"
 
@@ -28,9 +28,10 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_steppe
 void zd_output_keep_beginning(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->before);
+    self->is_spread = self->is_away = 0;
 }
 
-void zd_output_keep_end(zd_output *self)
+static void keep_end(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->after);
     zd_stepper_keep_rates(self->stepper, &self->rates);
@@ -41,10 +42,13 @@ void zd_output_keep_end(zd_output *self)
 
 void zd_output_leave_end(zd_output *self)
 {
-    if (!self->aside.is_set) zd_aside_set(&self->aside, self->stepper);
+    keep_end(self);
+    zd_aside_set(&self->aside, self->stepper);
+    self->is_away = 1;
+    self->is_spread = self->is_short = 0;
 }
 
-int zd_output_return_to_end(zd_output *self)
+static int return_to_end(zd_output *self)
 {
     int status = self->aside.is_set ? zd_aside_return(&self->aside, self->stepper, &self->after)
                                     : zd_stepper_return_to(self->stepper, &self->after);
@@ -53,11 +57,59 @@ int zd_output_return_to_end(zd_output *self)
     return !status && self->is_factored ? zd_motion_factor(self->stepper->motion) : status;
 }
 
-int zd_output_move(zd_output *self, double t)
+int zd_output_come_back(zd_output *self)
 {
+    self->is_away = 0;
+    if (!self->is_short) return return_to_end(self);
+    zd_short_return_to_end(self->stepper, self->after.t, &self->rates);
+    return ZD_DONE;
+}
+
+/* Where the polynomial has failed. */
+static int go_on_with_shorter_steps(zd_output *self)
+{
+    const int status = zd_output_come_back(self);
+    if (!status) zd_output_leave_end(self);
+    return status;
+}
+
+/* A polynomial serves until another step is made: rows may take that which events have taken. */
+static int leave_for_polynomial(zd_output *self, int may_stay)
+{
+    zd_stepper *stepper = self->stepper;
+    self->is_away = 1;
+    self->is_short = may_stay && zd_short_may_stay(stepper);
+    self->after.t = stepper->t;
+    if (!self->is_short) keep_end(self);
+    int status = self->is_spread ? ZD_DONE : zd_stepper_spread(stepper);
+    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
+    self->is_spread = !status;
+    return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
+}
+
+int zd_output_leave(zd_output *self, int may_stay)
+{
+    if (zd_output_may_spread(self)) return leave_for_polynomial(self, may_stay);
     zd_output_leave_end(self);
+    return ZD_DONE;
+}
+
+int zd_output_make_shorter(zd_output *self, double t)
+{
+    self->is_spread = 0;
     int status = zd_stepper_return_to(self->stepper, &self->before);
     return status ? status : zd_stepper_make_substep(self->stepper, t);
+}
+
+int zd_output_go(zd_output *self, double t)
+{
+    if (self->is_spread) {
+        int status = zd_stepper_land_between(self->stepper, t, self->is_short ? self->y : self->stepper->y);
+        if (!status || zd_callable_failed(self->stepper->motion, status)) return status;
+        status = go_on_with_shorter_steps(self);
+        if (status) return status;
+    }
+    return zd_output_make_shorter(self, t);
 }
 
 static int is_wanted(const zd_output *self, double until)
@@ -70,54 +122,21 @@ static int is_wanted_before(const zd_output *self, double t)
     return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
 }
 
-/* Before the motion leaves the end of the step for the first time. A step that an event has cut short has made shorter steps already. */
-static int leave(zd_output *self, int is_end)
-{
-    zd_stepper *stepper = self->stepper;
-    self->is_away = 1;
-    self->is_spread = self->has_polynomial && !is_end && zd_stepper_may_spread(stepper, self->before.t);
-    self->is_short = self->is_spread && zd_short_may_stay(stepper);
-    if (!self->is_short) zd_output_keep_end(self);
-    const int status = self->is_spread ? zd_stepper_spread(stepper) : ZD_DONE;
-    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
-    return status;
-}
-
-static int come_back(zd_output *self)
-{
-    if (!self->is_short) return zd_output_return_to_end(self);
-    zd_short_return_to_end(self->stepper, self->after.t, &self->rates);
-    return ZD_DONE;
-}
-
-/* Where the polynomial has failed, from the end of the step. */
-static int go_on_with_shorter_steps(zd_output *self)
-{
-    const int status = come_back(self);
-    if (self->is_short) zd_output_keep_end(self);
-    self->is_spread = self->is_short = 0;
-    return status;
-}
-
-/* Takes the motion to the next time that lies within the step, by the method's polynomial or by a shorter step: that is made, too, where the
- * polynomial fails, unless a callable did. */
-static int move_to_next(zd_output *self, int is_end)
+/* Takes the motion to the next time that lies within the step. */
+static int move_to_next(zd_output *self)
 {
     const double t = self->t_eval[self->next++];
-    int status = self->is_away ? ZD_DONE : leave(self, is_end);
-    if (!status && self->is_spread) status = zd_stepper_land_between(self->stepper, t, self->is_short ? self->y : self->stepper->y);
-    if (zd_callable_failed(self->stepper->motion, status) || (self->is_spread && !status)) return status;
-    status = self->is_spread ? go_on_with_shorter_steps(self) : ZD_DONE;
-    return status ? status : zd_output_move(self, t);
+    int status = self->is_away ? ZD_DONE : zd_output_leave(self, 1);
+    return status ? status : zd_output_go(self, t);
 }
 
 /* Saves those times that lie within the step. */
-static int save_within(zd_output *self, zd_record *record, int is_end)
+static int save_within(zd_output *self, zd_record *record)
 {
     int status = ZD_DONE;
     while (!status && is_wanted_before(self, self->after.t)) {
         if (!zd_record_has_room(record)) return ZD_FULL;
-        status = move_to_next(self, is_end);
+        status = move_to_next(self);
         if (!status) status = zd_recorder_add(self->recorder, record);
     }
     return status;
@@ -127,8 +146,7 @@ static int save_within(zd_output *self, zd_record *record, int is_end)
 static int save_end(zd_output *self, zd_record *record, int is_end)
 {
     const double t1 = self->after.t;
-    int status = self->is_away ? come_back(self) : ZD_DONE;
-    self->is_away = 0;
+    int status = self->is_away ? zd_output_come_back(self) : ZD_DONE;
     const int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
     if (!zd_record_has_room(record)) return ZD_FULL;
@@ -140,7 +158,7 @@ int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     if (!self->is_open && !is_wanted(self, self->stepper->t)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
     if (!self->is_open) self->after.t = self->stepper->t;
-    int status = save_within(self, record, is_end);
+    int status = save_within(self, record);
     if (!status) status = save_end(self, record, is_end);
     self->is_open = status == ZD_FULL;
     return status;

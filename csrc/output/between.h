@@ -18,20 +18,29 @@ typedef struct zd_output {
     int is_factored;        /* or else the leading matrix; */
     zd_aside aside;         /* and what goes into the next step besides */
     int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
-    int is_open;            /* whether its end is kept, */
-    int is_away;            /* the motion is elsewhere, */
-    int is_spread;          /* and the polynomial is made, */
-    int is_short;           /* whose values are in a state y of their own, that of the stepper being that of the end */
+    int is_open;            /* whether rows of it are left, */
+    int is_spread;          /* its polynomial is made, */
+    int is_away;            /* the motion is not at its end, which is kept, */
+    int is_short;           /* and values of the polynomial are in a state y of their own, that of the stepper being that of the end */
     double *y;              /* (size,) */
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
 void zd_output_keep_beginning(zd_output *self);
-void zd_output_keep_end(zd_output *self);
-/* Before the motion leaves the end; and back to it, so that the next step is what it would have been. */
+/* Whether the step just made has a polynomial that serves for values between. */
+static inline int zd_output_may_spread(const zd_output *self)
+{
+    return self->has_polynomial && zd_stepper_may_spread(self->stepper, self->before.t);
+}
+/* Keeps the end of the step, before the motion leaves it for shorter steps alone; or for any values between, the polynomial being made if
+ * there is one; and back to it, so that the next step is what it would have been. `may_stay`: whether the stepper's state may, as the motion
+ * only goes to such values. */
 void zd_output_leave_end(zd_output *self);
-int zd_output_return_to_end(zd_output *self);
-int zd_output_move(zd_output *self, double t);      /* to a time within the step by a shorter one, once its end is kept */
+int zd_output_leave(zd_output *self, int may_stay);
+int zd_output_come_back(zd_output *self);
+/* To a time within the step, whose end was left: by the polynomial, or else by a shorter step, as is done at once by the other. */
+int zd_output_go(zd_output *self, double t);
+int zd_output_make_shorter(zd_output *self, double t);
 /* Saves those times that lie in the step just made, and where it has ended if that is where the run ends. ZD_FULL: it goes on where it was
  * when it is called again, with room. */
 int zd_output_after(zd_output *self, zd_record *record, int is_end);

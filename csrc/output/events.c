@@ -1,17 +1,23 @@
 /* Events: instants at which a function of the motion passes through zero.
  *
- * A step at whose ends the function has different signs brackets such an instant. It is narrowed down to the rounding of t by
- * shorter steps, as between.c makes them. All these points are corrected; so the ends of the step are corrected, too, when events look
- * at them, even where the run itself goes on uncorrected (a correction at every k-th step only): otherwise the function would leap at the
- * ends, and be seen to change its sign where it has no zero.
+ * A step at whose ends the function has different signs brackets such an instant. It is narrowed down to the rounding of t on the values
+ * that between.c has there: on the polynomial of a method that has one where steps are chosen, so that the event is a row of it; else by
+ * shorter steps. All these points are corrected; so the ends of the step are corrected, too, when events look at them, even where the run
+ * itself goes on uncorrected (a correction at every k-th step only): otherwise the function would leap at the ends, and be seen to change
+ * its sign where it has no zero.
  *
- * What is left of such leaps (corrections stop within their tolerance, energy corrections are left out near rest) and of the rounding
- * of t is taken out at last: the states on both sides of the instant are mixed until the function of the mixture is zero.
+ * A run ends with a step that is made to there. Near where the polynomial has the event, shorter steps find it, and the last of them is the
+ * run's last step: its own polynomial has what else happens in it.
+ *
+ * What is left of leaps (corrections stop within their tolerance, energy corrections are left out near rest), and between shorter steps
+ * of the rounding of t, is taken out at last: the states on both sides of the instant are mixed until the function of the mixture is zero.
  * Reported is that end of the bracket where the event has happened, so that a run which starts there does not meet it again.
  */
 #include "events.h"
 
 #include <math.h>
+
+#include "../point/quaternions.h"
 
 static const double RESOLUTION = 4 * 0x1p-52;   /* of the largest value in a bracket: its width when it is done */
 
@@ -35,22 +41,27 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     };
 }
 
-static int evaluate(zd_watch *self, int event, double *value)
+static int evaluate(zd_watch *self, int event, double t, const double *p, const double *v, double *value)
 {
     const zd_events *events = self->events;
-    const zd_stepper *stepper = self->output->stepper;
-    const zd_motion *motion = stepper->motion;
-    const double *p = motion->point->p, *v = motion->point->v;
-    int status = zd_is_known(events, event) ? zd_read_event(&self->reader, motion->system.data, event, stepper->t, p, v, value)
-                                            : events->evaluate(events->data, event, stepper->t, p, v, value);
+    const zd_system *system = &self->output->stepper->motion->system;
+    int status = zd_is_known(events, event) ? zd_read_event(&self->reader, system->data, event, t, p, v, value)
+                                            : events->evaluate(events->data, event, t, p, v, value);
     if (status) self->failed = event + 1;
     return status;
+}
+
+static int evaluate_here(zd_watch *self, int event, double *value)
+{
+    const zd_stepper *stepper = self->output->stepper;
+    const zd_point *point = stepper->motion->point;
+    return evaluate(self, event, stepper->t, point->p, point->v, value);
 }
 
 static int evaluate_all(zd_watch *self, double *values)
 {
     int status = ZD_DONE;
-    for (int i = 0; !status && i < self->events->count; i++) status = evaluate(self, i, &values[i]);
+    for (int i = 0; !status && i < self->events->count; i++) status = evaluate_here(self, i, &values[i]);
     return status;
 }
 
@@ -77,41 +88,64 @@ static int move(zd_watch *self, double t)
 {
     zd_stepper *stepper = self->output->stepper;
     const zd_place *before = &self->output->before, *end = &self->end;
-    if (t > before->t && t < end->t) return zd_output_move(self->output, t);
+    if (t > before->t && t < end->t) return zd_output_go(self->output, t);
     int status = zd_stepper_return_to(stepper, t == end->t ? end : before);
     return status || t == end->t ? status : correct(stepper);
 }
 
+static zd_bracket bracket_of_step(const zd_watch *self, int event)
+{
+    const double t0 = self->output->before.t, t1 = self->end.t;
+    return zd_bracket_of(t0, t1, self->before[event], self->now[event], RESOLUTION * fmax(fabs(t0), fabs(t1)));
+}
+
 static int locate(zd_watch *self, int event, zd_bracket *it)
 {
-    const zd_place *before = &self->output->before, *end = &self->end;
-    double resolution = RESOLUTION * fmax(fabs(before->t), fabs(end->t));
-    *it = zd_bracket_of(before->t, end->t, self->before[event], self->now[event], resolution);
-    while (it->b - it->a > resolution) {
+    while (it->b - it->a > it->resolution) {
         double g, t = zd_bracket_choose(it);
         int status = move(self, t);
-        if (!status) status = evaluate(self, event, &g);
+        if (!status) status = evaluate_here(self, event, &g);
         if (status) return status;
         zd_bracket_narrow(it, t, g);
     }
     return ZD_DONE;
 }
 
-/* The brackets of those that happen in the step, at infinity for the others; and the first time at which the run has to end. */
+/* The brackets of those that happen in the step, at infinity for the others; and the first that has to end the run, unless it is known. */
 static int locate_all(zd_watch *self, double *end)
 {
     const zd_events *events = self->events;
-    *end = INFINITY;
+    const int known = self->ended;
     for (int i = 0; i < events->count; i++) {
         zd_bracket *it = &self->bracket[i];
+        if (known == i + 1) continue;
         it->b = INFINITY;
-        int status = happens(self, i) ? locate(self, i, it) : ZD_DONE;
+        if (!happens(self, i)) continue;
+        *it = bracket_of_step(self, i);
+        int status = locate(self, i, it);
         if (status) return status;
-        if (it->b >= *end || self->found[i] + 1 != events->terminal[i]) continue;
+        if (known || it->b >= *end || self->found[i] + 1 != events->terminal[i]) continue;
         *end = it->b;
         self->ended = i + 1;
     }
     return ZD_DONE;
+}
+
+/* Makes the step again, to where an event ends the run near the zero that it has on the polynomial; and finds what happens until then. */
+static int cut(zd_watch *self, double *end)
+{
+    zd_output *output = self->output;
+    const int event = self->ended - 1;
+    zd_bracket *it = &self->bracket[event];
+    *it = zd_bracket_near(it->b, bracket_of_step(self, event));
+    output->is_spread = 0;
+    int status = locate(self, event, it);
+    if (!status) status = zd_output_make_shorter(output, *end = it->b);
+    if (!status) status = evaluate_all(self, self->now);
+    if (status) return status;
+    zd_stepper_keep_place(output->stepper, &self->end);
+    status = zd_output_leave(output, 0);
+    return status ? status : locate_all(self, end);
 }
 
 static void mix_doubles(int n, const double *a, const double *b, double share, double *mixed)
@@ -119,47 +153,59 @@ static void mix_doubles(int n, const double *a, const double *b, double share, d
     for (int i = 0; i < n; i++) mixed[i] = a[i] + share * (b[i] - a[i]);
 }
 
-/* To the mixture of the states at both sides of an event, at the time of the later one. */
-static int mix(zd_watch *self, double share)
+/* The mixture of the states at both sides of an event, at the time of the later one */
+static const zd_place *mix(zd_watch *self, double share)
 {
     const zd_motion *motion = self->output->stepper->motion;
     const zd_place *early = &self->early, *late = &self->late;
     zd_place *mixed = &self->mixed;
-    if (share == 1) return zd_stepper_return_to(self->output->stepper, late);
+    if (share == 1) return late;
     mixed->t = late->t;
     mix_doubles(motion->system.nq, early->p, late->p, share, mixed->p);
     mix_doubles(motion->system.nv, early->v, late->v, share, mixed->v);
     mix_doubles(motion->rate.size - motion->formulation_size, early->extra, late->extra, share, mixed->extra);
-    return zd_stepper_return_to(self->output->stepper, mixed);
+    zd_quaternions_normalise(&motion->system, mixed->p);
+    return mixed;
 }
 
-/* To where the event happens. */
-static int settle(zd_watch *self, int event)
+/* Where the function of the mixture is zero */
+static int settle_between(zd_watch *self, int event, const zd_place **there)
+{
+    const zd_bracket *found = &self->bracket[event];
+    zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, RESOLUTION);
+    while (it.gb != 0 && it.b - it.a > RESOLUTION) {
+        double g, share = zd_bracket_choose(&it);
+        const zd_place *mixed = mix(self, share);
+        int status = evaluate(self, event, mixed->t, mixed->p, mixed->v, &g);
+        if (status) return status;
+        zd_bracket_narrow(&it, share, g);
+    }
+    *there = mix(self, it.b);
+    return ZD_DONE;
+}
+
+/* Where the event happens, the motion being there or next to it. */
+static int settle(zd_watch *self, int event, const zd_place **there)
 {
     const zd_bracket *found = &self->bracket[event];
     const zd_stepper *stepper = self->output->stepper;
-    zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, RESOLUTION);
-    int status = move(self, found->a);
-    zd_stepper_keep_place(stepper, &self->early);
+    const int is_mixed = !self->output->is_spread || zd_bracket_leaps(found);
+    int status = is_mixed ? move(self, found->a) : ZD_DONE;
+    if (is_mixed) zd_stepper_keep_place(stepper, &self->early);
     if (!status) status = move(self, found->b);
     zd_stepper_keep_place(stepper, &self->late);
-    while (!status && it.gb != 0 && it.b - it.a > RESOLUTION) {
-        double g, share = zd_bracket_choose(&it);
-        status = mix(self, share);
-        if (!status) status = evaluate(self, event, &g);
-        if (!status) zd_bracket_narrow(&it, share, g);
-    }
-    return status ? status : mix(self, it.b);
+    *there = &self->late;
+    return status || !is_mixed ? status : settle_between(self, event, there);
 }
 
 static int report_one(zd_watch *self, int event)
 {
     const zd_events *events = self->events;
-    const zd_stepper *stepper = self->output->stepper;
-    int status = settle(self, event);
-    if (!status) status = events->found(events->data, event, stepper->t, stepper->motion->point->p, stepper->motion->point->v);
+    const zd_place *there;
+    int status = settle(self, event, &there);
+    if (!status) status = events->found(events->data, event, there->t, there->p, there->v);
     if (!status) self->found[event]++;
-    return status;
+    return status || event != self->ended - 1 || there == &self->late ? status : zd_stepper_return_to(self->output->stepper, there);
 }
 
 /* The event that ends the run comes last: there the run stays. */
@@ -171,12 +217,16 @@ static int report(zd_watch *self, double end)
     return status || !self->ended ? status : report_one(self, last);
 }
 
+/* The motion is at the corrected end of the step. It is the step as it was made that has a polynomial. */
 static int find_all(zd_watch *self, double *end)
 {
-    double first_end;
-    zd_stepper_keep_place(self->output->stepper, &self->end);
-    zd_output_leave_end(self->output);
-    int status = locate_all(self, &first_end);
+    zd_output *output = self->output;
+    double first_end = INFINITY;
+    zd_stepper_keep_place(output->stepper, &self->end);
+    int status = output->is_away && zd_output_may_spread(output) ? zd_output_come_back(output) : ZD_DONE;
+    if (!status && !output->is_away) status = zd_output_leave(output, 0);
+    if (!status) status = locate_all(self, &first_end);
+    if (!status && self->ended && output->is_spread) status = cut(self, &first_end);
     if (!status) status = report(self, first_end);
     if (self->ended) *end = first_end;
     return status;
@@ -192,19 +242,14 @@ static int find_happening(zd_watch *self, int *happening)
 
 int zd_watch_after(zd_watch *self, int corrected, double *end)
 {
-    zd_stepper *stepper = self->output->stepper;
-    int happening = 0, status = ZD_DONE;
-    if (!corrected) {
-        zd_output_keep_end(self->output);
-        zd_output_leave_end(self->output);
-        status = correct(stepper);
-    }
+    zd_output *output = self->output;
+    int happening = 0;
+    if (!corrected) zd_output_leave_end(output);
+    int status = corrected ? ZD_DONE : correct(output->stepper);
     if (!status) status = find_happening(self, &happening);
-    if (!status && happening) {
-        if (corrected) zd_output_keep_end(self->output);
-        status = find_all(self, end);
-    }
-    if (!status && (happening || !corrected) && !self->ended) status = zd_output_return_to_end(self->output);
+    if (!status && happening) status = find_all(self, end);
+    if (!status && output->is_away && !self->ended) status = zd_output_come_back(output);
+    output->is_away = 0;
     double *now = self->now;
     self->now = self->before;
     self->before = now;

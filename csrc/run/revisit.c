@@ -55,13 +55,14 @@ static int begin(zd_revisit *self, int64_t row, int is_general)
     return status;
 }
 
-/* The same where a step of the direct road may have ended at the row: its end has the acceleration from another function, which may round another
- * way, so that step is made first. */
+/* The same where a step of the direct road may have ended at the row: its end has the acceleration from another function, which may round
+ * another way, so that step is made first. The step that an event has cut short was made from the row itself. */
 static int begin_from_before(zd_revisit *self, int64_t row)
 {
     zd_motion *motion = &self->run->motion;
+    const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
     int status = begin(self, row, 0);
-    if (status || !motion->road.lands || row == 0) return status;
+    if (status || !motion->road.lands || row == 0 || is_cut) return status;
     status = begin(self, row - 1, 0);
     if (!status) status = make_step(self, row - 1);
     if (status || !is_at(self, row)) return begin(self, row, 0);
@@ -69,11 +70,9 @@ static int begin_from_before(zd_revisit *self, int64_t row)
     return ZD_DONE;
 }
 
-/* Where an event has ended the run, rows in its last step come from shorter ones. */
-static int may_have_polynomial(const zd_revisit *self, int64_t row)
+static int may_have_polynomial(const zd_revisit *self)
 {
-    const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
-    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread && !self->run->motion.formulation->settle && !is_cut;
+    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread && !self->run->motion.formulation->settle;
 }
 
 static int make_general_step(zd_revisit *self, int64_t row)
@@ -101,7 +100,7 @@ static int make_again(zd_revisit *self, int64_t row)
 static int find_road(zd_revisit *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
-    const int may_interpolate = may_have_polynomial(self, row);
+    const int may_interpolate = may_have_polynomial(self);
     self->row = row;
     self->is_general = self->has_polynomial = 0;
     int status = may_interpolate || self->run->motion.road.direct ? make_again(self, row) : ZD_DONE;

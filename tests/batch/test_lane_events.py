@@ -21,7 +21,10 @@ EVENTS = {
 }
 COURSES = {"rk4": {"step": 0.01}, "seldom": {"step": 0.01, "save_every": 7}, "within": {"step": 0.013, "t_eval": TIMES},
            "dop853": {"integrator": "dop853", "rtol": 1e-9, "atol": 1e-11, "t_eval": TIMES},
-           "dormand_prince": {"integrator": "dormand_prince", "rtol": 1e-9, "atol": 1e-11, "t_eval": TIMES}}
+           "dormand_prince": {"integrator": "dormand_prince", "rtol": 1e-9, "atol": 1e-11, "t_eval": TIMES},
+           # by 1e-6 and more from where shorter steps would have them
+           "long": {"integrator": "dop853", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES},
+           "longer": {"integrator": "dormand_prince", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES}}
 ALIKE = 1e-9        # rounding grows over two seconds; the tolerance where steps are chosen by errors that it is part of
 pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 

@@ -79,13 +79,14 @@ def simulate(
         fixed size have none.
     t_eval : array_like (k,), optional
         Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
-        corrected: they come from shorter steps, or where steps of dop853 are chosen from its polynomial.
+        corrected: they come from shorter steps, or where steps are chosen from the polynomial of a method that has one.
     events : callable, Event or measure, or a list of these, optional
         Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
-        the beginning of a step to its end. What is reported is corrected, also with corrections at every k-th step only, and
-        there the function is zero to rounding; a function that leaps over zero is reported behind its leap. An attribute
-        `direction` of 1 or -1 takes only those from below or from above; `terminal`, True or a number, ends the run when the
-        event has happened once or that often. What is zero at the start is no event.
+        the beginning of a step to its end, on the values that `t_eval` has there. What is reported is corrected, also with
+        corrections at every k-th step only, and there the function is zero to that rounding; a function that leaps over zero is
+        reported behind its leap. An attribute `direction` of 1 or -1 takes only those from below or from above; `terminal`, True
+        or a number, ends the run when the event has happened once or that often: by a step made to there, at whose end the
+        function is zero, as far from the zero of the polynomial as that errs. What is zero at the start is no event.
     formulation : str or settings
         One of `formulations()`: which equations of motion are solved. Its name, or ``formulations()[name].settings(...)``.
     integrator : str or settings
