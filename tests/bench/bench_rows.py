@@ -1,35 +1,78 @@
-"""What a row costs that is asked for between chosen steps, on the paper's four-bar over 8 s at a tolerance of 1e-9.
+"""What rows and events between chosen steps cost, on the paper's four-bar over 8 s.
 
 Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few rows and with many are made in
 turn, and of each the least time of the core counts: for 161 rows, what they add to the run that saves its start and end alone;
-for a row, by how much 16,001 rows take longer than 161. On the direct road and on the general one, which some systems and
-formulations have to take.
+for a row, by how much 16,001 rows take longer than 161; both at a tolerance of 1e-9. For some hundred events, what each of them
+adds, with all looks at its function, in processor time of the call, as functions of Python wait for other threads. On the direct
+road and on the general one, which some systems and formulations have to take.
 """
 
 import functools
+import itertools
+import math
+import time
 
 import numpy as np
+import sympy as sp
 
 import zerodrift as zd
 from measuring import least, record
 
 RTOL, SPAN = 1e-9, 8.0
 FEW, SOME, MANY = 2, 161, 16_001
-ROUNDS = {SOME: 300, MANY: 30}
+ROUNDS = {FEW: 30, SOME: 300, MANY: 30}
+METHODS = ("dop853", "dormand_prince")
 ROADS = {"direct": None, "general": False}
 
 
-def seconds(system, rows, **options):
+def seconds(system, rows, tolerance=RTOL, **options):
     """Of the core, in one run with so many rows."""
     times = np.linspace(0, SPAN, rows)
-    return lambda: zd.simulate(system, SPAN, t_eval=times, rtol=RTOL, atol=RTOL, **options).stats["seconds"]
+    return lambda: zd.simulate(system, SPAN, t_eval=times, rtol=tolerance, atol=tolerance, **options).stats["seconds"]
+
+
+def pendulum():
+    """A mechanism, and the height of its end, which passes some hundred others."""
+    m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    return m, [zd.Event(link.end.position.y, value=value) for value in np.linspace(-0.95, -0.05, 12)]
+
+
+BAR = zd.systems.four_bar()
+WATCHED = {
+    "an expression": (BAR, zd.Event(sp.sin(9 * sp.Symbol("alpha1")))),
+    "a function of Python": (BAR, lambda t, p, v: math.sin(9 * p[0])),
+    "a measure": pendulum(),
+}
+
+
+def processor_seconds(system, tolerance, **options):
+    """Of a call that saves the start and the end."""
+    def call():
+        start = time.thread_time()
+        zd.simulate(system, SPAN, t_eval=[0, SPAN], rtol=tolerance, atol=tolerance, **options)
+        return time.thread_time() - start
+    return call
+
+
+def of_events():
+    """About a hundred in each run; rows as those of `measured`."""
+    for integrator, tolerance, (road, direct) in itertools.product(METHODS, (1e-6, 1e-9), ROADS.items()):
+        for what, (system, events) in WATCHED.items():
+            run = functools.partial(processor_seconds, system, tolerance, integrator=integrator, direct=direct)
+            without, with_them = least(ROUNDS[FEW], run(), run(events=events))
+            found = zd.simulate(system, SPAN, rtol=tolerance, atol=tolerance, integrator=integrator, events=events).t_events
+            count = sum(map(len, found))
+            name = f"{integrator}, {tolerance:.0e}, {road} road"
+            yield f"{name}: an event of {count}, {what}", 1e6 * (with_them - without) / count, "us", None
 
 
 def measured():
     """Rows (what, value, unit, limit)."""
-    for integrator in ("dop853", "dormand_prince"):
+    for integrator in METHODS:
         for road, direct in ROADS.items():
-            run = functools.partial(seconds, zd.systems.four_bar(), integrator=integrator, direct=direct)
+            run = functools.partial(seconds, BAR, integrator=integrator, direct=direct)
             few, some = least(ROUNDS[SOME], run(FEW), run(SOME))
             fewer, many = least(ROUNDS[MANY], run(SOME), run(MANY))
             name = f"{integrator}, {road} road"
@@ -38,4 +81,4 @@ def measured():
 
 
 if __name__ == "__main__":
-    record("rows", measured(), ("what", "value", "unit", "at most"))
+    record("rows", itertools.chain(measured(), of_events()), ("what", "value", "unit", "at most"))
