@@ -172,7 +172,8 @@ def test_a_fall_in_closed_form(method, steps):
     heights = np.linspace(0.9, -3.0, 14)
     exact = np.sqrt((1 - heights) / 5)
     sol = zd.simulate(ball, 1.0, integrator=method, events=[zd.Event("y", value=y) for y in heights], **steps)
-    assert np.abs(np.concatenate(sol.t_events) - exact).max() <= 16 * tol.EPS
+    of_polynomial = 4 if "rtol" in steps and method in POLYNOMIAL else 1      # whose weights are larger than those of a step
+    assert np.abs(np.concatenate(sol.t_events) - exact).max() <= of_polynomial * 16 * tol.EPS
     ended = zd.simulate(ball, 1.0, integrator=method, events=zd.Event("y", value=heights[3], terminal=True), **steps)
     assert abs(ended.t[-1] - exact[3]) <= 8 * tol.EPS
     assert abs(ended.p[-1, 0] - heights[3]) <= 4 * tol.EPS * (1 + abs(ended.v[-1, 0]))       # t is found to four units
