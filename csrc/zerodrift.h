@@ -265,6 +265,7 @@ typedef struct zd_family {
 typedef struct zd_batch {
     const zd_system *system;        /* whose functions do not need Python */
     const zd_settings *settings;    /* whose events are all known: nobody is asked for them, nor told of them */
+    int settings_differ;            /* whether they are (runs,), which begin at the same time, and have the events and outputs of the first */
     int64_t runs;
     const double *data;             /* (runs, doubles): in the place of the system's; NULL: that is the same for all */
     int64_t doubles;                /* that this is; 0: it consists of others, and is the same for all */
@@ -287,6 +288,9 @@ typedef struct zd_batch {
     int *way;                       /* (runs,) of zd_way; one that could not be created is not begun, and what its family does not make is unusual */
     zd_statistics *statistics;      /* (runs,) */
     double *kinetic, *energy_error; /* (runs,) as zd_run_kinetic() and zd_run_energy_error() have them */
+    /* (runs,), of runs that are made by themselves: as zd_run_omega_h() has it; the largest |Phi| and |Psi| of the saved rows, NaN where there
+     * are none; and the time that each took, in s */
+    double *omega_h, *position_violation, *velocity_violation, *seconds;
     char *message;                  /* (runs, message_size): of runs that failed, or ended early */
     int message_size;
 } zd_batch;

@@ -1,9 +1,11 @@
 /* A run of a batch by itself: created, advanced and freed as any other. */
 #include "single.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "../stepping/clock.h"
 #include "found.h"
 
 static const double SLICE = 0.02;       /* s: so soon is seen that nobody waits any more */
@@ -86,16 +88,36 @@ int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_sin
                       zd_message_of(batch, run), batch->message_size);
 }
 
+static double largest_of(const double *values, int64_t count)
+{
+    double largest = count ? 0 : NAN;
+    for (int64_t i = 0; i < count; i++)
+        if (!(fabs(values[i]) <= largest) && !isnan(largest)) largest = fabs(values[i]);
+    return largest;
+}
+
+static void measure(const zd_batch *batch, const zd_run *run, const zd_record *record, int64_t number)
+{
+    const zd_system *system = batch->system;
+    if (batch->omega_h) batch->omega_h[number] = zd_run_omega_h(run);
+    if (batch->position_violation) batch->position_violation[number] = largest_of(record->position_violation, record->rows * system->mh);
+    if (batch->velocity_violation)
+        batch->velocity_violation[number] = largest_of(record->velocity_violation, record->rows * count_constraints(system));
+}
+
 static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64_t number)
 {
+    const double begin = batch->seconds ? zd_seconds_now() : 0;
     int status = ZD_PAUSED;
     while (status == ZD_PAUSED && !zd_batch_is_stopped(batch)) status = zd_run_advance(run, record, SLICE);
+    if (batch->seconds) batch->seconds[number] = zd_seconds_now() - begin;
     batch->way[number] = ZD_BY_ITSELF;
     batch->rows[number] = record->rows;
     batch->status[number] = status;
     batch->statistics[number] = *zd_run_statistics(run);
     batch->kinetic[number] = zd_run_kinetic(run);
     batch->energy_error[number] = zd_run_energy_error(run);
+    measure(batch, run, record, number);
     if (status) snprintf(zd_message_of(batch, number), (size_t)batch->message_size, "%s", zd_run_message(run));
 }
 
@@ -106,10 +128,10 @@ zd_system zd_single_system(const zd_batch *batch, int64_t number)
     return system;
 }
 
-/* Events are written down for this run. */
+/* Its own, or those of all; events are written down for this run. */
 static zd_settings settings_of(const zd_batch *batch, zd_found *found, zd_events *events)
 {
-    zd_settings settings = *batch->settings;
+    zd_settings settings = batch->settings[batch->settings_differ ? found->run : 0];
     if (!settings.events) return settings;
     *events = *settings.events;
     events->found = zd_found_note;

@@ -29,8 +29,9 @@ from measuring import least, record
 from zerodrift.ensembles import batch
 from zerodrift.ensembles.batch import batch_of, batch_range
 from zerodrift.ensembles.plan import checked
+from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
-from zerodrift.ensembles.threads import Threads
+from zerodrift.runs.threads import Threads
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
 FLAGS = {"avx2": ["-mavx2", "-mfma", "-DLANES=4"], "avx512": ["-mavx512f", "-mavx512dq", "-mavx512vl", "-mfma", "-DLANES=8",
@@ -211,7 +212,7 @@ def both_threads():
                        {"t_eval": [END], "step": STEP}, ["alpha1"], None, keeps=False)
         ranges = ((first, first + 64) for first in range(0, 4 * RUNS, 64))
         start = time.perf_counter()
-        Threads(plan, ranges, lambda first, part: None).run(threads, lambda: None)
+        Threads(lambda taken, stop: run_range(plan, *taken, stop), ranges).run(threads, lambda: None)
         return time.perf_counter() - start
     one, two = least(ROUNDS, functools.partial(by, 1), functools.partial(by, 2))
     yield "two threads to one (at least 1.8, on two free cores)", one / two, "", None

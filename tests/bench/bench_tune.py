@@ -10,7 +10,9 @@ import numpy as np
 
 import zerodrift as zd
 from zerodrift.studies import compare
-from zerodrift.studies.work_precision import Bench, default_steps
+from zerodrift.studies.bench import Bench
+from zerodrift.studies.work_precision import default_steps
+from zerodrift.studies.work_precision import measured as measured_by
 
 HERE = Path(__file__).resolve().parent
 SPAN = (0.0, 2.0)
@@ -45,7 +47,7 @@ def compared(name):
         picked = zd.tune(system, SPAN, error=target).row.setting
         there = [row for row in sweep.rows if row.success and row.error + reference.error <= target]
         rivals = [row.setting for row in sorted(there, key=lambda row: row.seconds)[:FINALISTS]]
-        measured = {row.setting: row for row in bench.measure([picked, *rivals], ROUNDS).rows}
+        measured = {row.setting: row for row in measured_by(bench, [picked, *rivals], ROUNDS).rows}
         cheapest = min(rivals, key=lambda setting: measured[setting].seconds)
         yield (name, target, error_of(system, picked.settings, reference) + reference.error,
                measured[picked].seconds / measured[cheapest].seconds, described(measured[picked]), described(measured[cheapest]))

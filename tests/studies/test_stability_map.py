@@ -6,6 +6,8 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS
+from watched import pendulum
+from zerodrift.studies.stability_map import WAYS
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
@@ -83,12 +85,32 @@ def test_one_step_and_negative_values_are_drawn_too():
 
 
 def test_ctrl_c_keeps_the_ways_that_are_done():
+    """It comes while runs go on in threads, each of which takes longer than the look at the keyboard."""
     def interrupt(part):
         raise KeyboardInterrupt
 
-    with pytest.raises(zd.Interrupted) as caught:
-        zd.stability_map(BAR, 0.2, steps=STEPS, values=GAINS, progress=interrupt)
+    with pytest.raises(zd.Interrupted, match=r"after \d of 4 ways") as caught:
+        zd.stability_map(BAR, 0.2, steps=[1e-6], values=GAINS, reference=lambda t: np.zeros(3), progress=interrupt)
+    rows = caught.value.solution.rows
+    assert set(rows) < set(WAYS)
+    assert all(len(lines) == len(GAINS) and all(len(line) == 1 for line in lines) for lines in rows.values())
+
+
+def test_ctrl_c_between_runs_in_python_keeps_the_ways_that_are_done():
+    """These go one after the other, in the order of the ways."""
+    def interrupt(part):
+        raise KeyboardInterrupt
+
+    with pytest.raises(zd.Interrupted, match="after 1 of 4 ways") as caught:
+        zd.stability_map(pendulum(), 0.05, steps=[0.01], values=GAINS, reference=lambda t: np.zeros(2), progress=interrupt)
     assert list(caught.value.solution.rows) == ["nothing"]
+
+
+def test_progress_goes_from_nothing_to_all():
+    parts = []
+    zd.stability_map(BAR, 0.2, steps=STEPS, values=GAINS, progress=parts.append)
+    assert parts == sorted(parts)
+    assert parts[-1] == 1.0
 
 
 @pytest.mark.parametrize(("wrong", "says"), [

@@ -5,8 +5,9 @@ import pytest
 
 import zerodrift as zd
 from support import SYSTEMS
+from zerodrift.studies import bench as bench_of_studies
 from zerodrift.studies import compare
-from zerodrift.studies.work_precision import Bench
+from zerodrift.studies.bench import Bench
 
 BAR = SYSTEMS["four_bar"]
 FEW = {"formulations": ["schur", "independent"], "integrators": ["rk4", "dop853"], "rounds": 1}
@@ -82,18 +83,20 @@ def test_bad_values(options):
 
 
 def test_an_interruption_of_the_search_keeps_all_that_was_measured(monkeypatch):
-    """Also what the sweep before it has."""
-    system, row, measured = zd.systems.oscillator(), Bench._row, []
+    """Also what the sweep before it has. Here each error is found after its run, so that none is lost with others."""
+    system, rows, measured = zd.systems.oscillator(), Bench._rows, []
     methods = {"formulations": ["schur"], "integrators": ["rk4"]}
     sweep = zd.work_precision(system, 1.0, rounds=1, **methods)
 
-    def interrupted(bench, setting, before):
+    def interrupted(bench, combinations, outcomes, stop):
         if len(measured) == len(sweep.rows) + 1:
             raise KeyboardInterrupt
-        measured.append(setting)
-        return row(bench, setting, before)
+        measured.extend(combinations)
+        return rows(bench, combinations, outcomes, stop)
 
-    monkeypatch.setattr(Bench, "_row", interrupted)
+    monkeypatch.setattr(bench_of_studies, "TOGETHER", 0.0)
+    monkeypatch.setattr(bench_of_studies, "processors", lambda: 1)
+    monkeypatch.setattr(Bench, "_rows", interrupted)
     with pytest.raises(zd.Interrupted, match="interrupted from the keyboard") as caught:
         zd.tune(system, 1.0, error=1e-6, **methods)
     partial = caught.value.solution

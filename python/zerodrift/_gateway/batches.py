@@ -61,10 +61,12 @@ class BatchResults(NamedTuple):
     statistics: np.ndarray              # (k,): as the core counts
     kinetic: np.ndarray                 # (k,): the largest energy seen, J
     energy_error: np.ndarray            # (k,): the largest |Psi_E| of the saved rows, J
+    measured: dict[str, np.ndarray]     # what `MEASURED` has of each, (k,), where it was wanted
     events: Happened | None             # where events were looked for
     messages: list[str]                 # (k,): of those that did not reach their end
 
 
+MEASURED = ("omega_h", "position_violation", "velocity_violation", "seconds")   # the largest of each run, and the time it took
 # Of each run: where the core writes it, and as what
 OF_RUNS = {"rows": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float, "energy_error": float}
 TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "zd_statistics[]", "kinetic": "double[]",
@@ -74,9 +76,10 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
 def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray | None, v0: np.ndarray | None,
               capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
               lanes: bool = True, family: Any = None, count: int | None = None, outputs: Any = None,
-              events: Watcher | None = None, room: int = 0) -> BatchResults:
+              events: Watcher | None = None, room: int = 0, measured: bool = False) -> BatchResults:
     """Runs of systems that have their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
 
+    The options are one `zd_settings` for all, or a list with one for each, which then are no runs in lanes.
     Events have to be ones that the core knows; there is room for so many of each, of their states, too, where "p" is wanted.
 
     Where data is None, that of the core serves all; it consists of `size` doubles, or of something else where that is 0.
@@ -89,12 +92,16 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
                for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
     messages = np.empty((k, MESSAGE_SIZE), np.int8)
-    options.given_jacobian = core.given_jacobian
+    found = {name: np.zeros(k) for name in MEASURED} if measured else {}
     happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
-    options.events = events.c if events is not None else ffi.NULL
+    several = options if isinstance(options, list) else [options]
+    for each in several:
+        each.given_jacobian, each.events = core.given_jacobian, events.c if events is not None else ffi.NULL
+        each.outputs = outputs.c if outputs else ffi.NULL
     members: dict[str, Any] = {
-        "system": core.c, "settings": options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
-        "doubles": size, "lanes": lanes,
+        "system": core.c, "settings": ffi.new("zd_settings[]", [each[0] for each in several]),
+        "settings_differ": several is options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
+        "doubles": size, "lanes": lanes, **{name: doubles(array, k, writable=True) for name, array in found.items()},
         "message": ffi.from_buffer("char[]", messages),
         **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
         **{name: ffi.from_buffer(TYPES[name], array) for name, array in of_runs.items()}}
@@ -106,7 +113,6 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
         members |= {"p0": doubles(p0, k * core.nq), "v0": doubles(v0, k * core.nv)}
     if family is not None:
         members |= {"family": family.c}
-    options.outputs = outputs.c if outputs else ffi.NULL
     if data is not None:
         members |= {"data": doubles(data, data.size)}
     if assembly is not None:
@@ -119,7 +125,7 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     said = [""] * k
     for run in np.flatnonzero(of_runs["status"]).tolist():
         said[run] = messages[run].tobytes().partition(b"\0")[0].decode()
-    return BatchResults(columns, **of_runs, events=happened, messages=said)
+    return BatchResults(columns, **of_runs, measured=found, events=happened, messages=said)
 
 
 def _room_for(events: Watcher, core: CoreSystem, k: int, room: int, *, with_states: bool) -> Happened:

@@ -10,18 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from ..errors import Interrupted, WorkerLost
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
+from ..runs.threads import Threads, processors
 from . import executors
 from . import store as stores
 from .batch import batch_of
 from .part import Part, filled
 from .plan import Plan, checked
 from .result import Ensemble
+from .run_range import run_range
 from .runs import Runs
-from .threads import Threads, processors
 
 SHARES = 16         # ranges for each thread, so that all end at about the same time
 LONGEST = 1024      # runs of a range, at most; and at least, where they are made side by side: lanes stand still at its end
@@ -147,7 +148,7 @@ class _Work:
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
         least = SHORTEST if batch_of(plan) else 1
         ranges = stores.missing(self._parts, runs, chunk or min(LONGEST, max(-(-runs // (SHARES * workers)), least)))
-        maker = Threads(plan, ranges, self._finished) if executor is None else (
+        maker = Threads(self._made, ranges) if executor is None else (
             executors.Elsewhere(plan, ranges, self._finished, executor))
         self._make, self._where = maker.run, _where(executor, threads)
 
@@ -182,6 +183,9 @@ class _Work:
                               stacklevel=4)
             if caught:
                 return
+
+    def _made(self, taken: tuple[int, int], stop: _gateway.Stop) -> None:
+        self._finished(taken[0], run_range(self._plan, *taken, stop))
 
     def _finished(self, first: int, part: Part) -> None:
         if self._store:

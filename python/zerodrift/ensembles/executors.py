@@ -16,11 +16,11 @@ from typing import Any
 from .. import _check, _gateway
 from ..errors import WorkerLost
 from ..runs.settings import VECTOR_UNITS
+from ..runs.threads import LOOK
 from .identity import version
 from .part import Part
 from .plan import Plan
 from .run_range import never, run_range
-from .threads import LOOK
 from .transport import packed, unpacked
 
 WINDOW = 256        # ranges that are submitted and not yet done, at most: more would only take memory

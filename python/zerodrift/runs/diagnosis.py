@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -61,7 +62,7 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     yield from _skipped_corrections(solution)
     yield from _small_pivot(solution)
     if solution.success:
-        yield from _instability(solution)
+        yield from ((StabilityWarning, sentence) for sentence in instability(solution.stats, solution.settings["integrator"]))
         yield from _inaccuracy(solution)
 
 
@@ -81,17 +82,17 @@ def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
             "digits there; joint coordinates lose fewer")
 
 
-def _instability(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    stats, integrator = solution.stats, name_of("integrators", solution.settings["integrator"])
-    steps = stats["steps"]
+def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:
+    """What a `StabilityWarning` says of a run that reached its end, from what the core counts of it."""
+    integrator, steps = name_of("integrators", integrator), stats["steps"]
     if too_long := stats["too_long"]:
         stable = integrators()[integrator].stability
         limit = f"is stable for ({stable:g})" if stable else "resolves: what moves so fast is stable, but wrong"
-        yield StabilityWarning, (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
-                                 f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")
+        yield (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
+               f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")
     if stats["stiff"]:
-        yield StabilityWarning, (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
-                                 f"of its {steps} steps; an implicit method, as 'radau', takes longer ones")
+        yield (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
+               f"of its {steps} steps; an implicit method, as 'radau', takes longer ones")
 
 
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -15,11 +16,13 @@ from ..runs import settings
 from ..runs.diagnosis import unwarned
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
+from ..runs.threads import side_by_side
 from ..systems.base import BaseSystem, core_of
 
 SERIES = "taylor"   # the integrator whose order is as high as one wants
 ROUNDING = np.finfo(float).eps
 PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
+_NOT_MADE = object()
 UNIT = 3            # numbers of steps are multiples of this, as two and five thirds of them are taken
 
 
@@ -66,6 +69,7 @@ class Motion:
     def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
         self.start = system._state_or_start(p0, v0, t=span[0])
+        self._made_before: dict[tuple[Way, int], Solution | Exception | None] = {}
         self.bounded = bounds["max_step"] is not None
         taken = settings.evaluating_integrators(system)
         cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
@@ -95,16 +99,41 @@ class Motion:
 
     def run(self, way: Way, rows: int | None = None) -> Solution | None:
         """A run, of which so many rows after the first are saved; None where its steps were too long for it."""
+        made = self._made_before.pop((way, rows), _NOT_MADE)
+        if isinstance(made, Exception):
+            raise made
+        if made is not _NOT_MADE:
+            return made
+        with unwarned():
+            return self._run(way, rows)
+
+    def run_side_by_side(self, ways: Sequence[Way], steps: int) -> None:
+        """Makes runs that `difference` to the motion of so many steps will ask for, in threads, if no Python is in the way."""
+        def make(asked: tuple[Way, int], stop: _gateway.Stop | None) -> None:
+            try:
+                self._made_before[asked] = self._run(*asked, stop)
+            except Exception as error:      # raised when the run is asked for
+                self._made_before[asked] = error
+
+        self._made_before.clear()
+        if core_of(self.system).for_run() is core_of(self.system):
+            with unwarned():        # around all threads, which share the filters of warnings
+                side_by_side(make, [(way, math.gcd(steps, way.steps)) for way in ways], in_threads=True)
+
+    def _run(self, way: Way, rows: int | None, stop: _gateway.Stop | None = None) -> Solution | None:
+        def look(part: float) -> None:
+            if stop():
+                raise KeyboardInterrupt
+
         system, (p0, v0) = self.system, self.start
         if way.rounding:
             system = Perturbed(system, way.rounding)
             p0, v0 = (system.shifted(x, way.rounding + i) for i, x in enumerate((p0, v0)))
         saved = {"save_every": way.steps // (rows or way.steps)} if self.t_eval is None else {"t_eval": self.t_eval}
         try:
-            with unwarned():
-                return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
-                                formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
-                                direct=False, **saved)
+            return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
+                            formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
+                            direct=False, progress=look if stop else False, **saved)
         except ZerodriftError as error:
             if error.solution is None:      # it did not even start
                 raise

@@ -231,10 +231,10 @@ class _Search:
 
     def _certified(self, fine: Solution, steps: int, halved: Difference, previous: float) -> Reference:
         """What all runs say of that of so many steps."""
-        motion, method = self.motion, self.motion.method
-        differences = [halved, motion.difference(Way(steps, self.pairs[0][0], method, rounding=1), fine, steps),
-                       self._by_other_method(fine, steps)]
-        differences.append(motion.difference(Way(5 * steps // UNIT, self._of_finer(), method, rounding=3), fine, steps))
+        motion = self.motion
+        motion.run_side_by_side(self._checks(steps), steps)
+        differences = [halved, motion.difference(self._rounded(steps), fine, steps), self._by_other_method(fine, steps)]
+        differences.append(motion.difference(self._finer(steps), fine, steps))
         errors = [SAFETY * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
                   for name, shift in zip("pv", motion.shift, strict=True)]
         found = Reference(fine, *errors, tuple(differences))
@@ -251,7 +251,20 @@ class _Search:
         return self._other_method(fine, steps)
 
     def _other_method(self, fine: Solution, steps: int) -> Difference:
-        return self.motion.difference(Way(2 * steps // UNIT, self.pairs[0][1], self.motion.other, rounding=2), fine, steps)
+        return self.motion.difference(self._other(steps), fine, steps)
+
+    def _checks(self, steps: int) -> list[Way]:
+        """Runs that a certificate takes, if the other formulation can follow the motion; the longest first."""
+        return [self._finer(steps), self._other(steps), self._rounded(steps)]
+
+    def _rounded(self, steps: int) -> Way:
+        return Way(steps, self.pairs[0][0], self.motion.method, rounding=1)
+
+    def _other(self, steps: int) -> Way:
+        return Way(2 * steps // UNIT, self.pairs[0][1], self.motion.other, rounding=2)
+
+    def _finer(self, steps: int) -> Way:
+        return Way(5 * steps // UNIT, self._of_finer(), self.motion.method, rounding=3)
 
     def _of_finer(self) -> str:
         """The formulation of the run with the shortest steps."""
@@ -263,7 +276,7 @@ class _Search:
 
     def _is_forgotten(self, fine: Solution, steps: int) -> bool:
         """Whether rounding alone makes another motion of it. With steps that are much too long, it may by chance."""
-        rounded = self.motion.difference(Way(steps, self.pairs[0][0], self.motion.method, rounding=1), fine, steps)
+        rounded = self.motion.difference(self._rounded(steps), fine, steps)
         return RESOLVED * self.motion.size < rounded.p < math.inf
 
     def _is_final(self, found: Reference, stalls: int) -> bool:
@@ -311,6 +324,10 @@ class _SearchBySeries(_Search):
                 break
             steps_of_other *= 2
         return nearest
+
+    def _checks(self, steps: int) -> list[Way]:
+        """None in threads: their steps are few, and the first has their series compiled."""
+        return []
 
     def _of_instants(self, found: Reference, steps: int) -> int:
         """In those of the check: the terms of a series are evaluated once in a step."""

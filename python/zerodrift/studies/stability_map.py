@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from ..errors import Interrupted
 from ..runs import settings
 from ..runs.progress import progress_of
+from ..runs.threads import side_by_side
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
-from .work_precision import Bench, Row, Setting, default_steps, not_excluded
+from .bench import Bench, Row, Setting
+from .work_precision import default_steps, not_excluded
 
 GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
 OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
@@ -92,6 +94,9 @@ def stability_map(
 ) -> StabilityMap:
     """Run all ways to simulate over steps and values of one parameter, and compare them with a reference.
 
+    Runs go side by side, in as many threads as this process may use processors, each with the bits that it has by itself; one
+    after the other where the system needs Python. So `Row.seconds` are those of runs beside others.
+
     Parameters
     ----------
     system : system, or callable value -> system
@@ -146,18 +151,14 @@ def stability_map(
     label = parameter or ("gain α of Baumgarte's method [1/s]" if ways is None else "value")
     of_references = (max(bench.reference_error for bench in benches),
                      tuple(dict.fromkeys(caveat for bench in benches for caveat in bench.caveats)))
-    rows: dict[str, Any] = {}
-    show, close = progress_of(progress)
+    cells = _Cells(benches, combinations)
     try:
-        for done, (name, lines) in enumerate(combinations.items()):
-            rows[name] = _measured(benches, lines)
-            show((done + 1) / len(combinations))
-    except (KeyboardInterrupt, Interrupted):
+        cells.measure(progress)
+    except KeyboardInterrupt:
+        rows = cells.done()
         partial = StabilityMap(label, values, steps, rows, *of_references)
         raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} ways", partial) from None
-    finally:
-        close()
-    return StabilityMap(label, values, steps, rows, *of_references)
+    return StabilityMap(label, values, steps, cells.done(), *of_references)
 
 
 def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
@@ -176,15 +177,34 @@ def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple
     for option in options:
         _check.choice(f"an option of the way {name!r}", option, OPTIONS)
     chosen = OPTIONS | dict(options)
-    return tuple(Setting(chosen["formulation"], chosen["integrator"], float(step), None,
-                         settings.stabilization(chosen["stabilization"]), settings.energy(chosen["energy"])) for step in steps)
+    corrections = settings.stabilization(chosen["stabilization"]), settings.energy(chosen["energy"])
+    return tuple(Setting(chosen["formulation"], chosen["integrator"], float(step), None, *corrections) for step in steps)
 
 
-def _measured(benches: list[Bench], lines: list[tuple[Setting, ...]]) -> tuple[tuple[Row, ...], ...]:
-    """A line of rows for each value; what does not depend on it is run once."""
-    measured: dict[Any, tuple[Row, ...]] = {}
-    for key in zip(benches, lines, strict=True):
-        if key not in measured:
-            bench, line = key
-            measured[key] = bench.measure(line, 1).rows
-    return tuple(measured[key] for key in zip(benches, lines, strict=True))
+class _Cells:
+    """The lines of each way, one for each value; lines that do not depend on it are one, which is run once."""
+
+    def __init__(self, benches: list[Bench], combinations: dict[str, list[tuple[Setting, ...]]]) -> None:
+        self._keys = {name: list(zip(benches, lines, strict=True)) for name, lines in combinations.items()}
+        self._lines = dict.fromkeys(key for keys in self._keys.values() for key in keys)
+        self._rows: dict[Any, tuple[Row, ...]] = {}
+        for bench, line in self._lines:
+            bench.prepare(line[0])
+
+    def measure(self, progress: Any) -> None:
+        """All lines, side by side where no Python is in the way."""
+        show, close = progress_of(progress)
+        try:
+            side_by_side(self._measure, list(self._lines), lambda: show(len(self._rows) / len(self._lines)),
+                         in_threads=not any(bench.needs_python for bench, _ in self._lines))
+        finally:
+            close()
+
+    def _measure(self, key: tuple[Bench, tuple[Setting, ...]], stop: _gateway.Stop | None) -> None:
+        bench, line = key
+        if rows := bench.rows(line, stop):
+            self._rows[key] = tuple(rows)
+
+    def done(self) -> dict[str, tuple[tuple[Row, ...], ...]]:
+        """The rows of those ways that are done."""
+        return {name: tuple(map(self._rows.get, keys)) for name, keys in self._keys.items() if self._rows.keys() >= set(keys)}

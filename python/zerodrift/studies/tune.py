@@ -13,7 +13,8 @@ from ..errors import Interrupted, UnreachableTolerance
 from ..runs.settings import FINEST_RTOL
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
-from .work_precision import Bench, Row, Setting, WorkPrecision, not_excluded, work_precision
+from .bench import Bench, Row, Setting
+from .work_precision import WorkPrecision, found, measured, not_excluded, work_precision
 
 EXTENSIONS = 6      # the largest number of steps beyond those of the first sweep
 REFINEMENTS = 3     # each halves the logarithm of the factor between two neighbouring steps
@@ -214,7 +215,7 @@ class _Search:
 
     def evidence(self, rounds: int) -> WorkPrecision:
         rows = sorted(self.rows.values(), key=lambda row: (*map(str, row.setting.method), -_fineness(row.setting)))
-        return self.bench.found(rows, rounds)
+        return found(self.bench, rows, rounds)
 
     def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
         """The same with all rows, not only those being measured."""
@@ -234,7 +235,7 @@ class _Search:
         return _scaled(setting, FACTOR[_chooses_steps(setting)]**(1 if self.goal.seeks_finest else -1))
 
     def _measure(self, settings: Iterable[Setting], rounds: int = 1) -> None:
-        self.rows |= {row.setting: row for row in self.bench.measure(list(settings), rounds).rows}
+        self.rows |= {row.setting: row for row in measured(self.bench, list(settings), rounds).rows}
 
     def _methods(self) -> list[list[Row]]:
         methods: dict[Any, list[Row]] = {}

@@ -7,86 +7,24 @@ import itertools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
-from ..errors import Interrupted, SingularSystem, StabilityWarning
+from .. import _check
+from ..errors import Interrupted, SingularSystem
 from ..runs import settings
-from ..runs.diagnosis import doubts, unwarned
 from ..runs.operations import acceleration
 from ..runs.progress import progress_of
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
-from .compare import states_of
+from .bench import Bench, Row, Setting
 
 PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
 STEPS = tuple(2.0**-k for k in range(-2, 5))        # those multiples
 TOLERANCES = tuple(10.0**-k for k in range(3, 12))
-MEASURED = 200      # times at which errors are measured, at most
-
-
-class Setting(NamedTuple):
-    """One way to simulate: steps of a fixed size (s), or chosen with ``rtol = atol = tolerance``."""
-
-    formulation: str
-    integrator: str
-    step: float | None
-    tolerance: float | None
-    stabilization: settings.Stabilization = settings.Projection()
-    energy: settings.EnergyCorrection | None = None
-
-    @property
-    def settings(self) -> dict[str, Any]:
-        """As `simulate` takes them."""
-        steps = {"step": self.step} if self.tolerance is None else {"rtol": self.tolerance, "atol": self.tolerance}
-        return {"formulation": self.formulation, "integrator": self.integrator, **steps,
-                "stabilization": self.stabilization, "energy": self.energy}
-
-    @property
-    def method(self) -> tuple[Any, ...]:
-        """What stays the same along a line of the diagram: all but the number that says how fine."""
-        return self._replace(step=None, tolerance=None), self.tolerance is not None
-
-
-class Row(NamedTuple):
-    """What one way to simulate costs and gives; numbers are NaN where there is nothing to measure.
-
-    Attributes
-    ----------
-    setting : Setting
-    success : bool
-        Whether the end was reached.
-    message : str
-        "done", or what happened.
-    seconds : float
-        The least of all rounds.
-    steps, evaluations : int
-        Counts of the core.
-    error : float
-        ``max |p - p_ref|`` over all coordinates and up to 200 times, the same for all runs and the end among them: what a run
-        gives there with ``t_eval``.
-    position_violation, velocity_violation, energy_violation : float
-        The largest of all rows.
-    """
-
-    setting: Setting
-    success: bool
-    message: str
-    seconds: float
-    steps: int
-    evaluations: int
-    error: float
-    position_violation: float
-    velocity_violation: float
-    energy_violation: float
-
-    def flat(self) -> dict[str, Any]:
-        """The columns of a table."""
-        return {**self.setting._asdict(), **{name: value for name, value in self._asdict().items() if name != "setting"}}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -201,6 +139,7 @@ def work_precision(
 
     Time is what the core needs for a run that saves every step. All runs are made once, then all again, `rounds` times, and
     the least time of each counts: so what else the machine does for a while slows all alike, and the least is hardly slowed.
+    Errors come from further runs, which go side by side in threads while nothing is timed.
 
     Parameters
     ----------
@@ -264,78 +203,29 @@ def work_precision(
         raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
-    return Bench(system, span, p0, v0, reference, direct).measure(combinations, rounds, progress)
+    return measured(Bench(system, span, p0, v0, reference, direct), combinations, rounds, progress)
 
 
-class Bench:
-    """A motion, and the reference against which runs of it are measured."""
-
-    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
-                 direct: bool | None = False) -> None:
-        self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
-        is_certified = isinstance(reference, certified.Reference)
-        self.reference_error, self.caveats = (reference.error, reference.caveats) if is_certified else (np.nan, ())
-        self._times = _times(reference, span)
-        self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
-
-    def measure(self, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:
-        """All combinations, `rounds` times in turn."""
-        rows: dict[Setting, Row] = {}
-        show, close = progress_of(progress)
-        try:
-            for done, setting in enumerate(setting for _ in range(rounds) for setting in combinations):
-                rows[setting] = self._row(setting, rows.get(setting))
-                show((done + 1) / (rounds * len(combinations)))
-        except KeyboardInterrupt:
-            partial = self.found(rows.values(), rounds, complete=False)
-            raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} rows", partial) from None
-        finally:
-            close()
-        return self.found(rows.values(), rounds)
-
-    def found(self, rows: Iterable[Row], rounds: int, complete: bool = True) -> WorkPrecision:
-        """What was measured so far."""
-        return WorkPrecision(self.system, self.span, tuple(rows), self.reference_error, rounds, complete, self.caveats)
-
-    def _row(self, setting: Setting, before: Row | None) -> Row:
-        """A run measured; if it was before, only its time."""
-        solution = self._run(setting)
-        if before:
-            return before._replace(seconds=min(before.seconds, solution.stats["seconds"]))
-        resampled = self._run(setting, t_eval=self._times) if solution.success else solution    # at the times of the reference
-        error = _largest(resampled.p - self._exact) if resampled.success else np.nan
-        return Row(setting, resampled.success, _message(resampled), solution.stats["seconds"], solution.stats["steps"],
-                   solution.stats["evaluations"], error,
-                   *map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation)))
-
-    def _run(self, setting: Setting, **saved: Any) -> Solution:
-        with unwarned():        # errors are measured, the rest is the row's message
-            solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, direct=self.direct,
-                                on_failure="return")
-        if solution.status == _gateway.INTERRUPTED:
-            raise KeyboardInterrupt
-        return solution
+def measured(bench: Bench, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:
+    """All combinations, `rounds` times in turn."""
+    rows: dict[Setting, Row] = {}
+    show, close = progress_of(progress)
+    try:
+        first, later = bench.timed(combinations), itertools.chain.from_iterable([combinations] * (rounds - 1))
+        for done, row in enumerate(itertools.chain(first, (bench.timed_again(rows[setting]) for setting in later))):
+            rows[row.setting] = row
+            show((done + 1) / (rounds * len(combinations)))
+    except KeyboardInterrupt:
+        partial = found(bench, rows.values(), rounds, complete=False)
+        raise Interrupted(f"interrupted from the keyboard after {len(rows)} of {len(combinations)} rows", partial) from None
+    finally:
+        close()
+    return found(bench, rows.values(), rounds)
 
 
-def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
-    """Rows of the reference, if it has any: between them it takes time, or knows nothing."""
-    solution = reference.solution if isinstance(reference, certified.Reference) else reference
-    if not isinstance(solution, Solution):
-        return np.linspace(*span, MEASURED)
-    times = solution.t[(solution.t >= span[0]) & (solution.t <= span[1])]
-    if not len(times):
-        raise ValueError(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
-    return times[np.unique(np.linspace(0, len(times) - 1, MEASURED).round().astype(int))]
-
-
-def _message(solution: Solution) -> str:
-    skipped = solution.stats["energy_skipped"]
-    doubtful = [sentence for category, sentence in doubts(solution) if category is StabilityWarning]
-    return "; ".join([solution.message, *([f"{skipped} energy corrections left out"] if skipped else []), *doubtful])
-
-
-def _largest(values: np.ndarray | None) -> float:
-    return float(np.abs(values).max()) if values is not None and values.size else np.nan
+def found(bench: Bench, rows: Iterable[Row], rounds: int, complete: bool = True) -> WorkPrecision:
+    """What was measured so far."""
+    return WorkPrecision(bench.system, bench.span, tuple(rows), bench.reference_error, rounds, complete, bench.caveats)
 
 
 def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[str]:

@@ -1,0 +1,251 @@
+"""Runs of one motion in many ways: what each costs, and how far it is from a reference."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _gateway
+from ..runs import settings
+from ..runs.diagnosis import instability, unwarned
+from ..runs.simulate import simulate
+from ..runs.solution import Solution
+from ..runs.threads import processors, side_by_side
+from ..systems.base import BaseSystem, core_of, direct_core_of
+from . import reference as certified
+from .compare import states_of
+
+TIMES = 200         # at which errors are measured, at most
+TOGETHER = 0.5      # s of runs whose errors are found together; at least as many runs as there are processors
+PARTS = 4           # for each thread, so that all end at about the same time
+OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items()
+           if name in inspect.signature(settings.plan).parameters and name != "system"}
+
+
+class Setting(NamedTuple):
+    """One way to simulate: steps of a fixed size (s), or chosen with ``rtol = atol = tolerance``."""
+
+    formulation: str
+    integrator: str
+    step: float | None
+    tolerance: float | None
+    stabilization: settings.Stabilization = settings.Projection()
+    energy: settings.EnergyCorrection | None = None
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """As `simulate` takes them."""
+        steps = {"step": self.step} if self.tolerance is None else {"rtol": self.tolerance, "atol": self.tolerance}
+        return {"formulation": self.formulation, "integrator": self.integrator, **steps,
+                "stabilization": self.stabilization, "energy": self.energy}
+
+    @property
+    def method(self) -> tuple[Any, ...]:
+        """What stays the same along a line of the diagram: all but the number that says how fine."""
+        return self._replace(step=None, tolerance=None), self.tolerance is not None
+
+
+class Row(NamedTuple):
+    """What one way to simulate costs and gives; numbers are NaN where there is nothing to measure.
+
+    Attributes
+    ----------
+    setting : Setting
+    success : bool
+        Whether the end was reached.
+    message : str
+        "done", or what happened.
+    seconds : float
+        The least of all rounds.
+    steps, evaluations : int
+        Counts of the core.
+    error : float
+        ``max |p - p_ref|`` over all coordinates and up to 200 times, the same for all runs and the end among them: what a run
+        gives there with ``t_eval``.
+    position_violation, velocity_violation, energy_violation : float
+        The largest of all rows.
+    """
+
+    setting: Setting
+    success: bool
+    message: str
+    seconds: float
+    steps: int
+    evaluations: int
+    error: float
+    position_violation: float
+    velocity_violation: float
+    energy_violation: float
+
+    def flat(self) -> dict[str, Any]:
+        """The columns of a table."""
+        return {**self.setting._asdict(), **{name: value for name, value in self._asdict().items() if name != "setting"}}
+
+
+class Outcome(NamedTuple):
+    """What came of a run, as far as a row tells of it."""
+
+    success: bool
+    message: str
+    seconds: float
+    steps: int
+    evaluations: int
+    p: np.ndarray | None                        # (k, nq), of the rows that were asked for
+    violations: tuple[float, float, float]      # the largest of positions, velocities and energy; NaN where there are none
+
+
+class Bench:
+    """A motion, and the reference against which runs of it are measured."""
+
+    def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
+                 direct: bool | None = False) -> None:
+        self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
+        is_certified = isinstance(reference, certified.Reference)
+        self.reference_error, self.caveats = (reference.error, reference.caveats) if is_certified else (np.nan, ())
+        self._times = _times(reference, span)
+        self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
+
+    @property
+    def needs_python(self) -> bool:
+        """Whether runs call what is written in Python, so that they cannot go side by side."""
+        return core_of(self.system).for_run() is not core_of(self.system)
+
+    def prepare(self, setting: Setting) -> None:
+        """Compiles what such runs take, so that threads find it."""
+        self._core(self._plan(setting))
+
+    def rows(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None) -> list[Row]:
+        """Runs with steps of fixed size, many in one call of the core; nothing where that is stopped."""
+        return self._rows(combinations, self._outcomes(combinations, stop), stop)
+
+    def timed(self, combinations: Sequence[Setting]) -> Iterator[Row]:
+        """Each run by itself, while nothing else runs here; then, some at a time, their errors side by side."""
+        while combinations:
+            outcomes: list[Outcome] = []
+            while len(outcomes) < len(combinations) and (len(outcomes) < processors() or _seconds_of(outcomes) < TOGETHER):
+                outcomes.append(self.run(combinations[len(outcomes)]))
+            yield from self._with_errors(combinations[:len(outcomes)], outcomes)
+            combinations = combinations[len(outcomes):]
+
+    def _with_errors(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome]) -> list[Row]:
+        """Rows of runs that are done, made in threads."""
+        parts, found = min(len(combinations), PARTS * processors()), {}
+
+        def look(part: int, stop: _gateway.Stop | None) -> None:
+            found[part] = self._rows(combinations[part::parts], outcomes[part::parts], stop)
+
+        side_by_side(look, range(parts), in_threads=not self.needs_python)
+        return [found[place % parts][place // parts] for place in range(len(combinations))]
+
+    def timed_again(self, row: Row) -> Row:
+        """The same with the least of both times."""
+        return row._replace(seconds=min(row.seconds, self.run(row.setting).seconds))
+
+    def _rows(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome], stop: _gateway.Stop | None) -> list[Row]:
+        """Rows of runs that are done: those that reached their end are made again, to the times of the reference."""
+        done = [place for place, outcome in enumerate(outcomes) if outcome.success]
+        again = self._outcomes([combinations[place] for place in done], stop, t_eval=self._times)
+        if len(again) < len(done) or len(outcomes) < len(combinations):
+            return []
+        at_times = dict(zip(done, again, strict=True))
+        return [self._row(setting, outcome, at_times.get(place, outcome))
+                for place, (setting, outcome) in enumerate(zip(combinations, outcomes, strict=True))]
+
+    def _row(self, setting: Setting, outcome: Outcome, at_times: Outcome) -> Row:
+        error = _largest(at_times.p - self._exact) if at_times.success else np.nan
+        return Row(setting, at_times.success, at_times.message, outcome.seconds, outcome.steps, outcome.evaluations, error,
+                   *outcome.violations)
+
+    def run(self, setting: Setting, **saved: Any) -> Outcome:
+        """One, by itself."""
+        with unwarned():        # errors are measured, the rest is the row's message
+            return self._run(setting, **saved)
+
+    def _run(self, setting: Setting, **saved: Any) -> Outcome:
+        solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, direct=self.direct,
+                            on_failure="return")
+        if solution.status == _gateway.INTERRUPTED:
+            raise KeyboardInterrupt
+        return _outcome(solution)
+
+    # ---- many in one call of the core ----
+
+    def _outcomes(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None, **saved: Any) -> list[Outcome]:
+        """What came of the runs, with the bits that each has by itself; nothing where they are stopped."""
+        if self.needs_python:
+            return [self.run(setting, **saved) for setting in combinations]
+        plans = [self._plan(setting, **saved) for setting in combinations]
+        cores: dict[_gateway.CoreSystem, list[int]] = {}
+        for place, plan in enumerate(plans):
+            cores.setdefault(self._core(plan), []).append(place)
+        found: dict[int, Outcome] = {}
+        for core, places in cores.items():
+            made = self._made(core, [plans[place] for place in places], stop)
+            if (made.status == _gateway.PAUSED).any():
+                return []
+            for run, place in enumerate(places):
+                if made.way[run] == _gateway.NOT_BEGUN:     # an error says why, as of any run
+                    found[place] = self._run(combinations[place], **saved)
+                else:
+                    found[place] = _outcome_of(core, plans[place], made, run)
+        return [found[place] for place in range(len(plans))]
+
+    def _plan(self, setting: Setting, t_eval: Any = None) -> settings.Plan:
+        return settings.plan(self.system, self.span, **(OPTIONS | setting.settings | {"direct": self.direct, "t_eval": t_eval}))
+
+    def _core(self, plan: settings.Plan) -> _gateway.CoreSystem:
+        return direct_core_of(self.system, plan.chosen["vector"], plan.options)
+
+    def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.Plan],
+              stop: _gateway.Stop | None) -> _gateway.BatchResults:
+        options, rows = [plan.options for plan in plans], max(plan.rows for plan in plans)
+        p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
+        wanted = ("p",) if "t_eval" in plans[0].chosen else ()
+        return _gateway.run_batch(core, options, None, 0, p0, v0, rows, wanted, stop=stop, lanes=False, measured=True)
+
+
+def _seconds_of(outcomes: Sequence[Outcome]) -> float:
+    return sum(outcome.seconds for outcome in outcomes)
+
+
+def _outcome(solution: Solution) -> Outcome:
+    stats = solution.stats
+    message = _message(solution.message, stats, solution.settings["integrator"], is_done=solution.success)
+    return Outcome(solution.success, message, stats["seconds"], stats["steps"], stats["evaluations"], solution.p, tuple(
+        map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation))))
+
+
+def _outcome_of(core: _gateway.CoreSystem, plan: settings.Plan, made: _gateway.BatchResults, run: int) -> Outcome:
+    """The same of a run in a batch."""
+    rows, is_done = int(made.rows[run]), bool(made.status[run] == _gateway.DONE)
+    stats = dict(zip(made.statistics.dtype.names, made.statistics[run].item(), strict=True))
+    measured = {name: float(values[run]) for name, values in made.measured.items()}
+    energy = float(made.energy_error[run]) if core.has_energy and rows else np.nan
+    return Outcome(
+        is_done, _message(made.messages[run] or "done", stats | measured, plan.chosen["integrator"], is_done=is_done),
+        measured["seconds"], stats["steps"], stats["evaluations"], made.columns["p"][run, :rows] if made.columns else None,
+        (measured["position_violation"], measured["velocity_violation"], energy))
+
+
+def _message(ended: str, stats: Any, integrator: Any, *, is_done: bool) -> str:
+    skipped = stats["energy_skipped"]
+    doubtful: Iterator[str] = instability(stats, integrator) if is_done else iter(())
+    return "; ".join([ended, *([f"{skipped} energy corrections left out"] if skipped else []), *doubtful])
+
+
+def _largest(values: np.ndarray | None) -> float:
+    return float(np.abs(values).max()) if values is not None and values.size else np.nan
+
+
+def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
+    """Rows of the reference, if it has any: between them it takes time, or knows nothing."""
+    solution = reference.solution if isinstance(reference, certified.Reference) else reference
+    if not isinstance(solution, Solution):
+        return np.linspace(*span, TIMES)
+    times = solution.t[(solution.t >= span[0]) & (solution.t <= span[1])]
+    if not len(times):
+        raise ValueError(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
+    return times[np.unique(np.linspace(0, len(times) - 1, TIMES).round().astype(int))]
