@@ -5,7 +5,7 @@
 #include "../integrators/runge_kutta.h"
 #include "lane_pins.h"
 
-enum { ZD_MOST_LANES = 8, ZD_MOST_STAGES = 16 };
+enum { ZD_MOST_LANES = 8 };
 
 /* A sum over stages, of those whose weights are not zero. */
 typedef struct zd_weights {

@@ -11,10 +11,7 @@
 
 #include "runge_kutta.h"
 
-enum {
-    ZD_OF_ENDS = 3,         /* coefficients that follow from both ends */
-    ZD_MOST_STAGES = 16,    /* with the rate at the end and those behind it */
-};
+enum { ZD_OF_ENDS = 3 };    /* coefficients that follow from both ends */
 
 /* to <- y + h sum_j weight_j k_j, h coming last, so that weights are constants */
 ZD_INLINE double zd_added(int i, const int size, const int terms, const double *weight, double h, const double *k, const double *y)

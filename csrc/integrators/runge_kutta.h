@@ -7,6 +7,8 @@
 #include "../linalg/small.h"
 #include "integrator.h"
 
+enum { ZD_MOST_STAGES = 16 };   /* of any method, with the rate at the end of a step and those for values between its ends */
+
 /* Butcher's table, a strictly lower triangular (stages, stages):   c | a
  *                                                                    | b
  * and, for an error estimate h sum e_i k_i, the weights e (stages + 1,): the last is that of f at the end of the step. */

@@ -13,6 +13,7 @@ import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
+from .contradictions import contradiction
 from .many_bodies import Target
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
@@ -25,7 +26,6 @@ NUDGE = 1e-3            # how far a pose is moved to see what is singular in it 
 LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so much
 RANK = 1e-9             # of the largest singular value: what counts as dependent
 MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
-MOST_TOLD = 8           # names in a sentence
 ANGLES = "angle", "angle1", "angle2"
 
 
@@ -329,7 +329,7 @@ class Assembly:
         scaled = self._least_step(rows, right)
         left = rows @ scaled - right
         if np.abs(left).max(initial=0.0) > MET * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
-            raise self._contradiction(left, size, names)
+            raise contradiction(left, size, names, self.rows)
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = nullspace(rows / self.weight) / self.weight[:, None]
@@ -340,26 +340,6 @@ class Assembly:
         """Whether no row asks for a velocity."""
         Phi_t = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv)).get("Phi_t")
         return Phi_t is None or not Phi_t.any()
-
-    def _contradiction(self, left: np.ndarray, size: np.ndarray, names: Sequence[str]) -> Exception:
-        """The error that names whose velocities contradict each other, or the joints that do not leave one its velocity.
-
-        What is left over weighs rows so that the weighted sum of them vanishes and that of their right sides does not: rows with
-        a weight are those that contradict each other.
-        """
-        least = 1e-3 * np.abs(left).max()
-        worst = [int(i) for i in np.argsort(-np.abs(left)) if abs(left[i]) > least]
-        moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
-        if len(moved) > 1:
-            told, off = _told(moved, " and "), np.abs(left * size).max()
-            return InconsistentStart(f"start: the velocities of {told} contradict each other, by {off:.3g}")
-        row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
-        off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
-        told = f"; it is off by {off:.3g}" if off else ""
-        joints = _told(sorted({self.rows[i] for i in worst if not names[i]}), ", ")
-        blocking = f"the joints {joints} do" if joints else "the mechanism does"
-        return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
-                                 "At a dead centre, start a little aside, or drive another joint")
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
         """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""
@@ -378,12 +358,6 @@ class Assembly:
         """What each row asks a velocity for, nothing where it is a joint's, and each target."""
         owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(self.core.m)]
         return [*owners, *(target.name for target in held)]
-
-
-def _told(names: Sequence[str], between: str) -> str:
-    """Names, not all of many."""
-    others = [f"{len(names) - MOST_TOLD} others"] if len(names) > MOST_TOLD else []
-    return between.join([*map(repr, names[:MOST_TOLD]), *others])
 
 
 def _least_along(rows: np.ndarray, free: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ import numpy as np
 from .._gateway.consistent import nearest_velocities
 from .._gateway.mechanisms import MechanismCore
 from .assembly import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
+from .contradictions import contradiction
 from .many_bodies import SparseRows, Target, are_met, sparse_rows
 
 MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
@@ -193,7 +194,7 @@ class AssemblyOfMany(Assembly):
         size[size == 0.0] = 1.0
         left = (asked @ x - asked_right) / size
         if np.abs(left).max() > MET * max(np.abs(asked_right / size).max(), np.abs(x).max()):
-            raise self._contradiction(left, size, self._asked(held))
+            raise contradiction(left, size, self._asked(held), self.rows)
         return (x + _towards(rows, right - rows @ x, is_wish)) / self.weight * self.scale
 
 

@@ -13,7 +13,8 @@ from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
 from ..systems.base import core_of
 from .rows import integrators, name_of
-from .solution import SMALLEST_PIVOT, Solution
+from .solution import Solution
+from .summary import SMALLEST_PIVOT
 
 # Both limits are parts of the largest kinetic energy. Among the runs that were measured, none whose error of the energy balance
 # (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without harm, as

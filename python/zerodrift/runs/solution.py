@@ -13,14 +13,12 @@ from .. import _check, _gateway
 from ..systems.base import BaseSystem, direct_core_of
 from ..systems.watching import AXES
 from .saving import write
-from .settings import core_settings, corrections_of
+from .settings import core_settings
+from .summary import summary
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-SMALLEST_PIVOT = 1e-8       # half of the digits are lost in what is solved with a smaller one
-MOST_NAMED = 8              # rows in a line
-PART = 2**26        # bytes of a column that are looked at together
 A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
 
 
@@ -148,39 +146,7 @@ class Solution:
         return Solution, tuple(getattr(self, name) for name in FIELDS)
 
     def __repr__(self) -> str:
-        s, stats = self.settings, self.stats
-        steps = max(1, stats.get("steps", 1))
-        lines = [
-            f"Solution of {self.system.name}: {len(self.t)} rows, t = {self.t_span[0]:g} ... {self._last_time:g} s, "
-            f"{self.message}",
-            f"  how        {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
-            + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
-        ]
-        if stats:       # which a run that was killed did not leave
-            lines.append(
-                f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
-                f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
-        if stats.get("direct_steps"):
-            left = stats["steps"] - stats["direct_steps"]
-            lines.append("  road       direct functions" + (f", which {left} steps left" if left else ""))
-        elif stats.get("general_road"):
-            lines.append(f"  road       no direct functions: {stats['general_road']}")
-        if self.system.m:
-            lines.append(f"  violation  max |Phi| = {_largest(self.position_violation)}, "
-                         f"max |Psi| = {_largest(self.velocity_violation)}")
-        if stats.get("redundant"):
-            names = [self.system.constraints[row].name for row in stats["redundant"][:MOST_NAMED]]
-            if (more := len(stats["redundant"]) - len(names)) > 0:
-                names.append(f"{more} others")
-            lines.append(f"  redundant  {', '.join(names)}: rank {stats['rank']} of {self.system.m}")
-        if stats.get("rank_drops"):
-            lines.append(f"  singular   the rank dropped in {stats['rank_drops']} steps")
-        if 0 < stats.get("smallest_pivot", 0) < SMALLEST_PIVOT:
-            lines.append(f"  digits     lost near a bifurcation: {stats['smallest_pivot']:.1g} was left of "
-                         f"{self.system.constraints[stats['smallest_pivot_row']].name} at t = {stats['smallest_pivot_time']:.6g}")
-        if self.energy_violation is not None:
-            lines.append(f"  energy     max |Psi_E| = {_largest(self.energy_violation)} J")
-        return "\n".join(lines)
+        return summary(self)
 
     def __getitem__(self, name: Any) -> np.ndarray:
         """A coordinate, a velocity, the multiplier of a constraint, or a measure of a mechanism, by its name, at every row.
@@ -382,23 +348,3 @@ class Solution:
 
 
 FIELDS = tuple(each.name for each in fields(Solution))
-
-
-def _duration(seconds: float) -> str:
-    for unit, size in (("s", 1.0), ("ms", 1e-3)):
-        if seconds >= size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{1e6 * seconds:.3g} us"
-
-
-def _step_sizes(settings: dict[str, Any]) -> str:
-    if settings["step"] is None:
-        return f"rtol {settings['rtol']:g}, atol {settings['atol']:g}"
-    return f"step {settings['step']:g} s"
-
-
-def _largest(violation: np.ndarray) -> str:
-    """Of a column that may be larger than memory."""
-    size = violation.itemsize * max(1, violation[:1].size)
-    parts = (violation[i:i + max(1, PART // size)] for i in range(0, len(violation), max(1, PART // size)))
-    return f"{max((np.abs(part).max(initial=0.0) for part in parts), default=0.0):.2g}"
