@@ -29,11 +29,11 @@ def parallelograms(count, doubled=0, angle=ANGLE, gravity=0.0):
     return system, v
 
 
-def swung(count, doubled=0):
+def swung(count, doubled=0, formulation="schur"):
     """Through the line; how far the angles are off at the end."""
     system, v = parallelograms(count, doubled)
     with pytest.warns(zd.AccuracyWarning, match=r"at t = 0\.05, .* was left of constraint '[ABC]\d+.*\.[xy]' once") as told:
-        sol = zd.simulate(system, 0.1, None, v, step=1e-3)
+        sol = zd.simulate(system, 0.1, None, v, step=1e-3, formulation=formulation)
     assert len(told) == 1
     assert "digits     lost near a bifurcation" in repr(sol)
     return sol, np.abs(sol.p[-1, 2 : 3 * (count + 1) : 3] - (ANGLE + 0.1 * SPEED)).max()
@@ -57,6 +57,17 @@ def test_long_chains_that_lose_digits_say_so():
         late = zd.simulate(system, 3.5, None, v, step=1e-3)
     assert "digits     lost near a bifurcation" in repr(late)
     assert off(late) > 100 * off(early)
+
+
+def test_every_formulation_tells_of_a_small_pivot_which_decides_nothing(formulation):
+    """All rows count from the first step to the last, none of which is made in parts, and the cranks turn as they have to."""
+    sol, off = swung(14, formulation=formulation)
+    stats = sol.stats
+    assert (sol.success, stats["steps"], stats["rank"], stats["subdivided"]) == (True, 100, sol.system.m, 0)
+    assert (stats["redundant"], stats["rank_drops"]) == ([], 0)
+    assert 0 < stats["smallest_pivot"] < 1e-8       # squares of the distance from the line, 1e-4
+    assert abs(stats["smallest_pivot_time"] - 0.05) < 2e-3
+    assert off < 1e-10
 
 
 def test_small_pivots_are_watched_where_rows_follow_from_others():
