@@ -43,9 +43,19 @@ const zd_term_row *zd_term_at(int row);                         /* NULL: there a
 zd_shape zd_term_shape(const zd_system *system, int row);       /* as the equations have it */
 size_t zd_term_size(const zd_system *system, int row);          /* how many doubles evaluate() writes */
 
-/* Multiplications in C W C^T of a declared structure, in its factors and in a solve with them, those in blocks without a kernel of their size
- * weighed by their time; 0: none is declared, -1: there is no memory. */
-double zd_structure_count(const zd_system *system);
+/* What it takes to eliminate C W C^T of a declared structure, W = M^-1. Multiplications are counted apart in blocks that have a kernel of their
+ * size, [0], and in the others, [1]: of C W C^T, of its factors, and of a solve with them. */
+typedef struct zd_structure_work {
+    int columns, blocks, rows;  /* columns of blocks; blocks below the diagonal, with fill */
+    double products[2], factors[2], solves[2];
+    int has_products;           /* whether the system's own products serve, so that no C is stored */
+    int is_of_many;             /* rows, so that bifurcations are not looked for */
+    int is_alike;               /* whether bodies contribute alike to each row, so that solutions need not be compared */
+    double share;               /* the smallest pivot, of its diagonal entry; 0: there is one that is not positive */
+} zd_structure_work;
+
+/* At (0, p, 0), where M has to be diagonal. Without a structure nothing is counted; ZD_NO_MEMORY, or what evaluate() has returned. */
+int zd_structure_count(const zd_system *system, const double *p, zd_structure_work *work);
 
 /* The first of the wanted terms that has an entry which is not finite, as its bit; 0: there is none. */
 int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms);

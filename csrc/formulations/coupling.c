@@ -29,7 +29,6 @@ enum {
 static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double GOOD = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
 static const double CALM = 64 * 0x1p-52;        /* of the terms of C x: so little is left of accurate solutions */
-static const double UNEQUAL = 0x1p6;            /* what bodies contribute to a row, the largest to the smallest */
 
 zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 {
@@ -88,36 +87,6 @@ static double *begin(zd_coupling *self, const zd_right_side *of)
 
 /* ---- factors ---- */
 
-/* What a body contributes to the diagonal of S in a row: c W c^T; W is its diagonal. */
-static double contribution(const zd_coupling *self, const zd_piece *piece, int row)
-{
-    const double *c = self->C + piece->C + row * piece->stride, *W = self->W + piece->W;
-    double sum = 0;
-    for (int i = 0; i < piece->n; i++) sum += c[i] * W[i] * c[i];
-    return sum;
-}
-
-/* Whether bodies contribute alike to each row, W is all in its diagonal, and no body is taken as several. */
-static int are_alike(zd_coupling *self)
-{
-    const zd_weighted *weighted = self->weighted;
-    double *least = self->rest, *most = self->lambda;
-    if (zd_weighted_has_welds(weighted)) return 0;
-    for (int k = 0; k < self->m; k++) least[k] = INFINITY, most[k] = 0;
-    for (const zd_piece *piece = weighted->piece; piece < weighted->piece + weighted->pieces; piece++)
-        for (int i = 0; i < piece->rows; i++) {
-            if (!piece->is_diagonal) return 0;
-            const int k = piece->row + i;
-            const double share = contribution(self, piece, i);
-            if (!(share > 0)) continue;
-            least[k] = fmin(least[k], share);
-            most[k] = fmax(most[k], share);
-        }
-    for (int k = 0; k < self->m; k++)
-        if (most[k] > UNEQUAL * least[k]) return 0;
-    return 1;
-}
-
 static int invert_mass(zd_coupling *self, zd_point *point)
 {
     if (self->is_known && self->is_constant) return ZD_DONE;
@@ -125,7 +94,7 @@ static int invert_mass(zd_coupling *self, zd_point *point)
     if (status) return status;
     point->failed_index = zd_mass_factor(point, self->W);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    self->is_accurate = are_alike(self);
+    self->is_accurate = zd_weighted_is_alike(self->weighted, self->C, self->W, self->rest, self->lambda);
     self->is_known = 1;
     return ZD_DONE;
 }

@@ -1,50 +1,94 @@
 /* What a structure costs: the multiplications in S(W) = C W C^T of (13) and (27), in its factors, and in a solve with them. They are counted
- * from the order that a run eliminates in, with fill, so that mechanisms can take the coordinates that cost less. Where blocks have no kernel
- * of their size, as those of bodies with many joints do not, they take some three times as long, and count as so many.
+ * from the order that a run eliminates in, with fill, so that mechanisms can take the coordinates that cost less. Those in blocks that have a
+ * kernel of their size are counted apart from the others, which take several times as long.
  */
+#include <string.h>
+
+#include "../constraints/rank.h"
 #include "../zerodrift.h"
 #include "weighted.h"
 
-static const double WITHOUT_KERNEL = 3;     /* measured: tests/bench/bench_coordinates.py */
-
 /* A W B^T: the blocks of two groups and a body. */
-static double count_pairs(const zd_weighted *self)
+static void count_products(const zd_weighted *self, zd_structure_work *work)
 {
-    double count = 0;
     for (int i = 0; i < self->pairs; i++) {
         const zd_pair *pair = self->pair + i;
         const int kernel = pair->kernel % ZD_SQUARE, n = kernel ? kernel / 10 : self->piece[pair->a].n;
         const int rows = kernel ? kernel % 10 : self->piece[pair->a].rows, others = kernel ? rows : self->piece[pair->b].rows;
-        count += (kernel ? 1 : WITHOUT_KERNEL) * rows * n * others;
+        work->products[kernel == 0] += rows * n * others;
     }
-    return count;
 }
 
-/* Of a column with s rows in its pivot and b below that: L, what it takes from what follows, and its part of a solve. */
-static double count_column(double s, double b) { return s * s * s / 6 + s * s * b + s * b * b / 2 + s * s + 2 * s * b; }
+/* Of a column with s rows in its pivot and b below that: L, and what it takes from what follows; and its part of a solve. */
+static double count_column(double s, double b) { return s * s * s / 6 + s * s * b + s * b * b / 2; }
 
-static double count_factors(const zd_blocks *blocks)
+static void count_factors(const zd_blocks *blocks, zd_structure_work *work)
 {
-    double count = 0;
+    work->columns = blocks->count;
+    work->blocks = blocks->begin[blocks->count];
+    work->rows = blocks->rows;
     for (int k = 0; k < blocks->count; k++) {
+        const int s = blocks->at[k + 1] - blocks->at[k], has_none = !blocks->kernel[k];
         int below = 0;
         for (int i = blocks->begin[k]; i < blocks->begin[k + 1]; i++) below += blocks->at[blocks->row[i] + 1] - blocks->at[blocks->row[i]];
-        count += (blocks->kernel[k] ? 1 : WITHOUT_KERNEL) * count_column(blocks->at[k + 1] - blocks->at[k], below);
+        work->factors[has_none] += count_column(s, below);
+        work->solves[has_none] += s * s + 2.0 * s * below;
     }
-    return count;
 }
 
-double zd_structure_count(const zd_system *system)
+typedef struct place {      /* M, then its inverse, and C at one point, with room for rows */
+    zd_terms terms;
+    double *v, *least, *most;
+} place;
+
+static place take_place(zd_arena *arena, const zd_system *system)
 {
-    if (!system->structure) return 0;
+    const size_t m = (size_t)zd_constraints(system), nv = (size_t)system->nv;
+    place it = {.v = zd_take_doubles(arena, nv), .least = zd_take_doubles(arena, m), .most = zd_take_doubles(arena, m)};
+    it.terms.M = zd_take_doubles(arena, (size_t)zd_size_of_M(system));
+    it.terms.C = zd_take_doubles(arena, (size_t)zd_size_of_C(system));
+    it.terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);
+    return it;
+}
+
+/* How much of the digits there is left. */
+static int judge(zd_weighted *weighted, const zd_system *system, const double *p, place *at, zd_structure_work *work)
+{
+    double *W = at->terms.M;
+    memset(at->v, 0, (size_t)system->nv * sizeof *at->v);
+    const int status = system->evaluate(system->data, ZD_M | ZD_C | ZD_MOVED, 0, p, at->v, &at->terms);
+    if (status) return status;
+    for (int i = 0; i < system->nv; i++) W[i] = 1 / W[i];
+    work->is_alike = zd_weighted_is_alike(weighted, at->terms.C, W, at->least, at->most);
+    const zd_pivots pivots = zd_weighted_factor(weighted, at->terms.C, W, NULL);
+    work->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0;
+    return ZD_DONE;
+}
+
+static int count_and_judge(zd_store *store, zd_arena *arena, const zd_system *system, const double *p, zd_structure_work *work)
+{
+    zd_weighted *weighted = zd_weighted_create(store, zd_layout_take(arena, system));
+    place at = take_place(arena, system);
+    if (!weighted) return ZD_NO_MEMORY;
+    count_products(weighted, work);
+    count_factors(weighted->blocks, work);
+    work->has_products = zd_weighted_products(weighted, system) != NULL;
+    work->is_of_many = zd_rank_is_of_many(system);
+    return judge(weighted, system, p, &at, work);
+}
+
+int zd_structure_count(const zd_system *system, const double *p, zd_structure_work *work)
+{
+    *work = (zd_structure_work){0};
+    if (!system->structure) return ZD_DONE;
     zd_arena counting = {NULL, 0};
     zd_layout_take(&counting, system);
+    take_place(&counting, system);
     zd_arena arena = {zd_allocate(counting.used), 0};
-    if (!arena.base) return -1;
+    if (!arena.base) return ZD_NO_MEMORY;
     zd_store store = {NULL};
-    const zd_weighted *weighted = zd_weighted_create(&store, zd_layout_take(&arena, system));
-    const double count = weighted ? count_pairs(weighted) + count_factors(weighted->blocks) : -1;
+    const int status = count_and_judge(&store, &arena, system, p, work);
     zd_store_release(&store);
     zd_release(arena.base);
-    return count;
+    return status;
 }

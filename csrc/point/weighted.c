@@ -7,11 +7,13 @@
  */
 #include "weighted.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../linalg/small.h"
 
 enum { TOUCHERS_OF_COPY = 4 };
+static const double UNEQUAL = 0x1p6;    /* what bodies contribute to a row, the largest to the smallest */
 
 /* ---- symbolic ---- */
 
@@ -355,4 +357,32 @@ int zd_weighted_row(const zd_weighted *self, int place)
         if (place >= self->row[g] && place < self->row[g] + layout->row_at[g + 1] - layout->row_at[g])
             return layout->row_at[g] + place - self->row[g];
     return 0;
+}
+
+/* What a body contributes to the diagonal of S in a row: c W c^T; W is its diagonal. */
+static double contribution(const zd_piece *piece, int row, const double *C, const double *W)
+{
+    const double *c = C + piece->C + row * piece->stride, *w = W + piece->W;
+    double sum = 0;
+    for (int i = 0; i < piece->n; i++) sum += c[i] * w[i] * c[i];
+    return sum;
+}
+
+int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double *W, double *least, double *most)
+{
+    const int m = self->layout->row_at[self->layout->groups];
+    if (zd_weighted_has_welds(self)) return 0;
+    for (int k = 0; k < m; k++) least[k] = INFINITY, most[k] = 0;
+    for (const zd_piece *piece = self->piece; piece < self->piece + self->pieces; piece++)
+        for (int i = 0; i < piece->rows; i++) {
+            if (!piece->is_diagonal) return 0;
+            const int k = piece->row + i;
+            const double share = contribution(piece, i, C, W);
+            if (!(share > 0)) continue;
+            least[k] = fmin(least[k], share);
+            most[k] = fmax(most[k], share);
+        }
+    for (int k = 0; k < m; k++)
+        if (most[k] > UNEQUAL * least[k]) return 0;
+    return 1;
 }

@@ -64,6 +64,8 @@ static inline void zd_weighted_subtract_transposed(const zd_weighted *self, cons
 }
 /* rows (m,) <- y, in the order of C. */
 static inline void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows) { zd_strips_scatter(&self->strips, y, rows); }
+/* Whether bodies contribute alike to each row, W is all in its diagonal, and no body is taken as several; least, most (m,): room. */
+int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double *W, double *least, double *most);
 /* Which row of C has this place in the order of S; of a weld, the first. */
 int zd_weighted_row(const zd_weighted *self, int place);
 

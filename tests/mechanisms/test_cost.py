@@ -21,11 +21,37 @@ def test_products_and_factors_of_a_chain(n):
     """Pins of two rows, three velocities a body, no fill: A W B^T of three pairs a body but the last, and L of n - 1 columns."""
     products = 2 * 3 * 2 * (3 * (n - 1) + 1)
     columns = (n - 1) * (2**3 / 6 + 2**2 * 2 + 2 * 2**2 / 2 + 2**2 + 2 * 2 * 2) + 2**3 / 6 + 2**2
-    assert chain(n).system("absolute")._core.structure_count() == pytest.approx(products + columns)
+    system = chain(n).system("absolute")
+    work = system._core.structure_work(system.p0)
+    assert work.products[0] == products
+    assert work.factors[0] + work.solves[0] == pytest.approx(columns)
+    assert (work.columns, work.blocks, work.rows, work.products[1], work.factors[1], work.solves[1]) == (n, n - 1, 2 * n, 0, 0, 0)
+    assert (work.has_products, work.is_of_many, work.is_alike) == (1, 0, 1)
 
 
 def test_what_has_no_structure_has_no_count():
-    assert chain(3).system("joint")._core.structure_count() == 0
+    system = chain(3).system("joint")
+    assert system._core.structure_work(system.p0).rows == 0
+
+
+def test_the_least_pivot_is_that_of_dense_factors():
+    """It is between the least eigenvalue and the root of the determinant, which is the product of all pivots."""
+    system = four_bars(3).system("absolute")
+    e = system.evaluate(system.p0, system.v0)
+    S = e.C @ np.linalg.solve(e.M, e.C.T)
+    share = system._core.structure_work(system.p0).share
+    scaled = S / np.sqrt(np.outer(np.diag(S), np.diag(S)))
+    assert np.linalg.eigvalsh(scaled)[0] <= share <= np.linalg.det(scaled) ** (1 / system.m)
+
+
+def test_rows_that_follow_from_others_and_unequal_bodies_are_seen_in_the_drawing():
+    m = four_bars(3)
+    m.revolute("again", m.ground, "rod0.start")
+    doubled = m.system("absolute")
+    unequal = four_bars(3).system("absolute").with_parameters({"bar1.mass": 1e-3})
+    assert doubled._core.structure_work(doubled.p0).share < cost.REDUNDANT
+    assert unequal._core.structure_work(unequal.p0).is_alike == 0
+    assert cost_of(m, exact=True).absolute > 3 * cost_of(four_bars(3), exact=True).absolute
 
 
 @pytest.mark.parametrize(("m", "bodies", "n", "rows", "depths", "row_depths"), [
@@ -33,10 +59,11 @@ def test_what_has_no_structure_has_no_count():
     (four_bars(1), 3, 3, 2, 1 + 1 + 2, 2 * (2 + 1)), (four_bars(2), 5, 5, 4, 3 * 1 + 2 * 2, 4 * (2 + 1)),
     (chain_of_balls(2), 2, 6, 0, 1 + 2, 0), (spatial_linkages(1), 3, 4, 3, 1 + 1 + 2, 3 * (1 + 2))])
 def test_parts_of_joint_coordinates(m, bodies, n, rows, depths, row_depths):
-    dense = n**3 / 6 + n**2 * rows + n * rows**2 / 2 + rows**3 / 6 + 2 * (n**2 + n * rows + rows**2)
+    dense, solves = n**3 / 6 + n**2 * rows / 2 + n * rows**2, n**2 + n * rows + rows**2
     system = m.system("joint")
     assert (system.nv, system.m) == (n, rows)
-    np.testing.assert_allclose(cost.parts_of_joint(system._tables), [5 * dense, bodies, depths, row_depths])
+    np.testing.assert_allclose(cost.parts_of_joint(system._tables), [
+        1, dense, solves, bodies, bodies * (m.dimension == 3), depths, row_depths, rows, 0])
 
 
 def test_coordinates_along_the_tree_are_those_that_the_core_finds():
@@ -58,7 +85,8 @@ def test_coordinates_along_the_tree_are_those_that_the_core_finds():
     (zd.models.andrews(), "joint"), (chain(24), "absolute"), (chain(100), "absolute"),
     (four_bars(10), "absolute"), (star(300), "absolute"), (binary_tree(7), "absolute"),
     (spatial_chain(4), "joint"), (spatial_chain(60), "absolute"), (chain_of_balls(6), "absolute"), (spatial_star(12), "joint"),
-    (spatial_linkages(2), "joint"), (spatial_linkages(24), "absolute"), (zd.models.heavy_top(), "absolute"),
+    (spatial_linkages(2), "joint"), (spatial_linkages(24), "absolute"), (zd.models.heavy_top(), "joint"),
+    (zd.models.rattleback(), "joint"),
     (zd.models.bennett(), "absolute"), (zd.models.hookes_joint(), "joint"), (zd.models.delta_robot(), "joint"),
     (zd.models.stewart_platform(), "joint"), (zd.models.whipple_bicycle(), "joint")],
     ids=lambda given: getattr(given, "name", given))

@@ -82,12 +82,17 @@ class CoreSystem(Measuring):
             self.c.name_row, self.c.names = lib.zd_name_row_in_python, names.handle
         self.row_names.take_from(system)
 
-    def structure_count(self) -> float:
-        """Multiplications in C W C^T of a declared structure, in its factors and in a solve with them; 0 where there is none."""
-        count = lib.zd_structure_count(self.c)
-        if count < 0:
-            raise MemoryError("there is no memory for the order of elimination of the constraints")
-        return count
+    def structure_work(self, p: np.ndarray) -> Any:
+        """What eliminating C W C^T of a declared structure takes, and how well it goes at p: see `zd_structure_work` in the core.
+        Where the system cannot be evaluated there, it is taken to go well.
+        """
+        core, work = self.for_run(), ffi.new("zd_structure_work *")
+        status = lib.zd_structure_count(core.c, doubles(p, self.nq), work)
+        if status == lib.ZD_NO_MEMORY:
+            raise error_of(status, "there is no memory for the order of elimination of the constraints")
+        if status:
+            work.is_alike, work.share = 1, 1.0
+        return work
 
     @property
     def has_direct(self) -> bool:
