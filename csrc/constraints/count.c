@@ -4,9 +4,9 @@
  */
 #include <string.h>
 
-#include "../constraints/rank.h"
+#include "../point/weighted.h"
 #include "../zerodrift.h"
-#include "weighted.h"
+#include "rank.h"
 
 /* A W B^T: the blocks of two groups and a body. */
 static void count_products(const zd_weighted *self, zd_structure_work *work)
