@@ -20,32 +20,29 @@ static void times_C(const void *data, const zd_terms *terms, const double *x, do
     }
 }
 
-/* Of body i, which is looked at only where bodies differ. */
-static int has_angle(const zd_mechanism *mechanism, int i)
-{
-    return mechanism->packing->pins.have_angles || mechanism->tree.link[i].hang == ZD_HANGS_FREE;
-}
+typedef struct coordinates {    /* a body's own coordinates */
+    int first, turns;
+} coordinates;
 
-static int coordinate_of(const zd_mechanism *mechanism, int i)
+/* Of body i, which is looked at only where bodies differ. */
+ZD_INLINE coordinates coordinates_of(const int have_angles, const zd_mechanism *mechanism, int i)
 {
-    return mechanism->packing->pins.have_angles ? 3 * (i - 1) : mechanism->tree.link[i].coordinate;
+    const zd_link *link = mechanism->tree.link + i;
+    return have_angles ? (coordinates){3 * (i - 1), 1} : (coordinates){link->coordinate, link->hang == ZD_HANGS_FREE};
 }
 
 /* Of both ends of a pin, and of two ends that are on one side or not */
 static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
 
 /* Body by body, so that nothing is added up in memory. */
-static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *restrict y, const int *place,
-                              double *restrict x)
+ZD_INLINE void subtract(const int have_angles, const zd_mechanism *mechanism, const zd_vector *arm, const double *W, const double *restrict y,
+                        const int *place, double *restrict x)
 {
-    const zd_mechanism *mechanism = data;
-    const zd_pins *self = &mechanism->packing->pins;
-    const zd_vector *arm = arms_in(terms->scratch);
-    const int *end_at = self->end_at, *ends = self->end;
+    const int *end_at = mechanism->packing->pins.end_at, *ends = mechanism->packing->pins.end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
-        const int at_body = coordinate_of(mechanism, i);
-        const double *w = W + at_body;
-        double *own = x + at_body, forward = 0, upward = 0, torque = 0;
+        const coordinates at = coordinates_of(have_angles, mechanism, i);
+        const double *w = W + at.first;
+        double *own = x + at.first, forward = 0, upward = 0, torque = 0;
         for (const int last = end_at[i + 1]; k < last; k++) {
             const int end = ends[k];
             const double *of = y + place[end & ~1], sign = SIGN[end & 1], y0 = sign * of[0], y1 = sign * of[1];
@@ -55,8 +52,17 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
         }
         own[0] -= w[0] * forward;
         own[1] -= w[1] * upward;
-        if (has_angle(mechanism, i)) own[2] -= w[2] * torque;
+        if (at.turns) own[2] -= w[2] * torque;
     }
+}
+
+static void subtract_weighted(const void *data, const zd_terms *terms, const double *W, const double *restrict y, const int *place,
+                              double *restrict x)
+{
+    const zd_mechanism *mechanism = data;
+    const zd_vector *arm = arms_in(terms->scratch);
+    if (mechanism->packing->pins.have_angles) subtract(1, mechanism, arm, W, y, place, x);
+    else subtract(0, mechanism, arm, W, y, place, x);
 }
 
 /* to <- to + sign (I w + n u^T), n = k x a and u = k x b; turned: the transpose */
@@ -77,14 +83,13 @@ ZD_INLINE void add_square(double *to, const double *w, zd_vector a, zd_vector b)
     to[3] += w[1] + b.x * a.x;
 }
 
-static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *restrict S)
+ZD_INLINE void add(const int have_angles, const zd_mechanism *mechanism, const zd_vector *arm, const double *W, const int *at,
+                   double *restrict S)
 {
-    const zd_mechanism *mechanism = data;
-    const zd_pins *self = &mechanism->packing->pins;
-    const zd_vector *arm = arms_in(terms->scratch);
-    const int *end_at = self->end_at, *ends = self->end;
+    const int *end_at = mechanism->packing->pins.end_at, *ends = mechanism->packing->pins.end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
-        const double *own = W + coordinate_of(mechanism, i), w[] = {own[0], own[1], has_angle(mechanism, i) ? own[2] : 0};
+        const coordinates of = coordinates_of(have_angles, mechanism, i);
+        const double *own = W + of.first, w[] = {own[0], own[1], of.turns ? own[2] : 0};
         for (const int first = k, last = end_at[i + 1]; k < last; k++) {
             const int end = ends[k];
             const zd_vector u = zd_times(w[2], arm[end]);
@@ -93,6 +98,14 @@ static void add_weighted(const void *data, const zd_terms *terms, const double *
             add_square(S + (*at++ >> 1), w, arm[end], u);
         }
     }
+}
+
+static void add_weighted(const void *data, const zd_terms *terms, const double *W, const int *at, double *restrict S)
+{
+    const zd_mechanism *mechanism = data;
+    const zd_vector *arm = arms_in(terms->scratch);
+    if (mechanism->packing->pins.have_angles) add(1, mechanism, arm, W, at, S);
+    else add(0, mechanism, arm, W, at, S);
 }
 
 const zd_operations zd_mechanism_products = {.times_C = times_C, .subtract_weighted = subtract_weighted, .add_weighted = add_weighted};
