@@ -39,20 +39,28 @@ static int accelerate_directly(zd_motion *motion)
     return ZD_DONE;
 }
 
+/* f - d, which is f itself where there is no d */
+static const double *find_force(const zd_point *point)
+{
+    if (point->terms.f && !point->terms.d) return point->terms.f;
+    zd_point_force(point, point->force);
+    return point->force;
+}
+
 int zd_motion_accelerate_anew(zd_motion *motion)
 {
     zd_point *point = motion->point;
     if (zd_is_direct(motion)) return accelerate_directly(motion);
     int status = zd_point_need(point, motion->acceleration_needs);
     if (status) return status;
-    zd_point_force(point, point->force);
+    const double *force = find_force(point);
     ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
     if (motion->is_stabilized) stabilize(motion);
-    status = zd_motion_factor_for(motion, point->force, point->rhs, point->vdot);
+    status = zd_motion_factor_for(motion, force, point->rhs, point->vdot);
     if (!status) status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
     if (status) return status;
     motion->statistics.solves++;
-    zd_motion_solve(motion, point->force, point->rhs, point->vdot, point->lambda);      /* (8), (9), (13) */
+    zd_motion_solve(motion, force, point->rhs, point->vdot, point->lambda);      /* (8), (9), (13) */
     point->known |= ZD_ACCELERATED;
     return ZD_DONE;
 }
