@@ -177,7 +177,7 @@ def test_what_follows_cannot_be_held():
 
 
 def test_the_kinematic_matrix_has_the_rates_of_angles():
-    system = wheels(2).system()
+    system = wheels(2).system("absolute")
     v = np.random.default_rng(0).normal(size=system.nv)
     A = system.evaluate().A
     assert_close(system.product("A", v), A @ v, SAME)

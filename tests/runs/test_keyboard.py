@@ -40,9 +40,13 @@ def interrupted(bar, after=0.15, **options):
 
 
 def test_ctrl_c_keeps_what_was_computed(bar):
-    error, _ = interrupted(bar)
-    assert isinstance(error, zd.errors.Interrupted)
-    sol = error.solution
+    """A busy machine may take longer until the first row is there."""
+    for after in (0.15, 1.0, 5.0):
+        error, _ = interrupted(bar, after)
+        assert isinstance(error, zd.errors.Interrupted)
+        sol = error.solution
+        if len(sol.t) > 1:
+            break
     assert str(error) == sol.message == "interrupted from the keyboard"
     assert not sol.success
     assert sol.status > 0
