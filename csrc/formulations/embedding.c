@@ -137,17 +137,33 @@ static int find_resolution(const zd_embedding *self, zd_point *point, double *re
     return status;
 }
 
+/* Phi in units of what cannot be told from zero. Rows that follow from those that the iteration solves do so but for the share that makes
+ * a row count; their gradients may be nothing but rounding, in units of which their own is large. */
+static int find_violation(const zd_embedding *self, zd_point *point, double *size)
+{
+    double resolution = 0, Phi = self->mh ? zd_point_violation(point) : 0, others = 0;
+    int status = find_resolution(self, point, &resolution);
+    if (!status && point->system->mh > self->mh) {
+        status = zd_rows_find(point);
+        others = Phi;
+        Phi = 0;
+        for (int k = 0; k < self->mh; k++) {
+            const int row = zd_rank_row(point, k);
+            Phi = fmax(Phi, fabs(point->terms.Phi[row]) * point->inverse_size[row]);
+        }
+    }
+    *size = fmax(Phi > 0 ? Phi / resolution : 0, others / ZD_RANK_TOLERANCE);
+    return status;
+}
+
 /* In units of rounding; at least 2 as long as q is not what it should be. */
 static int residual(void *context, double *size)
 {
     problem *it = context;
     zd_point *point = it->point;
-    double resolution = 0;
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_A);   /* C and A for the next iterate, or else for (14) */
-    if (!status) status = find_resolution(it->self, point, &resolution);
+    if (!status) status = find_violation(it->self, point, size);
     if (status) return status;
-    double Phi = it->self->mh ? zd_point_violation(point) : 0;
-    *size = Phi > 0 ? Phi / resolution : 0;
     for (int k = 0; k < it->self->k; k++) *size = fmax(*size, mismatch(it->self, point, it->q, k));
     return ZD_DONE;
 }
