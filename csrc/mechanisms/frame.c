@@ -25,6 +25,7 @@ static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
     to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
     to->sines = next(scratch, &used, 3 * bodies, sizeof(double));
     to->is_placed = next(scratch, &used, 1, sizeof(double));
+    to->is_moving = next(scratch, &used, 1, sizeof(double));
     to->row = next(scratch, &used, self->tree.nv, sizeof(double));
     to->x = next(scratch, &used, longest, sizeof(double));
     to->xdot = next(scratch, &used, longest, sizeof(double));

@@ -20,12 +20,32 @@ static void write_row(const zd_mechanism *self, const zd_frame *frame, const zd_
     zd_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading.second, row);
 }
 
+static int needs_twists(const zd_observed *measure, const zd_measured *out)
+{
+    return measure->quantity != ZD_VALUES || out->rate || out->bias;
+}
+
+/* Poses, and twists where they are needed, of the state, unless they are there. */
+static void follow(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const double *p, const double *v,
+                   const zd_measured *out)
+{
+    if (!out->is_same_state) *frame->is_placed = *frame->is_moving = 0;
+    if (*frame->is_placed == 0) zd_tree_turn(&self->tree, p, frame->sines);
+    if (*frame->is_placed == 0) zd_tree_place(&self->tree, p, frame->sines, frame->pose);
+    *frame->is_placed = 1;
+    if (*frame->is_moving != 0 || !needs_twists(measure, out)) return;
+    zd_tree_move(&self->tree, frame->pose, v, frame->twist);
+    *frame->is_moving = 1;
+}
+
 /* Component i of a measure that is a gauge, its rate, or the rate's rate. */
 static void measure_gauge(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, int i, const state *at,
                           const zd_measured *out)
 {
     const zd_gauge *gauge = self->gauge + measure->index + i;
-    double bias, rate = zd_gauge_rate(gauge, frame->pose, frame->twist, &bias), s = measure->scale;
+    const double s = measure->scale;
+    double bias = 0, rate = 0;
+    if (needs_twists(measure, out)) rate = zd_gauge_rate(gauge, frame->pose, frame->twist, &bias);
     if (measure->quantity == ZD_ACCELERATIONS) {
         write_row(self, frame, gauge, s, frame->row);
         if (out->value) out->value[i] = s * bias + zd_dot(self->tree.nv, frame->row, at->vdot);
@@ -90,9 +110,7 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame frame = zd_frame_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    zd_tree_turn(&self->tree, p, frame.sines);
-    zd_tree_place(&self->tree, p, frame.sines, frame.pose);
-    zd_tree_move(&self->tree, frame.pose, v, frame.twist);
+    follow(self, &frame, observed, p, v, out);
     if (observed->quantity <= ZD_ACCELERATIONS) {
         for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
         return ZD_DONE;

@@ -55,6 +55,7 @@ typedef struct zd_frame {
     double *place;                  /* (3 bodies + 3,) where there are lines: the coordinates */
     double *sines;                  /* 3 for each body, see zd_tree_turn() */
     double *is_placed;              /* whether the poses are those of this (t, p), 0 or 1 */
+    double *is_moving;              /* of measures alone: whether the twists are those of this v, 0 or 1 */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
 } zd_frame;

@@ -25,6 +25,8 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     scratch += space->sockets.turns;
     frame.row = scratch;
     scratch += all * ZD_BODY_VELOCITIES;
+    frame.is_placed = scratch++;
+    frame.is_moving = scratch++;
     frame.x = scratch;
     frame.xdot = frame.x + space->uses.longest;
     frame.out = frame.xdot + space->uses.longest;
@@ -37,7 +39,7 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 int zd_frame3_size(const zd_space *space)
 {
     return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * SIGHTED
-         + space->turns.count + space->sockets.turns + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+         + space->turns.count + space->sockets.turns + 2 + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 
 void zd_frame3_place(const zd_space *space, const zd_frame3 *frame, const double *p)

@@ -35,18 +35,31 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
                           const zd_measured *out)
 {
     const zd_space_gauge *gauge = self->gauge + measure->index + i;
-    const int nv = self->system.nv;
-    const double rate = zd_space_gauge_rate(gauge, frame->pose, frame->twist), s = measure->scale;
-    const double bias = zd_space_gauge_bias_with(gauge, frame->pose, frame->twist, frame->bias);
-    if (measure->quantity == ZD_ACCELERATIONS) {
+    const int nv = self->system.nv, is_value = measure->quantity == ZD_VALUES, is_acceleration = measure->quantity == ZD_ACCELERATIONS;
+    const double s = measure->scale;
+    const double rate = !is_value || out->rate ? zd_space_gauge_rate(gauge, frame->pose, frame->twist) : 0;
+    const double bias = is_acceleration || out->bias ? zd_space_gauge_bias_with(gauge, frame->pose, frame->twist, frame->bias) : 0;
+    if (is_acceleration) {
         write_row(self, frame, gauge, s, frame->row);
         if (out->value) out->value[i] = s * bias + zd_dot(nv, frame->row, at->vdot);
         return;
     }
-    if (out->value) out->value[i] = s * (measure->quantity == ZD_RATES ? rate : zd_space_gauge_value(gauge, frame->pose, frame->angle));
-    if (out->rate && measure->quantity == ZD_VALUES) out->rate[i] = s * rate;
+    if (out->value) out->value[i] = s * (is_value ? zd_space_gauge_value(gauge, frame->pose, frame->angle) : rate);
+    if (out->rate && is_value) out->rate[i] = s * rate;
     if (out->row) write_row(self, frame, gauge, s, out->row + i * nv);
     if (out->bias) out->bias[i] = s * bias;
+}
+
+/* Poses, and twists where they are wanted, of the state, unless they are there. */
+static void follow(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const double *p, const double *v,
+                   const zd_measured *out)
+{
+    if (!out->is_same_state) *frame->is_placed = *frame->is_moving = 0;
+    if (*frame->is_placed == 0) zd_frame3_place(self, frame, p);
+    *frame->is_placed = 1;
+    if (*frame->is_moving != 0 || (measure->quantity == ZD_VALUES && !out->rate && !out->bias)) return;
+    zd_frame3_move(self, frame, v);
+    *frame->is_moving = 1;
 }
 
 /* The force of a joint between two points, positive where it pulls the second towards the first. */
@@ -109,8 +122,7 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    zd_frame3_place(self, &frame, p);
-    zd_frame3_move(self, &frame, v);
+    follow(self, &frame, observed, p, v, out);
     if (observed->quantity <= ZD_ACCELERATIONS) {
         for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
         return ZD_DONE;

@@ -67,6 +67,7 @@ typedef struct zd_frame3 {
     double *angle;                  /* (turns,) of joints */
     zd_sighted *sighted;            /* (sockets,) */
     double *turns;                  /* of the sockets' rows, see sockets.h */
+    double *is_placed, *is_moving;  /* of measures alone: whether poses and twists are those of the state */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
     zd_twist3 *bias;                /* of carried bodies: their accelerations where vdot is zero; NULL: all are free, and have none */

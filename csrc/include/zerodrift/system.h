@@ -244,6 +244,7 @@ typedef struct zd_measured {    /* where the values go; NULL: not wanted */
     double *rate;           /* (size,) of a measure of positions: its derivative by time, row v + what is explicit in t */
     double *row;            /* (size, nv) of a measure of positions: d rate / d v; of velocities: d value / d v */
     double *bias;           /* (size,) what the derivative of these by time has besides row vdot */
+    int is_same_state;      /* whether t, p, v are those of the call before, and the scratch is as that left it: no need to place bodies again */
 } zd_measured;
 
 typedef struct zd_measures {

@@ -104,7 +104,8 @@ def simulate(
     outputs : list of measures or names, optional
         Measures that are recorded in every saved row, such as ``["C.force", crank.angle]``, with the accelerations and
         multipliers of the run itself; ``sol[name]`` then reads the record, and `Solution.save` keeps it. Left out: ``sol[name]``
-        evaluates measures when it is asked, and nothing is recorded or paid for.
+        evaluates measures when it is asked, and nothing is recorded or paid for. Where many measures are read, recording them is
+        cheaper: bodies are placed once for all of a row.
     save_to : str or Path, optional
         A file that rows are written to as they come, instead of into memory, which may then be smaller than the record. The
         arrays of the solution, and of what `load` makes of the file, are in it: what is looked at is read. The suffix ``.zd`` is

@@ -48,13 +48,14 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds of `simulate` and of reading that."""
+    """Where the bodies are and how they are turned, (k, n, 12), and seconds of `simulate`, which records that, and of reading it."""
     coordinates, integrator, steps, tolerance = setting
     system = system_of(drawing, coordinates)
     fine = ({"step": drawing.t_end / drawing.count / steps, "save_every": steps} if steps
             else {"rtol": tolerance, "atol": tolerance, "t_eval": drawing.outputs})
+    outputs = [f"{body.name}.{what}" for body in drawing.bodies for what in ("position", "rotation")]
     start = time.process_time()
-    placed = motion(drawing, zd.simulate(system, drawing.t_end, integrator=integrator, **fine))
+    placed = motion(drawing, zd.simulate(system, drawing.t_end, integrator=integrator, outputs=outputs, **fine))
     return placed, time.process_time() - start
 
 
