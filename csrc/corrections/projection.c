@@ -142,7 +142,7 @@ static int improve_position(void *context)
     zd_point_rate(point, self->x, self->p);
     ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
     zd_quaternions_normalise(system, self->p);
-    zd_point_move(point, point->t, self->p, point->v);
+    zd_point_move_position(point, self->p);
     return ZD_DONE;
 }
 
@@ -167,7 +167,7 @@ static int retreat(void *context)
         self->p[i] = self->from[i] + self->change[i];
     }
     zd_quaternions_normalise(point->system, self->p);
-    zd_point_move(point, point->t, self->p, point->v);
+    zd_point_move_position(point, self->p);
     return ZD_DONE;
 }
 
@@ -185,7 +185,7 @@ static int begin_again(position_problem *problem)
     if (!self->from) self->from = zd_store_take(&motion->store, take_change, &motion->system);
     if (!self->from) return ZD_NO_MEMORY;
     self->change = self->from + motion->system.nq;
-    zd_point_move(motion->point, motion->point->t, self->landed, motion->point->v);
+    zd_point_move_position(motion->point, self->landed);
     return ZD_DONE;
 }
 
@@ -255,7 +255,7 @@ static int improve_directly(void *context)
     zd_point *point = problem->motion->point;
     ZD_SIZED(zd_subtract, point->system->nq, point->p, problem->motion->road.dp, self->p);      /* (25a), (26a), (27a) */
     zd_quaternions_normalise(point->system, self->p);
-    zd_point_move(point, point->t, self->p, point->v);
+    zd_point_move_position(point, self->p);
     return ZD_DONE;
 }
 

@@ -64,9 +64,14 @@ void zd_add_C(const zd_point *point, double weight, double *C)
 /* ---- products ---- */
 
 /* y <- A x, A (rows, n) */
-ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x, double *y)
+ZD_INLINE void multiply_rows(const int n, const int rows, const double *A, const double *x, double *y)
 {
     for (int i = 0; i < rows; i++) y[i] = zd_dot(n, A + i * n, x);
+}
+
+ZD_INLINE void multiply(const int n, int rows, const double *A, const double *x, double *y)
+{
+    ZD_ROWS(multiply_rows, n, rows, A, x, y);
 }
 
 /* y <- C x, the rows of a group after one another, which touch the same blocks */

@@ -53,10 +53,15 @@ ZD_INLINE int replace(const int n, double *to, const double *from)
 
 void zd_point_move(zd_point *point, double t, const double *p, const double *v)
 {
-    int moved = ZD_SIZED(replace, point->system->nq, point->p, p);
-    if (moved || !(t == point->t)) point->known &= point->constant;
+    if (!(t == point->t)) point->known &= point->constant;
     point->t = t;
+    zd_point_move_position(point, p);
     zd_point_move_velocity(point, v);
+}
+
+void zd_point_move_position(zd_point *point, const double *p)
+{
+    if (ZD_SIZED(replace, point->system->nq, point->p, p)) point->known &= point->constant;
 }
 
 void zd_point_move_velocity(zd_point *point, const double *v)
@@ -84,12 +89,16 @@ void zd_point_force(const zd_point *point, double *force)
         for (int i = 0; i < nv; i++) force[i] = f ? f[i] : d ? -d[i] : 0;
 }
 
-double zd_point_potential(const zd_point *point)
+/* Zero times what is not finite is not a number; the sum has no branches. */
+ZD_INLINE int are_finite(const int n, const double *p, const double *v)
 {
-    return point->terms.V ? *point->terms.V : 0;
+    double zero = 0;
+    for (int i = 0; i < n; i++) zero += 0 * p[i] + 0 * v[i];
+    return zero == 0;
 }
 
 int zd_point_is_finite(const zd_point *point)
 {
-    return zd_is_finite(point->system->nq, point->p) && zd_is_finite(point->system->nv, point->v);
+    const int nq = point->system->nq, nv = point->system->nv;
+    return nq == nv ? ZD_SIZED(are_finite, nv, point->p, point->v) : zd_is_finite(nq, point->p) && zd_is_finite(nv, point->v);
 }

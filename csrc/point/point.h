@@ -47,10 +47,11 @@ typedef struct zd_point {
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
 void zd_point_move(zd_point *point, double t, const double *p, const double *v);
+void zd_point_move_position(zd_point *point, const double *p);
 void zd_point_move_velocity(zd_point *point, const double *v);
 int zd_point_need_missing(zd_point *point, int missing);
 void zd_point_force(const zd_point *point, double *force);          /* f - d */
-double zd_point_potential(const zd_point *point);   /* needs V */
+static inline double zd_point_potential(const zd_point *point) { return point->terms.V ? *point->terms.V : 0; }     /* needs V */
 int zd_point_is_finite(const zd_point *point);      /* its p and v */
 
 /* Has the terms in `want` computed, those that the system has and that are not known yet. */
