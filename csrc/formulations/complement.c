@@ -233,11 +233,16 @@ static void invert(const zd_complement *self, double *x, double *u)
     zd_backward(self->r, self->gram, u, u);
 }
 
+void zd_complement_pick(const zd_complement *self, const double *x, double *of_u)
+{
+    for (int j = 0; j < self->r; j++) of_u[j] = x[self->order[self->m + j]];
+}
+
 int zd_complement_speeds(const zd_complement *self, zd_point *point, double *u)
 {
     const double *v = point->v;
     if (!self->own) {
-        for (int j = 0; j < self->r; j++) u[j] = v[self->order[self->m + j]];
+        zd_complement_pick(self, v, u);
         return ZD_DONE;
     }
     double *x = self->work + self->n;
@@ -250,7 +255,7 @@ int zd_complement_speeds(const zd_complement *self, zd_point *point, double *u)
 int zd_complement_rate(zd_complement *self, zd_point *point, double *udot)
 {
     if (!self->own) {
-        for (int j = 0; j < self->r; j++) udot[j] = point->vdot[self->order[self->m + j]];
+        zd_complement_pick(self, point->vdot, udot);
         return ZD_DONE;
     }
     int status = zd_point_need(point, ZD_GAMMA);

@@ -50,6 +50,8 @@ void zd_complement_multipliers(const zd_complement *self, const double *reaction
 int zd_complement_velocity(zd_complement *self, zd_point *point, const double *u, double *v);
 /* u of the point's v */
 int zd_complement_speeds(const zd_complement *self, zd_point *point, double *u);
+/* The entries of x (n,) that u are of v */
+void zd_complement_pick(const zd_complement *self, const double *x, double *of_u);
 /* udot of the point's vdot, (15) */
 int zd_complement_rate(zd_complement *self, zd_point *point, double *udot);
 /* b <- D^T b (r,), x <- x + D u */

@@ -245,6 +245,19 @@ int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const doub
     return status;
 }
 
+int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double *T)
+{
+    int status = factor(self, point);
+    if (status) return status;
+    for (int k = 0; k < self->k; k++) {
+        memset(self->delta, 0, (size_t)self->nv * sizeof(double));
+        self->delta[self->mh + k] = 1;
+        zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
+        zd_point_rate(point, self->delta, T + k * width);       /* (18): Phi_p dp = 0 */
+    }
+    return ZD_DONE;
+}
+
 /* ---- the choice of q ---- */
 
 /* Largest entry of the response of the velocities to the rates of q, in natural units: grows beyond bounds where q ceases to

@@ -30,6 +30,8 @@ void zd_embedding_coordinates(const zd_embedding *self, const zd_point *point, d
 void zd_embedding_rates(const zd_embedding *self, const double *pdot, double *qdot);
 /* Moves the point to p = g(q) at time t, starting from where it is. */
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q);
+/* At the point, where p = g(q): the first nq of each row of T (k, width) <- what p changes by with that entry of q. */
+int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double *T);
 /* The largest response of a coordinate to q, in natural units, that q is kept up to; 0: q is not chosen. */
 double zd_embedding_steepest(const zd_embedding *self);
 /* Chooses q anew where the present choice is badly conditioned at the point; *changed tells. */

@@ -91,6 +91,22 @@ static int rate(void *memory, zd_point *point, double *ydot)
     return zd_minimal_rate(&self->minimal, point, ydot + embedding->k);      /* (19), (22) */
 }
 
+static int tangents(void *memory, zd_point *point, const double *Psi_p, double *T)
+{
+    independent *self = memory;
+    if (self->minimal.many) return ZD_SINGULAR;
+    int status = zd_embedding_tangents(&self->embedding, point, point->system->nq + point->system->nv, T);
+    return status ? status : zd_minimal_tangents(&self->minimal, point, Psi_p, self->embedding.k, T);
+}
+
+static void pick(const void *memory, const zd_point *point, const double *pdot, const double *vdot, double *ydot)
+{
+    (void)point;
+    const independent *self = memory;
+    zd_embedding_rates(&self->embedding, pdot, ydot);
+    zd_complement_pick(&self->minimal.complement, vdot, ydot + self->embedding.k);
+}
+
 static int have_same(int count, const int *a, const int *b)
 {
     int same = 0;
@@ -143,4 +159,6 @@ const zd_formulation zd_independent = {
     .may_have_entries = may_have_entries,
     .entries = entries,
     .rate = rate,
+    .tangents = tangents,
+    .pick = pick,
 };

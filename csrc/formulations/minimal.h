@@ -36,6 +36,9 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);
+/* T (positions + size, nq + nv), whose first rows have the dp of each coordinate of the state: their dv, and the rows of u. Psi_p as
+ * tangents() has it. */
+int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_p, int positions, double *T);
 /* Whether a system's velocities u are entries of v, and, where they have been chosen, which. */
 int zd_minimal_may_have_entries(const zd_system *system);
 int zd_minimal_entries(const void *self, zd_entries *entries);

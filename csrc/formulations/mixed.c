@@ -42,6 +42,22 @@ static int rate(void *memory, zd_point *point, double *ydot)
     return zd_minimal_rate(self, point, ydot + point->system->nq);
 }
 
+static int tangents(void *self, zd_point *point, const double *Psi_p, double *T)
+{
+    const int nq = point->system->nq, width = nq + point->system->nv;
+    for (int i = 0; i < nq; i++)
+        for (int j = 0; j < nq; j++) T[i * width + j] = i == j;
+    return zd_minimal_tangents(self, point, Psi_p, nq, T);
+}
+
+static void pick(const void *memory, const zd_point *point, const double *pdot, const double *vdot, double *ydot)
+{
+    const zd_minimal *self = memory;
+    const int nq = point->system->nq;
+    memcpy(ydot, pdot, (size_t)nq * sizeof *ydot);
+    zd_complement_pick(&self->complement, vdot, ydot + nq);
+}
+
 const zd_formulation zd_mixed = {
     .card = {
         .name = "mixed",
@@ -67,4 +83,6 @@ const zd_formulation zd_mixed = {
     .may_have_entries = zd_minimal_may_have_entries,
     .entries = zd_minimal_entries,
     .rate = rate,
+    .tangents = tangents,
+    .pick = pick,
 };

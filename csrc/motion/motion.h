@@ -99,6 +99,16 @@ typedef struct zd_road {
     double *D;              /* (m, nv - m): at the point, of the velocities that are solved for */
 } zd_road;
 
+/* Of the rate's Jacobian, where the system brings its own */
+typedef struct zd_chain {
+    double *scratch;        /* of the system's functions */
+    double *J;              /* (nq + nv + 1, nq + nv): the system's, and all that follows, for states in independent velocities */
+    double *Psi_p;          /* (m, nq): derivatives of (5) by p */
+    double *T;              /* (size, nq + nv): of p and v by each entry of the formulation's part of the state */
+    double *rates;          /* (nq + nv + 1,): of p, v and the energy input, by one of them, */
+    double *picked;         /* (size,): and those that the state has */
+} zd_chain;
+
 struct zd_motion {
     zd_system system;
     zd_statistics statistics;
@@ -122,7 +132,7 @@ struct zd_motion {
     int corrections_size;   /* of what corrections integrate along */
     zd_balance balance;
     zd_road road;
-    double *scratch;        /* of the system's Jacobian */
+    zd_chain chain;
     zd_store store;         /* what is taken once something rare has happened */
     int in_run;             /* whether steps begin where the constraints are known to hold */
 };
@@ -171,8 +181,9 @@ int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
 int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* of what corrections integrate along */
 
-/* jacobian.c: the derivatives of the rate where the system brings them and the state is (p, v), with constraints as they are; of (8) where M is
- * regular, which those of (9) and (13) are, too. */
+/* jacobian.c: the derivatives of the rate where the system brings its own, with constraints as they are; of (8) where M is regular, which
+ * those of all formulations follow from. */
+zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena);
 int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
 
 /* direct.c */

@@ -54,7 +54,7 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .jacobian = system->jacobian ? zd_motion_jacobian : NULL,
     };
     zd_motion_count_pairs(motion);
-    if (system->jacobian) motion->scratch = zd_take_doubles(arena, (size_t)system->jacobian->scratch);
+    motion->chain = zd_chain_take(motion, arena);
 }
 
 void zd_motion_count_pairs(zd_motion *motion)

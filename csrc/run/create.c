@@ -39,7 +39,7 @@ int zd_takes_series(const zd_settings *settings)
 
 int zd_takes_jacobian(const zd_settings *settings)
 {
-    return zd_integrator_of(settings->integrator)->takes_jacobian && !zd_formulation_of(settings->formulation)->settle;
+    return zd_integrator_of(settings->integrator)->takes_jacobian;
 }
 
 int zd_may_have_direct(const zd_system *system, const zd_settings *settings)

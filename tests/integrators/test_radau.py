@@ -145,18 +145,15 @@ def without_jacobian(system, monkeypatch):
 
 @pytest.mark.parametrize("energy", [None, True])
 def test_expressions_bring_their_jacobian(stiff_governor, formulation, energy, monkeypatch):
-    """The run is the one by differences, but for what an iteration leaves; and each Jacobian takes one evaluation instead of six
-    or, with the energy that comes in, seven. States in independent velocities have theirs by differences.
+    """The run is the one by differences, but for what an iteration leaves; and each Jacobian takes fewer evaluations: of a state
+    (p, v) one instead of six or, with the energy that comes in, seven; in independent velocities two, and what finds p and v.
     """
     options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau", "formulation": formulation, "energy": energy}
     found = zd.simulate(stiff_governor, 1.0, **options)
     other = zd.simulate(without_jacobian(stiff_governor, monkeypatch), 1.0, **options)
     assert abs(found.stats["steps"] - other.stats["steps"]) < 0.1 * other.stats["steps"]
-    assert np.abs(found.p[-1] - other.p[-1]).max() < 1e-6
-    if formulation in ("mixed", "independent"):
-        assert found.stats["evaluations"] == other.stats["evaluations"]
-    else:
-        assert found.stats["evaluations"] < 0.97 * other.stats["evaluations"]
+    assert np.abs(found.p[-1] - other.p[-1]).max() < 2e-6
+    assert found.stats["evaluations"] < 0.98 * other.stats["evaluations"]
 
 
 def test_what_changes_the_constraints_takes_differences(stiff_governor, monkeypatch):

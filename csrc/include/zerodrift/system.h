@@ -229,6 +229,8 @@ typedef struct zd_series {
 typedef struct zd_jacobian {
     int scratch;            /* doubles that a call needs */
     int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);
+    /* Psi_p (m, nq) <- the derivatives of C v + Phi_t, (5), by p: for states in independent velocities. NULL: these have differences. */
+    int (*constraints)(const void *data, double t, const double *p, const double *v, double *Psi_p, double *scratch);
 } zd_jacobian;
 
 /* Named functions of the motion, such as where a point is or what goes through a joint. */

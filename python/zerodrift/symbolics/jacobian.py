@@ -6,7 +6,8 @@ With vdot and lambda of (8) at (t, p, v) held, residuals change along each entry
     constraints  s = C_x vdot - xi_x
 
 and one inverse serves all of them: [vdot_x; lambda_x] = -[M C^T; C 0]^-1 [r; s]. Derivatives are taken operation by operation in
-forward mode, for each entry only of those operations that depend on it.
+forward mode, for each entry only of those operations that depend on it. Formulations in independent velocities want to know, too,
+how the velocity constraints (5) change with p: C_x v + Phi_t,x.
 """
 
 from __future__ import annotations
@@ -16,12 +17,12 @@ from typing import Any
 from .elimination import Unwritten
 from .emission import indented
 from .jets import Jet
-from .series import HEAD, Writer
+from .series import HEAD, TERMS, Writer
 
 JACOBIAN = "zd_symbolic_jacobian"       # what the descriptor is called in its library
 MOST_STATEMENTS = 4000
-SIGNATURE = ["static int evaluate(const void *data, double t, const double *restrict p, const double *restrict v,",
-             "    double *restrict J, double *restrict scratch)"]
+SIGNATURE = ["static int {0}(const void *data, double t, const double *restrict p, const double *restrict v,",
+             "    double *restrict {1}, double *restrict scratch)", "{{"]
 
 Leaf = tuple[str, int]      # ("p", i) or ("v", j)
 
@@ -29,8 +30,8 @@ Leaf = tuple[str, int]      # ("p", i) or ("v", j)
 class _Slopes(Writer):
     """All derivatives of the operations behind the terms: for each of these, what it is called by the entries it depends on."""
 
-    def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int]) -> None:
-        super().__init__(program, sizes)
+    def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int], terms: tuple[str, ...] = TERMS) -> None:
+        super().__init__(program, sizes, terms)
         self.slopes: list[dict[Leaf, str]] = []
         self.statements: list[str] = []
         for number, jet in enumerate(self.operations):
@@ -79,6 +80,15 @@ class _Slopes(Writer):
         """The derivative of an entry of a term; None: it is zero."""
         number = self._entry(name, place)
         return None if number is None else self.slopes[number].get(leaf)
+
+    def of_constraints(self) -> list[str]:
+        """Statements of the derivatives of (5) by p."""
+        lines = []
+        for k in range(self.m):
+            factors = [*(("C", k * self.nv + j, f"v[{j}]") for j in range(self.nv)), ("Phi_t", k, "1.0")]
+            parts = [self._products(("p", i), *factors) for i in range(self.nq)]
+            lines += [f"Psi_p[{k * self.nq + i}] = {' + '.join(part) or '0.0'};" for i, part in enumerate(parts)]
+        return lines
 
     # ---- a column ----
 
@@ -139,20 +149,34 @@ def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data:
     """The C source; raises `Unwritten` where some function has no derivative that is known, or there are too many operations."""
     if isinstance(program, str):
         raise Unwritten(program)
-    writer = _Slopes(program, sizes)
+    both = [*_function("evaluate", "J", _of_rates(_Slopes(program, sizes)), data),
+            *_function("constraints", "Psi_p", _of_constraints(_Slopes(program, sizes, ("C", "Phi_t"))), data)]
+    return "\n".join([*HEAD, *both, f"const zd_jacobian {JACOBIAN} = {{0, evaluate, constraints}};", ""])
+
+
+def _function(name: str, result: str, body: list[str], data: str) -> list[str]:
+    lines = [f"const double *restrict const k = {data};", "(void)k, (void)t, (void)p, (void)v, (void)scratch;", *body]
+    return [*(line.format(name, result) for line in SIGNATURE), *indented([*lines, "return ZD_DONE;"]), "}", ""]
+
+
+def _bounded(*parts: list[str]) -> list[str]:
+    if sum(map(len, parts)) > MOST_STATEMENTS:
+        raise Unwritten(f"their Jacobian would have more than {MOST_STATEMENTS} statements")
+    return [line for part in parts for line in part]
+
+
+def _of_rates(writer: _Slopes) -> list[str]:
     n, size, columns = writer.nv, writer.nv + writer.m, writer.nq + writer.nv
     has_power = "power" in writer.terms or "Phi_t" in writer.terms
     leaves = [("p", i) for i in range(writer.nq)] + [("v", j) for j in range(n)]
-    body = [line for leaf in leaves for line in writer.column(leaf)]
-    if len(writer.statements) + len(body) > MOST_STATEMENTS:
-        raise Unwritten(f"their Jacobian would have more than {MOST_STATEMENTS} statements")
-    lines = [f"const double *restrict const k = {data};",
-             f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}];",
-             f"const double *const vdot = first, *const lambda = first + {n};",
-             "(void)k, (void)t, (void)v, (void)scratch, (void)vdot, (void)lambda;", *writer.values(), *writer.leading(),
-             f"if (zd_series_invert({n}, {writer.m}, G, x)) return ZD_NOT_DEFINITE;",
-             f"zd_series_solve({size}, G, right, first);",
-             f"for (int i = 0; i < {(columns + has_power) * columns}; i++) J[i] = 0;",
-             *writer.statements, *body, "return ZD_DONE;"]
-    return "\n".join([*HEAD, *SIGNATURE, "{", *indented(lines), "}", "",
-                      f"const zd_jacobian {JACOBIAN} = {{0, evaluate}};", ""])
+    return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}];",
+            f"const double *const vdot = first, *const lambda = first + {n};",
+            "(void)vdot, (void)lambda;", *writer.values(), *writer.leading(),
+            f"if (zd_series_invert({n}, {writer.m}, G, x)) return ZD_NOT_DEFINITE;",
+            f"zd_series_solve({size}, G, right, first);",
+            f"for (int i = 0; i < {(columns + has_power) * columns}; i++) J[i] = 0;",
+            *_bounded(writer.statements, [line for leaf in leaves for line in writer.column(leaf)])]
+
+
+def _of_constraints(writer: _Slopes) -> list[str]:
+    return [*writer.values(), *_bounded(writer.statements, writer.of_constraints())]

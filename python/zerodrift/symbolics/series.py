@@ -50,9 +50,9 @@ class _Sums:
 class Writer:
     """Both parts of the function: the values, and the coefficients of one order."""
 
-    def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int]) -> None:
+    def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int], terms: tuple[str, ...] = TERMS) -> None:
         self.nq, self.nv, mh, mn = sizes
-        self.m, self.jets, self.sums = mh + mn, Jets(program, TERMS), _Sums()
+        self.m, self.jets, self.sums = mh + mn, Jets(program, terms), _Sums()
         self.operations, self.terms = self.jets.operations, self.jets.terms
 
     # ---- values ----

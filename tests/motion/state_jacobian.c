@@ -1,0 +1,55 @@
+/* The rate of the state that a formulation integrates, and its derivatives as jacobian.c finds them, for Python to compare. */
+#include <string.h>
+
+#include "../../csrc/constraints/redundancy.h"
+#include "../../csrc/motion/motion.h"
+#include "../../csrc/point/quaternions.h"
+#include "../../csrc/point/units.h"
+
+extern const zd_formulation zd_mixed, zd_independent;
+
+static zd_motion motion;
+static zd_tally tally;
+static double state[1000];
+
+static void lay_out(zd_arena *arena, const zd_system *system, const zd_system *independent, int is_mixed)
+{
+    zd_motion_take(&motion, arena, system, independent, is_mixed ? &zd_mixed : &zd_independent, NULL);
+    motion.tally = &tally;
+}
+
+static int place(double t, const double *p, const double *v)
+{
+    zd_point_move(motion.point, t, p, v);
+    zd_point_normalise(motion.point);
+    return zd_point_measure(motion.point);
+}
+
+/* At a place where all rows count that ever do; the memory is never given back. */
+int begin(const zd_system *system, int is_mixed, double t, const double *p, const double *v)
+{
+    zd_system independent = *system;
+    for (int turn = 0; turn < 2; turn++) {
+        zd_arena counting = {NULL, 0};
+        lay_out(&counting, system, &independent, is_mixed);
+        zd_arena arena = {zd_allocate(counting.used), 0};
+        lay_out(&arena, system, &independent, is_mixed);
+        int status = place(t, p, v);
+        if (!status && zd_constraints(system)) status = zd_redundancy_prepare(motion.point);
+        if (!status && zd_constraints(system)) status = zd_motion_find_rows(&motion);
+        if (!status && zd_constraints(system)) status = zd_redundancy_find(motion.point, ZD_STOP);
+        if (status) return status;
+        const zd_rank *rank = motion.point->rank;
+        independent.mh = rank->most_holonomic;
+        independent.mn = rank->most_rows - rank->most_holonomic;
+    }
+    zd_motion_attach(&motion, state);
+    int status = place(t, p, v);
+    return status ? status : motion.formulation->leave(motion.solver, motion.point, state);
+}
+
+int size(void) { return motion.rate.size; }
+const double *start(void) { return state; }
+
+int rate(double t, const double *y, double *ydot) { return motion.rate.evaluate(motion.rate.context, t, y, ydot); }
+int jacobian(double t, const double *y, double *J) { return motion.rate.jacobian(motion.rate.context, t, y, J); }

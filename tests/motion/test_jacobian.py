@@ -1,0 +1,102 @@
+"""Derivatives of what is integrated in independent velocities against differences of its rates, which share none of it."""
+
+import ctypes
+import subprocess
+
+import numpy as np
+import pytest
+from zerodrift._core import ffi
+
+import tolerances as tol
+import zerodrift as zd
+from core_objects import CC, CSRC, needs_compiler
+from random_symbolic import random_system
+from support import ROOT, along, assert_close, consistent_states
+
+ROOMS = ("motion", "formulations", "point", "constraints", "linalg")
+pytestmark = needs_compiler
+
+
+@pytest.fixture(scope="module")
+def core(tmp_path_factory):
+    """These rooms of the core, and what opens them."""
+    path = tmp_path_factory.mktemp("jacobian") / "core.so"
+    sources = [each for room in ROOMS for each in sorted((CSRC / room).glob("*.c"))]
+    subprocess.run([CC, "-O0", "-std=c11", "-ffp-contract=off", "-fPIC", "-shared", "-o", path, *sources, CSRC / "workspace.c",
+                    ROOT / "tests" / "motion" / "state_jacobian.c", "-lm"], check=True)
+    library = ctypes.CDLL(str(path))
+    library.start.restype = ctypes.POINTER(ctypes.c_double)
+    return library
+
+
+def pointer(array):
+    """As C is handed it."""
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+class Integrated:
+    """What is integrated of a system by a formulation, from a state on."""
+
+    def __init__(self, core, system, formulation, t, p, v):
+        self.core, self.t, self.system = core, ctypes.c_double(t), system._with_jacobian(system._core)
+        address = ctypes.c_void_p(int(ffi.cast("uintptr_t", self.system.c)))
+        assert core.begin(address, formulation == "mixed", self.t, pointer(np.array(p)), pointer(np.array(v))) == 0
+        self.y = np.array(core.start()[:core.size()])
+
+    def rate(self, y):
+        """Its rate, (size,)."""
+        ydot = np.zeros(len(y))
+        assert self.core.rate(self.t, pointer(np.array(y)), pointer(ydot)) == 0
+        return ydot
+
+    def jacobian(self):
+        """As the core finds it, (size, size)."""
+        J = np.full((len(self.y), len(self.y)), np.nan)
+        assert self.core.jacobian(self.t, pointer(self.y), pointer(J)) == 0
+        return J
+
+    def assert_is_exact(self):
+        """Beside differences."""
+        by_differences = np.transpose([along(self.rate, (self.y, direction)) for direction in np.eye(len(self.y))])
+        assert_close(self.jacobian(), by_differences, 10 * tol.DIFFERENCE)
+
+
+both = pytest.mark.parametrize("kind", ["mixed", "independent"])
+
+
+@both
+@pytest.mark.parametrize("seed", range(12))
+def test_of_random_systems(core, kind, seed):
+    """Rows that move, nonholonomic ones and a kinematic matrix among them, and energy that comes in."""
+    system = random_system(seed)
+    for t, p, v in consistent_states(system, count=2):
+        Integrated(core, system, kind, t, p, v).assert_is_exact()
+
+
+@both
+@pytest.mark.parametrize("seed", [0, 1, 2, 8])
+def test_where_a_row_follows_from_others(core, kind, seed):
+    system = random_system(seed, apart=0.0)
+    for t, p, v in consistent_states(system, count=1):
+        Integrated(core, system, kind, t, p, v).assert_is_exact()
+
+
+def pendulums(upper):
+    """Two in space, the upper one on a ball or on a pin, whose turns are counted in absolute coordinates."""
+    m = zd.Mechanism("pendulums", dimension=3, gravity=(0, 1, -9.81))
+    arm, rod = m.body("arm", 1.0, (0.02, 0.03, 0.04), at=(0.3, 0.1, 0)), m.body("rod", 0.5, (0.02, 0.03, 0.01), at=(0.6, 0.3, 0))
+    if upper == "pin":
+        m.revolute("shoulder", m.ground, arm, at=(0, 0, 0), axis=(0, 1, 0.2))
+    else:
+        m.spherical("shoulder", m.ground, arm, at=(0, 0, 0))
+    m.spherical("elbow", arm, rod, at=(0.5, 0.2, 0))
+    return m
+
+
+@both
+@pytest.mark.parametrize(("upper", "coordinates"), [("ball", "absolute"), ("pin", "absolute"), ("pin", "joint")])
+def test_with_unit_quaternions(core, kind, upper, coordinates):
+    """For which `independent` has increments, from its tangents as from the state itself."""
+    system = pendulums(upper).system(coordinates, compiled=True)
+    for t, p, v in consistent_states(system, count=2):
+        Integrated(core, system, kind, t, p, v).assert_is_exact()
