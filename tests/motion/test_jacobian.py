@@ -5,6 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
+import sympy
 from zerodrift._core import ffi
 
 import tolerances as tol
@@ -71,6 +72,16 @@ def test_of_random_systems(core, kind, seed):
     system = random_system(seed)
     for t, p, v in consistent_states(system, count=2):
         Integrated(core, system, kind, t, p, v).assert_is_exact()
+
+
+@both
+def test_where_a_row_moves_by_more_the_farther_out(core, kind):
+    """A bead on a wire that turns and bends: Phi_t depends on p."""
+    t, x, y, vx, vy = sympy.symbols("t x y vx vy")
+    system = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + 2 * vy**2) / 2, potential=9.81 * y, time=t,
+                         constraints=[y * sympy.cos(t) - x * sympy.sin(t) - t * x**2], p0=[1.0, 0.0], v0=[0.0, 2.0])
+    for state in consistent_states(system, count=2):
+        Integrated(core, system, kind, *state).assert_is_exact()
 
 
 @both
