@@ -135,44 +135,46 @@ ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole,
     *pivots = found;
 }
 
-/* Blocks of two rows are written out, in one pass over all that there is: where a compiler takes entries in pairs that were stored one by one, it
- * waits for each. Products with P are divided by its determinant last, as that takes longest. `carries`: whether there is an x. */
+/* to (2,) <- to - x */
+ZD_INLINE void subtract_two(zd_two x, double *to)
+{
+    zd_store_two(zd_minus_two(zd_two_at(to), x), to);
+}
+
+/* to (2, 2) <- to - scale L B^T, of both of which there are the columns */
+ZD_INLINE void subtract_rows(double scale, zd_two l0, zd_two l1, zd_two b0, zd_two b1, double *to)
+{
+    subtract_two(zd_scaled_two(scale, zd_sum_of_two(zd_first_of(l0), b0, zd_first_of(l1), b1)), to);
+    subtract_two(zd_scaled_two(scale, zd_sum_of_two(zd_second_of(l0), b0, zd_second_of(l1), b1)), to + 2);
+}
+
+/* Blocks of two rows are written out, in one pass over all that there is, and both columns of a block are kept as pairs. Products with P are
+ * divided by its determinant last, as that takes longest. `carries`: whether there is an x. */
 ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
 {
     const int count = self->count, *begin = self->begin, *row = self->row, *target = self->target;
-    double *S = self->S, *pivot = S, *entry = S + 4 * count, y0 = 0, y1 = 0;
+    double *S = self->S, *pivot = S, *entry = S + 4 * count;
     zd_pivots found = *pivots;              /* in registers */
     for (int k = 0; k < count; k++, pivot += 4) {
         const zd_inverse_of_two P = zd_invert_two(self->diagonal + 2 * k, 2 * k, pivot, &found);
         const double *first = entry, *end = entry + 4 * (begin[k + 1] - begin[k]);
-        pivot[0] = P.aa * P.scale;
-        pivot[1] = P.ab * P.scale;
-        pivot[3] = P.bb * P.scale;
+        const zd_two P0 = zd_two_of(P.aa, P.ab), P1 = zd_two_of(P.ab, P.bb);
+        zd_two y = P0;
+        zd_store_two(zd_scaled_two(P.scale, P0), pivot);
+        zd_store_two(zd_scaled_two(P.scale, P1), pivot + 2);
         if (carries) {
             double *own = x + 2 * k;
-            y0 = (P.aa * own[0] + P.ab * own[1]) * P.scale;
-            y1 = (P.ab * own[0] + P.bb * own[1]) * P.scale;
-            own[0] = y0, own[1] = y1;
+            y = zd_scaled_two(P.scale, zd_sum_of_two(own[0], P0, own[1], P1));
+            zd_store_two(y, own);
         }
         for (; entry < end; entry += 4) {
-            const double b0 = entry[0], b1 = entry[1], b2 = entry[2], b3 = entry[3];
-            const double l0 = b0 * P.aa + b1 * P.ab, l1 = b0 * P.ab + b1 * P.bb, l2 = b2 * P.aa + b3 * P.ab, l3 = b2 * P.ab + b3 * P.bb;
+            const zd_two b0 = zd_two_of(entry[0], entry[2]), b1 = zd_two_of(entry[1], entry[3]);
+            const zd_two l0 = zd_sum_of_two(P.aa, b0, P.ab, b1), l1 = zd_sum_of_two(P.ab, b0, P.bb, b1);    /* of B P */
             const ptrdiff_t at = *row++;
-            double *D = S + 4 * at, *z = x + 2 * at;
-            if (carries) {
-                z[0] -= b0 * y0 + b1 * y1;
-                z[1] -= b2 * y0 + b3 * y1;
-            }
-            D[0] -= (l0 * b0 + l1 * b1) * P.scale;
-            D[2] -= (l2 * b0 + l3 * b1) * P.scale;
-            D[3] -= (l2 * b2 + l3 * b3) * P.scale;
-            for (const double *C = first; C < entry; C += 4) {
-                double *to = S + *target++;
-                to[0] -= (l0 * C[0] + l1 * C[1]) * P.scale;
-                to[1] -= (l0 * C[2] + l1 * C[3]) * P.scale;
-                to[2] -= (l2 * C[0] + l3 * C[1]) * P.scale;
-                to[3] -= (l2 * C[2] + l3 * C[3]) * P.scale;
-            }
+            if (carries) subtract_two(zd_sum_of_two(zd_first_of(y), b0, zd_second_of(y), b1), x + 2 * at);
+            subtract_rows(P.scale, l0, l1, b0, b1, S + 4 * at);
+            for (const double *C = first; C < entry; C += 4)
+                subtract_rows(P.scale, l0, l1, zd_two_of(C[0], C[2]), zd_two_of(C[1], C[3]), S + *target++);
         }
     }
     *pivots = found;
@@ -246,14 +248,12 @@ static void forward_twos(const zd_blocks *self, double *restrict x)
     const int count = self->count, *begin = self->begin, *row = self->row;
     const double *P = self->S, *B = P + 4 * count;
     double *own = x;
-    for (int k = 0; k < count; k++, P += 4) {
-        const double y0 = P[0] * own[0] + P[1] * own[1], y1 = P[1] * own[0] + P[3] * own[1];
-        *own++ = y0;
-        *own++ = y1;
+    for (int k = 0; k < count; k++, P += 4, own += 2) {
+        const zd_two y = zd_sum_of_two(own[0], zd_two_at(P), own[1], zd_two_at(P + 2));
+        zd_store_two(y, own);
         for (int below = begin[k + 1] - begin[k]; below; below--, B += 4) {
-            double *z = x + 2 * (ptrdiff_t)*row++;
-            z[0] -= B[0] * y0 + B[1] * y1;
-            z[1] -= B[2] * y0 + B[3] * y1;
+            const zd_two b0 = zd_two_of(B[0], B[2]), b1 = zd_two_of(B[1], B[3]);
+            subtract_two(zd_sum_of_two(zd_first_of(y), b0, zd_second_of(y), b1), x + 2 * (ptrdiff_t)*row++);
         }
     }
 }
@@ -264,17 +264,15 @@ static void backward_twos(const zd_blocks *self, double *restrict x)
     const double *P = self->S + 4 * count, *B = P + 4 * begin[count];
     double *own = x + 2 * count;
     for (int k = count - 1; k >= 0; k--) {
-        double s0 = 0, s1 = 0;
+        zd_two sum = zd_two_of(0, 0);
         for (int below = begin[k + 1] - begin[k]; below; below--) {
             const double *z = x + 2 * (ptrdiff_t)*--row;
             B -= 4;
-            s0 += B[0] * z[0] + B[2] * z[1];
-            s1 += B[1] * z[0] + B[3] * z[1];
+            sum = zd_plus_two(sum, zd_sum_of_two(z[0], zd_two_at(B), z[1], zd_two_at(B + 2)));
         }
         P -= 4;
         own -= 2;
-        own[0] -= P[0] * s0 + P[1] * s1;
-        own[1] -= P[1] * s0 + P[3] * s1;
+        subtract_two(zd_sum_of_two(zd_first_of(sum), zd_two_at(P), zd_second_of(sum), zd_two_at(P + 2)), own);
     }
 }
 

@@ -22,12 +22,15 @@ typedef struct zd_inverse_of_two {  /* symmetric, in registers: these entries ti
 
 /* Of a block whose lower triangle is given, by one division: both pivots would take one each, and the second would wait for the first. What
  * both are of their diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are
- * judged. `row` is that of its first one. */
+ * compared with it each, and judged where one of them is less. `row` is that of its first one. */
 ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const double *P, zd_pivots *pivots)
 {
     const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;
     int are_pivots = 1;
-    if (!(a > 0) || !(determinant * pivots->diagonal >= pivots->pivot * (diagonal[0] * diagonal[1])) || !(determinant < INFINITY))
+    const double second = determinant * pivots->diagonal, least = pivots->pivot * diagonal[1];
+    const int is_product_less = !(second >= diagonal[0] * least);
+    const int is_less = is_product_less && (!(a * pivots->diagonal >= pivots->pivot * diagonal[0]) || !(second >= a * least));
+    if (!(a > 0) || is_less || !(determinant < INFINITY))
         are_pivots = zd_judge_pivot(pivots, row, a, diagonal[0], rounding)
                    & zd_judge_pivot(pivots, row + 1, determinant, a * diagonal[1], rounding);
     return (zd_inverse_of_two){c, -b, a, are_pivots ? 1 / determinant : 0};

@@ -46,16 +46,34 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
 typedef double zd_two __attribute__((vector_size(16)));
 typedef double zd_stored_two __attribute__((vector_size(16), aligned(8), may_alias));
 typedef int64_t zd_two_masks __attribute__((vector_size(16)));
+
+ZD_INLINE zd_two zd_two_at(const double *x) { return *(const zd_stored_two *)x; }
+ZD_INLINE zd_two zd_two_of(double a, double b) { return (zd_two){a, b}; }
+ZD_INLINE double zd_first_of(zd_two x) { return x[0]; }
+ZD_INLINE double zd_second_of(zd_two x) { return x[1]; }
+ZD_INLINE void zd_store_two(zd_two x, double *to) { *(zd_stored_two *)to = x; }
+ZD_INLINE zd_two zd_minus_two(zd_two x, zd_two y) { return x - y; }
+ZD_INLINE zd_two zd_plus_two(zd_two x, zd_two y) { return x + y; }
+ZD_INLINE zd_two zd_times_two(zd_two x, zd_two y) { return x * y; }
+#else
+typedef struct zd_two { double a, b; } zd_two;
+
+ZD_INLINE zd_two zd_two_at(const double *x) { return (zd_two){x[0], x[1]}; }
+ZD_INLINE zd_two zd_two_of(double a, double b) { return (zd_two){a, b}; }
+ZD_INLINE double zd_first_of(zd_two x) { return x.a; }
+ZD_INLINE double zd_second_of(zd_two x) { return x.b; }
+ZD_INLINE void zd_store_two(zd_two x, double *to) { to[0] = x.a, to[1] = x.b; }
+ZD_INLINE zd_two zd_minus_two(zd_two x, zd_two y) { return (zd_two){x.a - y.a, x.b - y.b}; }
+ZD_INLINE zd_two zd_plus_two(zd_two x, zd_two y) { return (zd_two){x.a + y.a, x.b + y.b}; }
+ZD_INLINE zd_two zd_times_two(zd_two x, zd_two y) { return (zd_two){x.a * y.a, x.b * y.b}; }
 #endif
 
-ZD_INLINE void zd_store_pair(double a, double b, double *to)
-{
-#ifdef ZD_HAS_VECTORS
-    *(zd_stored_two *)to = (zd_stored_two){a, b};
-#else
-    to[0] = a, to[1] = b;
-#endif
-}
+ZD_INLINE zd_two zd_scaled_two(double s, zd_two x) { return zd_times_two(zd_two_of(s, s), x); }
+
+/* a x + b y */
+ZD_INLINE zd_two zd_sum_of_two(double a, zd_two x, double b, zd_two y) { return zd_plus_two(zd_scaled_two(a, x), zd_scaled_two(b, y)); }
+
+ZD_INLINE void zd_store_pair(double a, double b, double *to) { zd_store_two(zd_two_of(a, b), to); }
 
 /* Whether each a_i is more than b_i */
 ZD_INLINE int zd_all_exceed(int n, const double *a, const double *b)
