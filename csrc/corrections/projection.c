@@ -134,7 +134,7 @@ static int improve_position(void *context)
     const zd_system *system = point->system;
     int status = zd_point_need_times_A(point, ZD_PHI);
     if (status) return status;
-    if (!problem->has_moved) ZD_SIZED(zd_copy, system->nq, point->p, self->landed);
+    if (!problem->has_moved) zd_copy_all(system->nq, point->p, self->landed);
     problem->has_moved = 1;
     for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
     status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);

@@ -59,10 +59,12 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 /* ---- right sides ---- */
 
 /* x <- W y */
-static void times_W(const zd_coupling *self, const double *y, double *x)
+static void times_W(const zd_coupling *self, const double *y, double *restrict x)
 {
-    for (int i = 0; self->is_diagonal && i < self->n; i++) x[i] = self->W[i] * y[i];
-    if (!self->is_diagonal) zd_mass_solve(self->layout, self->W, y, x);
+    const double *W = self->W;
+    const int entries = self->is_diagonal ? self->n : 0;
+    for (int i = 0; i < entries; i++) x[i] = W[i] * y[i];
+    if (!self->is_diagonal) zd_mass_solve(self->layout, W, y, x);
 }
 
 /* y <- C x - rhs in the order of S, x NULL: zero */

@@ -19,8 +19,8 @@ int zd_dependent_enter(void *self, zd_point *point, double t, const double *y)
 int zd_dependent_leave(void *self, zd_point *point, double *y)
 {
     (void)self;
-    ZD_SIZED(zd_copy, point->system->nq, point->p, y);
-    ZD_SIZED(zd_copy, point->system->nv, point->v, y + point->system->nq);
+    zd_copy_all(point->system->nq, point->p, y);
+    zd_copy_all(point->system->nv, point->v, y + point->system->nq);
     return ZD_DONE;
 }
 
@@ -30,6 +30,6 @@ int zd_dependent_rate(void *self, zd_point *point, double *ydot)
     int status = zd_point_need_times_A(point, 0);
     if (status) return status;
     zd_point_rate(point, point->v, ydot);                               /* (1) */
-    ZD_SIZED(zd_copy, point->system->nv, point->vdot, ydot + point->system->nq);
+    zd_copy_all(point->system->nv, point->vdot, ydot + point->system->nq);
     return ZD_DONE;
 }

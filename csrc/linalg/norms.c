@@ -10,8 +10,9 @@ double zd_max_abs(int n, const double *x)
 /* Zero times what is not finite is not a number; the sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *x)
 {
-    double zero = 0;
-    for (int i = 0; i < n; i++) zero += 0 * x[i];
+    zd_two zeros = zd_two_of(0, 0);
+    for (int i = 0; i + 1 < n; i += 2) zeros = zd_plus_two(zeros, zd_scaled_two(0, zd_two_at(x + i)));
+    const double zero = zd_first_of(zeros) + zd_second_of(zeros) + (n % 2 ? 0 * x[n - 1] : 0);
     return zero == 0;
 }
 
@@ -22,14 +23,13 @@ int zd_is_finite(int n, const double *x)
 
 ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
 {
-    double largest = 0;
-    int broken = 0;
+    double largest = 0, sum = 0;            /* of sizes, which is no number where one of them is none */
     for (int i = 0; i < n; i++) {
         double size = fabs(x[i]) * scale[i];
         largest = size > largest ? size : largest;
-        broken |= isnan(size);
+        sum += size;
     }
-    return broken ? INFINITY : largest;
+    return isnan(sum) ? INFINITY : largest;
 }
 
 double zd_max_scaled(int n, const double *x, const double *scale)

@@ -39,6 +39,13 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
+/* Of any size, many by one call */
+ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
+{
+    if (n > ZD_UNROLLED) memcpy(to, from, (size_t)n * sizeof *to);
+    else ZD_SIZED(zd_copy, n, from, to);
+}
+
 /* Two neighbours in one store, or in one load. A processor hands on what it has just stored to loads of that or of a part of it; one of more has to wait until
  * it is in the cache. */
 #if defined(__GNUC__) || defined(__clang__)

@@ -54,7 +54,7 @@ int zd_motion_accelerate_anew(zd_motion *motion)
     int status = zd_point_need(point, motion->acceleration_needs);
     if (status) return status;
     const double *force = find_force(point);
-    ZD_SIZED(zd_copy, zd_constraints(point->system), point->terms.xi, point->rhs);
+    zd_copy_all(zd_constraints(point->system), point->terms.xi, point->rhs);
     if (motion->is_stabilized) stabilize(motion);
     status = zd_motion_factor_for(motion, force, point->rhs, point->vdot);
     if (!status) status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
@@ -96,8 +96,8 @@ static int direct_rate_of_point(zd_motion *motion, double t, const double *y, do
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
-    ZD_SIZED(zd_copy, nq, point->terms.A ? motion->road.pdot : point->v, ydot);
-    ZD_SIZED(zd_copy, nv, point->vdot, ydot + nq);
+    zd_copy_all(nq, point->terms.A ? motion->road.pdot : point->v, ydot);
+    zd_copy_all(nv, point->vdot, ydot + nq);
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = motion->road.power;
     return ZD_DONE;
@@ -114,7 +114,7 @@ int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot
     int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
     if (is_known || motion->is_stabilized) return direct_rate_of_point(motion, t, y, ydot);
     motion->statistics.evaluations++;
-    if (!point->terms.A) ZD_SIZED(zd_copy, nv, y + nq, ydot);
+    if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
     int status = motion->road.order->accelerate(point->system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;

@@ -177,7 +177,7 @@ void zd_direct_forget_energy(zd_motion *motion)
 /* A step that begins at the point. */
 static void begin(zd_motion *motion)
 {
-    ZD_SIZED(zd_copy, count_pivots(motion), motion->road.pivots, motion->road.before);
+    zd_copy_all(count_pivots(motion), motion->road.pivots, motion->road.before);
     zd_direct_remember_energy(motion);
     if (motion->road.embeds) zd_embed_begin(motion);
 }

@@ -113,7 +113,7 @@ static void read_point(zd_motion *motion)
     const zd_point *point = motion->point;
     zd_road *road = &motion->road;
     const int r = point->system->nv - zd_constraints(point->system);
-    ZD_SIZED(zd_copy, point->system->nq, point->p, road->p);
+    zd_copy_all(point->system->nq, point->p, road->p);
     for (int j = 0; j < point->system->nv; j++) road->v[j] = 0;
     for (int j = 0; j < r; j++) road->v[road->state.u[j]] = point->v[road->state.u[j]];
 }

@@ -9,7 +9,7 @@
 static void copy_row(double *table, int64_t row, int width, const double *values)
 {
     double *to = table + row * width;
-    ZD_SIZED(zd_copy, width, values, to);
+    zd_copy_all(width, values, to);
 }
 
 static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)

@@ -121,7 +121,7 @@ void zd_point_rate(const zd_point *point, const double *v, double *pdot)
         point->system->operations->times_A(point->system->data, &point->terms, v, pdot);    /* (1) */
         return;
     }
-    if (!A) ZD_SIZED(zd_copy, point->system->nq, v, pdot);
+    if (!A) zd_copy_all(point->system->nq, v, pdot);
     else if (!layout) ZD_SIZED(multiply, point->system->nv, point->system->nq, A, v, pdot);     /* (1) */
     for (int b = 0; A && layout && b < layout->blocks; b++)
         ZD_SIZED(multiply, layout->velocity_at[b + 1] - layout->velocity_at[b], layout->coordinate_at[b + 1] - layout->coordinate_at[b],

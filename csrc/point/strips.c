@@ -116,10 +116,16 @@ void zd_strips_times(const zd_strips *self, const double *C, const double *x, co
 
 ZD_INLINE void subtract_from(const int n, const int rows, const double *C, int width, const double *W, const double *y, double *x)
 {
-    for (int j = 0; j < n; j++) {
-        double sum = C[j] * y[0];
-        for (int i = 1; i < rows; i++) sum += C[i * width + j] * y[i];
-        x[j] -= W ? W[j] * sum : sum;
+    for (int j = 0; j + 1 < n; j += 2) {
+        zd_two sum = zd_scaled_two(y[0], zd_two_at(C + j));
+        for (int i = 1; i < rows; i++) sum = zd_plus_two(sum, zd_scaled_two(y[i], zd_two_at(C + i * width + j)));
+        if (W) sum = zd_times_two(zd_two_at(W + j), sum);
+        zd_store_two(zd_minus_two(zd_two_at(x + j), sum), x + j);
+    }
+    if (n % 2) {
+        double sum = C[n - 1] * y[0];
+        for (int i = 1; i < rows; i++) sum += C[i * width + n - 1] * y[i];
+        x[n - 1] -= W ? W[n - 1] * sum : sum;
     }
 }
 
@@ -155,8 +161,15 @@ void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const d
 /* `step` rows at once, which stand together on both sides */
 ZD_INLINE void gather(const int step, const zd_strips *self, const double *a, const double *b, double *y)
 {
-    for (int k = 0; k < self->rows; k += step)
-        for (int i = 0; i < step; i++) y[self->place[k] + i] = a ? a[k + i] - b[k + i] : -b[k + i];
+    const int rows = self->rows, *place = self->place;
+    for (int k = 0; k < rows; k += step)
+        for (int i = 0; i < step; i++) y[place[k] + i] = a ? a[k + i] - b[k + i] : -b[k + i];
+}
+
+ZD_INLINE void scatter(const int step, const zd_strips *self, const double *y, double *rows)
+{
+    const int count = self->rows, *place = self->place;
+    for (int k = 0; k < count; k += step) zd_copy(step, y + place[k], rows + k);
 }
 
 void zd_strips_gather(const zd_strips *self, const double *a, const double *b, double *y)
@@ -168,5 +181,6 @@ void zd_strips_gather(const zd_strips *self, const double *a, const double *b, d
 
 void zd_strips_scatter(const zd_strips *self, const double *y, double *rows)
 {
-    for (int k = 0; k < self->rows; k++) rows[k] = y[self->place[k]];
+    if (self->are_pairs) scatter(2, self, y, rows);
+    else scatter(1, self, y, rows);
 }

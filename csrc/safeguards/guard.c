@@ -149,7 +149,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
 void zd_guard_watch_next(zd_guard *guard)
 {
     const zd_point *point = guard->motion->point;
-    ZD_SIZED(zd_copy, point->system->nv, point->vdot, guard->vdot);
+    zd_copy_all(point->system->nv, point->vdot, guard->vdot);
     guard->watches_step = 1;
 }
 

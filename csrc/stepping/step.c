@@ -47,10 +47,10 @@ static void remember(zd_stepper *self, double h)
     self->last.t = self->t;
     self->last.h = h;
     point->rank->was_ill_conditioned = 0;
-    zd_copy(self->motion->rate.size, self->y, self->last.y);
+    zd_copy_all(self->motion->rate.size, self->y, self->last.y);
     if (self->last.p == self->last.y) return;
-    ZD_SIZED(zd_copy, point->system->nq, point->p, self->last.p);
-    ZD_SIZED(zd_copy, point->system->nv, point->v, self->last.v);
+    zd_copy_all(point->system->nq, point->p, self->last.p);
+    zd_copy_all(point->system->nv, point->v, self->last.v);
 }
 
 int zd_stepper_make(zd_stepper *self, double h)
@@ -143,8 +143,8 @@ void zd_stepper_keep_place(const zd_stepper *self, zd_place *place)
 {
     const zd_motion *motion = self->motion;
     place->t = self->t;
-    ZD_SIZED(zd_copy, motion->system.nq, motion->point->p, place->p);
-    ZD_SIZED(zd_copy, motion->system.nv, motion->point->v, place->v);
+    zd_copy_all(motion->system.nq, motion->point->p, place->p);
+    zd_copy_all(motion->system.nv, motion->point->v, place->v);
     if (extras(motion)) memcpy(place->extra, self->y + motion->formulation_size, extras(motion) * sizeof(double));
 }
 
@@ -177,9 +177,9 @@ void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates)
     zd_rank_find_multipliers(point);
     rates->order = motion->road.order;
     rates->smallest = motion->road.smallest;
-    ZD_SIZED(zd_copy, motion->system.nv, point->vdot, rates->vdot);
-    ZD_SIZED(zd_copy, zd_constraints(&motion->system), point->lambda, rates->lambda);
-    if (rates->order) ZD_SIZED(zd_copy, motion->system.nv, motion->road.pivots, rates->pivots);
+    zd_copy_all(motion->system.nv, point->vdot, rates->vdot);
+    zd_copy_all(zd_constraints(&motion->system), point->lambda, rates->lambda);
+    if (rates->order) zd_copy_all(motion->system.nv, motion->road.pivots, rates->pivots);
 }
 
 void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates)
@@ -189,7 +189,7 @@ void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates)
     motion->point->known |= ZD_ACCELERATED;
     zd_rank_forget_awaited(motion->point);
     motion->road.smallest = rates->smallest;
-    ZD_SIZED(zd_copy, motion->system.nv, rates->vdot, motion->point->vdot);
-    ZD_SIZED(zd_copy, zd_constraints(&motion->system), rates->lambda, motion->point->lambda);
-    if (rates->order) ZD_SIZED(zd_copy, motion->system.nv, rates->pivots, motion->road.pivots);
+    zd_copy_all(motion->system.nv, rates->vdot, motion->point->vdot);
+    zd_copy_all(zd_constraints(&motion->system), rates->lambda, motion->point->lambda);
+    if (rates->order) zd_copy_all(motion->system.nv, rates->pivots, motion->road.pivots);
 }
