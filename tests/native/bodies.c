@@ -76,16 +76,24 @@ static void write_M(const double *q, int dense, double *M)
         for (int i = 0; i < 3; i++) M[(3 * b + i) * (dense ? n + 1 : 1)] = q[4 + 2 * b + (i == 2)];
 }
 
+/* Of a rod, three of x; of the ground, zeros */
+static const double *own(const double *x, int rod)
+{
+    static const double ground[3];
+    return rod < 0 ? ground : x + 3 * rod;
+}
+
 static void write_Phi(const double *q, double t, const double *turned, const double *p, double *Phi)
 {
     int rods = (int)q[0], pins = (int)q[1];
     const double *arms = turned + 3 * rods;
-    for (int k = 0; k < pins; k++, arms += 4) {
+    double moved = q[3] * t;
+    for (int k = 0; k < pins; k++, arms += 4, moved = 0) {
         pin at = pin_at(q, rods, k);
-        for (int i = 0; i < 2; i++) {
-            double own = k || i ? arms[i] : arms[i] + q[3] * t;
-            Phi[2 * k + i] = p[3 * at.b + i] + arms[2 + i] - own - (at.a < 0 ? 0 : p[3 * at.a + i]);
-        }
+        const double *a = own(p, at.a), *b = own(p, at.b);
+        double x = b[0] + arms[2] - (arms[0] + moved) - a[0], y = b[1] + arms[3] - arms[1] - a[1];
+        Phi[2 * k] = x;
+        Phi[2 * k + 1] = y;
     }
 }
 
@@ -95,23 +103,35 @@ static void write_xi(const double *q, const double *turned, const double *v, dou
     const double *arms = turned + 3 * rods;
     for (int k = 0; k < pins; k++, arms += 4) {
         pin at = pin_at(q, rods, k);
-        double wa = at.a < 0 ? 0 : v[3 * at.a + 2], wb = v[3 * at.b + 2];
-        for (int i = 0; i < 2; i++) xi[2 * k + i] = wb * wb * arms[2 + i] - wa * wa * arms[i];
+        double wa = own(v, at.a)[2], wb = own(v, at.b)[2];
+        double x = wb * wb * arms[2] - wa * wa * arms[0], y = wb * wb * arms[3] - wa * wa * arms[1];
+        xi[2 * k] = x;
+        xi[2 * k + 1] = y;
     }
+}
+
+static void write_f(const double *q, double *f)
+{
+    int rods = (int)q[0];
+    double g = q[2];
+    for (int b = 0; b < rods; b++, f += 3) f[0] = f[2] = 0, f[1] = -q[4 + 2 * b] * g;
+}
+
+static double potential(const double *q, const double *p)
+{
+    double V = 0;
+    for (int b = 0; b < (int)q[0]; b++) V += q[4 + 2 * b] * q[2] * p[3 * b + 1];
+    return V;
 }
 
 static int evaluate(int dense, const double *q, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
-    int rods = (int)q[0], pins = (int)q[1];
+    int pins = (int)q[1];
     if (want & ZD_MOVED) turn(q, p, out->scratch);
     if (want & ZD_M) write_M(q, dense, out->M);
     if (want & ZD_C) write_C(q, dense, out->scratch, out->C);
-    if (want & ZD_POTENTIAL) *out->V = 0;
-    for (int b = 0; b < rods; b++) {
-        double mass = q[4 + 2 * b];
-        if (want & ZD_FORCE) out->f[3 * b] = out->f[3 * b + 2] = 0, out->f[3 * b + 1] = -mass * q[2];
-        if (want & ZD_POTENTIAL) *out->V += mass * q[2] * p[3 * b + 1];
-    }
+    if (want & ZD_FORCE) write_f(q, out->f);
+    if (want & ZD_POTENTIAL) *out->V = potential(q, p);
     if (want & ZD_PHI) write_Phi(q, t, out->scratch, p, out->Phi);
     if (want & ZD_XI) write_xi(q, out->scratch, v, out->xi);
     for (int i = 0; i < 2 * pins && (want & ZD_PHI_T); i++) out->Phi_t[i] = i ? 0 : -q[3];
