@@ -48,13 +48,25 @@ static double unit_of(const zd_selection *self, int k)
     return self->rank->start_square[k] > 0 ? sqrt(self->rank->start_square[k]) : 1;
 }
 
+/* By how much the velocity violates (5), in units of the rows. Psi (m,) */
+static double looseness(const zd_point *point, double *Psi)
+{
+    const zd_selection *self = point->rank->selection;
+    double most = 0;
+    zd_point_velocity_violation(point, Psi);
+    for (int k = 0; k < self->m; k++) most = fmax(most, fabs(Psi[k]) / unit_of(self, k));
+    return most;
+}
+
 /* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
- * they are redundant. In units of the rows; (m - rows,). Returns the first of which that is not so, or m. */
+ * they are redundant, and for what a velocity makes of it that violates (5), as one does that is nothing but rounding. In units of the
+ * rows; (m,), of which so many are used. Returns the first of which that is not so, or m. */
 static int curvature(const zd_point *point, double *w)
 {
     const zd_selection *self = point->rank->selection;
     const double *xi = point->terms.xi;
-    double speed = zd_max_abs(self->n, point->v), largest = 0;
+    const double speed = zd_max_abs(self->n, point->v), loose = looseness(point, w) / ZD_DOUBTFUL;
+    double largest = 0;
     int first = self->m;
     for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
     for (int d = self->m - 1; d >= point->rows; d--) {
@@ -65,9 +77,9 @@ static int curvature(const zd_point *point, double *w)
             sum -= share * xi[self->row[a]];
             terms += fabs(share) * unit_of(self, self->row[a]);
         }
-        double scale = terms * largest + speed * speed / (1 + zd_max_abs(point->system->nq, point->p));
+        const double size = 1 + zd_max_abs(point->system->nq, point->p), scale = terms * largest + speed * speed / size;
         w[d - point->rows] = sum;
-        if (!(fabs(sum) <= CURVED * scale)) first = d;
+        if (!(fabs(sum) <= CURVED * scale + loose * speed / size)) first = d;
     }
     return first;
 }
@@ -80,6 +92,7 @@ static int count_curved(zd_point *point, int others, double *sample)
     int n = self->n, curved = 0, status = ZD_DONE;
     double *v0 = sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
+    if (self->independent == n) return 0;       /* nothing is free to move: n rows are as many as can be independent anywhere */
     zd_copy(n, point->v, v0);
     zd_rank_set_basis(point);
     for (int i = 0; i < n && curved < others && !status; i++) {
@@ -103,7 +116,7 @@ static int count_curved(zd_point *point, int others, double *sample)
 static int tell_redundant(zd_point *point, double *sample)
 {
     zd_selection *self = point->rank->selection;
-    int status = zd_point_need(point, ZD_XI);
+    int status = zd_point_need(point, ZD_XI | ZD_PHI_T);
     if (status) return status;
     int first = curvature(point, sample);
     point->failed_index = self->row[first < self->m ? first : 0];

@@ -198,8 +198,8 @@ class Compared:
         self.plain = Plain(rng, int(rng.integers(1, 5)), int(rng.integers(0, loops + 1)), on_ground, coordinates)
         _, s, vt = np.linalg.svd(self.plain.jacobian(self.plain.pose))
         rank = int((s > 1e-6 * s[0]).sum())
-        # with nothing free there is nothing to see, and nearly dependent rows would need more digits than differences have
-        self.can_be = rank < len(vt) and s[:rank].min() >= 1e-2 * s[0]
+        # nearly dependent rows would need more digits than differences have
+        self.can_be = self.plain.system.nv > 0 and s[:rank].min() >= 1e-2 * s[0]
         self.v = vt[rank:].T @ rng.normal(size=len(vt) - rank)
 
     def _run(self, formulation, span, step):

@@ -34,7 +34,7 @@ def outcome(seed):
     try:
         case = Compared(seed, on_ground, loops=3, coordinates=coordinates)
         if not case.can_be:
-            return "not compared: nothing is free, or rows nearly depend on each other", "", 0.0
+            return "not compared: rows nearly depend on each other, or nothing but welds is left", "", 0.0
         off = max(case.accelerations(formulation))
         moved = case.motion(formulation) if seed % EVERY == seed // EVERY % EVERY else 0.0
     except zd.ZerodriftError as error:

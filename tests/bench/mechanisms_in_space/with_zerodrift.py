@@ -48,7 +48,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds of `simulate`, which records that, and of reading it."""
+    """Where the bodies are and how they are turned, (k, n, 12), and seconds of `simulate`, with that recorded, and of reading."""
     coordinates, integrator, steps, tolerance = setting
     system = system_of(drawing, coordinates)
     fine = ({"step": drawing.t_end / drawing.count / steps, "save_every": steps} if steps
