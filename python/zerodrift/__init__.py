@@ -23,6 +23,7 @@ from .errors import (
     InconsistentStart,
     InconsistentSystem,
     Interrupted,
+    LockedWarning,
     NoCompilerWarning,
     SingularSystem,
     StabilityWarning,
@@ -45,8 +46,8 @@ __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart",
-    "InconsistentSystem", "Interrupted", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution",
-    "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
+    "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem",
+    "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
     "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "ensemble",
     "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load", "models",
     "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",

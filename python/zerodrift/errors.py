@@ -85,6 +85,10 @@ class StabilityWarning(UserWarning):
     """Steps were longer than the integrator is stable for, or stability rather than accuracy held them down."""
 
 
+class LockedWarning(UserWarning):
+    """Nothing is free to move, and rows follow from others, as where axes of hinges are drawn askew: the run stays where it is."""
+
+
 class CostWarning(UserWarning):
     """A run takes much time or memory, and it could take less: said before it starts."""
 

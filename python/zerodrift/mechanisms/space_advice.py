@@ -21,6 +21,7 @@ RIGHT_ANGLE = 10.0      # degrees that shafts are off one
 PARALLEL = 1e-4         # degrees
 MEETS = 1e-6            # of the distance: how far off an axis still passes through a point
 RANK = 1e-9             # of the largest singular value
+LOCKED = "leave no body any motion, and yet rows follow from others"
 MOST_ROWS = 300         # whose singular values take a moment
 SHAFTS = "revolute", "cylindrical"
 
@@ -136,17 +137,20 @@ def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name
     s = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300), compute_uv=False)
     if np.count_nonzero(s > RANK * s[0]) < core.nv:
         return None
-    told = f"the joints of {name!r} leave no body any motion, and yet rows follow from others"
+    return locked(tables, name) or f"the joints of {name!r} {LOCKED}"
+
+
+def locked(tables: SpaceTables, name: str) -> str | None:
+    """Which axes may be why nothing moves; None: those of all hinges are parallel."""
     hinges = [joint for joint in tables.joints if joint.kind == "revolute"]
-    if not hinges:
-        return told
-    off = _off_most(hinges)
+    off = _off_most(hinges) if hinges else []
     skew = ", ".join(f"{hinge.name!r} {angle:.3g} degrees off"
                      for hinge, angle in zip(hinges, off, strict=True) if angle > PARALLEL)
     if not skew:
-        return told
+        return None
     true = next(hinge.name for hinge, angle in zip(hinges, off, strict=True) if angle <= PARALLEL)
-    return f"{told}: hinges of a loop in a plane need parallel axes, and there is {skew} that of {true!r}"
+    return (f"the joints of {name!r} {LOCKED}: hinges of a loop in a plane need parallel axes, and there is {skew} "
+            f"that of {true!r}")
 
 
 def _off_most(hinges: Sequence[Joint]) -> list[float]:

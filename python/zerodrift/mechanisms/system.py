@@ -293,6 +293,10 @@ class MechanismSystem(BaseSystem):
                 return told
         return advice.at_start(str(error), self._start, self.constraints)
 
+    def _why_locked(self) -> str | None:
+        """Which axes are askew."""
+        return space_advice.locked(self._tables, self.name) if isinstance(self._tables, SpaceTables) else None
+
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
         """Whether a motor has come to a dead centre; in space, whether a disc falls flat, or shafts are at a right angle."""
         if isinstance(self._tables, SpaceTables):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _gateway
-from ..errors import AccuracyWarning, CorrectionWarning, StabilityWarning
+from ..errors import AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning
 from ..systems.base import core_of
 from .rows import integrators, name_of
 from .solution import Solution
@@ -23,14 +23,14 @@ LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION = 0.005, 0.02
 ENERGY_ROUNDING = 1e-10     # of all the energy there is; smaller errors are rounding and say nothing about the steps
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
-CATEGORIES = (AccuracyWarning, CorrectionWarning, StabilityWarning)
+CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)
 
 
 def is_beyond_doubt(results: _gateway.Results) -> bool:
     """Whether no warning is due, as most often: told from few numbers, as `doubts` takes as long as a short run."""
     counted, kinetic = results.statistics, results.largest_kinetic
     return (not (counted.energy_skipped or counted.too_long or counted.stiff or counted.unresolved)
-            and not 0 < counted.smallest_pivot < SMALLEST_PIVOT
+            and not 0 < counted.smallest_pivot < SMALLEST_PIVOT and not results.redundant
             and results.energy_error < LARGEST_ENERGY_ERROR * kinetic
             and counted.energy_corrected <= LARGEST_ENERGY_CORRECTION * kinetic)
 
@@ -62,6 +62,7 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     """The warnings that a solution deserves, with their sentences."""
     yield from _skipped_corrections(solution)
     yield from _small_pivot(solution)
+    yield from _locked(solution)
     if solution.success:
         yield from ((StabilityWarning, sentence) for sentence in instability(solution.stats, solution.settings["integrator"]))
         yield from _inaccuracy(solution)
@@ -81,6 +82,12 @@ def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
             f"{solution.system.constraints[stats['smallest_pivot_row']].name!r} once others are eliminated: the motion comes "
             "near a bifurcation or follows it through, which is not looked for among so many constraints, and accelerations lose "
             "digits there; joint coordinates lose fewer")
+
+
+def _locked(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    system, stats = solution.system, solution.stats
+    if stats["redundant"] and stats["rank"] == system.nv and (told := system._why_locked()):
+        yield LockedWarning, told
 
 
 def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:

@@ -171,6 +171,8 @@ def simulate(
         Where steps were longer than the integrator is stable for, or stability held chosen steps down.
     CorrectionWarning
         Where energy corrections were left out.
+    LockedWarning
+        Where joints in space leave no body any motion, as the axes of hinges are askew.
 
     Examples
     --------

@@ -288,6 +288,10 @@ class BaseSystem:
         """The same of a run that failed near a state."""
         return None
 
+    def _why_locked(self) -> str | None:
+        """What may be wrong where nothing is free to move; None: it is meant so."""
+        return None
+
     def _why_unknown(self, name: Any) -> str | None:
         """What there is to say of a name that nothing has; None: it is a wrong one."""
         return None
