@@ -86,7 +86,7 @@ class StabilityWarning(UserWarning):
 
 
 class LockedWarning(UserWarning):
-    """Nothing is free to move, and rows follow from others, as where axes of hinges are drawn askew: the run stays where it is."""
+    """Nothing is free to move, and rows follow from others, as where axes of hinges are askew: the run stays where it is."""
 
 
 class CostWarning(UserWarning):
