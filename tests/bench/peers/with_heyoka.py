@@ -38,9 +38,12 @@ def solve(chain, setting):
 
 def extended(chain):
     """Angles (k, n) at the outputs, rounded to doubles, of a run in the processor's extended numbers, with digits of 64 bits."""
-    integrator, start = _integrator(chain, "velocities eliminated", 1e-18, np.longdouble)
+    integrator, start = _integrator(chain, "multipliers eliminated", 1e-18, np.longdouble)     # wherever the rods go
     integrator.state[:] = np.asarray(start, np.longdouble)
-    return integrator.propagate_grid(chain.outputs.astype(np.longdouble))[-1][:, :chain.n].astype(float)
+    outcome, *_, values = integrator.propagate_grid(chain.outputs.astype(np.longdouble))
+    if outcome != hy.taylor_outcome.time_limit:
+        raise RuntimeError(str(outcome))
+    return values[:, :chain.n].astype(float)
 
 
 @functools.cache
