@@ -187,13 +187,13 @@ static void find_least(zd_coupling *self, const zd_point *point)
     self->is_least_known = 1;
 }
 
-int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
+int zd_coupling_find_long_rows(zd_coupling *self, zd_point *point)
 {
-    const double *diagonal = self->weighted->blocks->diagonal;
     const int may_tell = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
-    const int is_known = may_tell && point->rank->is_started;
-    if (is_known && !self->is_least_known) find_least(self, point);
-    if (is_known && zd_all_exceed(self->m, diagonal, self->least)) return 1;
+    if (may_tell && point->rank->is_started && !self->is_least_known) {
+        find_least(self, point);
+        return zd_coupling_has_long_rows(self, point);
+    }
     return zd_point_need(point, ZD_C) == ZD_DONE && zd_rows_are_long(point);
 }
 

@@ -3,6 +3,7 @@
 #define ZD_COUPLING_H
 
 #include "../constraints/rank.h"
+#include "../linalg/small.h"
 #include "../point/weighted.h"
 
 typedef struct zd_coupling {
@@ -40,7 +41,12 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system);
 /* All rows count at the point, or it is known which do, without limits. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
 int zd_coupling_factor(zd_coupling *self, zd_point *point);
 /* zd_rows_are_long() where it was factored, from the diagonal of S if that tells, else from C. */
-int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point);
+int zd_coupling_find_long_rows(zd_coupling *self, zd_point *point);
+static inline int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
+{
+    const int is_told = self->is_least_known && point->rank->is_started;
+    return (is_told && zd_all_exceed(self->m, self->weighted->blocks->diagonal, self->least)) || zd_coupling_find_long_rows(self, point);
+}
 /* As the solve of formulation.h, of the rows that count. */
 void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda);
 

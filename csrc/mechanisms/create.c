@@ -244,7 +244,7 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
     self->system = (zd_system){
         .nq = coordinates, .nv = coordinates, .mh = self->uses.mh, .mn = self->uses.m - self->uses.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
-        .scratch = zd_frame_size(self),
+        .scratch = zd_frame_divide(self, &self->frame_at),
         .evaluate = zd_mechanism_evaluate,
         .data = self,
         .lengths = from->lengths,

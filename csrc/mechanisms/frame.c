@@ -2,48 +2,61 @@
 #include "gauge.h"
 #include "plan.h"
 
-/* The next `count` structures of `size` doubles each. */
-static double *next(double *scratch, int *used, int count, size_t bytes)
+/* Where the next `count` structures of that many bytes begin. */
+static size_t next(size_t *used, int count, size_t bytes)
 {
-    double *here = scratch ? scratch + *used : NULL;
-    *used += count * (int)(bytes / sizeof(double));
+    const size_t here = *used;
+    *used += (size_t)count * bytes;
     return here;
 }
 
-static int divide(const zd_mechanism *self, double *scratch, zd_frame *to)
+int zd_frame_divide(const zd_mechanism *self, zd_frame_at *to)
 {
-    int used = 0, bodies = self->tree.bodies + 1, longest = self->uses.longest;
-    to->arm = (zd_vector *)next(scratch, &used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
-    to->spread = next(scratch, &used, self->packing ? 3 * bodies : 0, sizeof(double));
-    to->pull = (zd_pull *)next(scratch, &used, self->lines, sizeof(zd_pull));
-    to->place = next(scratch, &used, self->lines ? 3 * bodies : 0, sizeof(double));
-    to->axis = (zd_vector *)next(scratch, &used, self->packing ? bodies : 0, sizeof(zd_vector));
-    to->pose = (zd_pose *)next(scratch, &used, bodies, sizeof(zd_pose));
-    to->twist = (zd_twist *)next(scratch, &used, bodies, sizeof(zd_twist));
-    to->wrench = (zd_wrench *)next(scratch, &used, bodies, sizeof(zd_wrench));
-    to->composite = (zd_composite *)next(scratch, &used, bodies, sizeof(zd_composite));
-    to->spin = (zd_spin *)next(scratch, &used, bodies, sizeof(zd_spin));
-    to->sines = next(scratch, &used, 3 * bodies, sizeof(double));
-    to->is_placed = next(scratch, &used, 1, sizeof(double));
-    to->is_moving = next(scratch, &used, 1, sizeof(double));
-    to->row = next(scratch, &used, self->tree.nv, sizeof(double));
-    to->x = next(scratch, &used, longest, sizeof(double));
-    to->xdot = next(scratch, &used, longest, sizeof(double));
-    to->out = next(scratch, &used, longest + 3, sizeof(double));
-    return used;
+    size_t used = 0;
+    const int bodies = self->tree.bodies + 1, longest = self->uses.longest;
+    to->arm = next(&used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
+    to->spread = next(&used, self->packing ? 3 * bodies : 0, sizeof(double));
+    to->pull = next(&used, self->lines, sizeof(zd_pull));
+    to->place = next(&used, self->lines ? 3 * bodies : 0, sizeof(double));
+    to->axis = next(&used, self->packing ? bodies : 0, sizeof(zd_vector));
+    to->pose = next(&used, bodies, sizeof(zd_pose));
+    to->twist = next(&used, bodies, sizeof(zd_twist));
+    to->wrench = next(&used, bodies, sizeof(zd_wrench));
+    to->composite = next(&used, bodies, sizeof(zd_composite));
+    to->spin = next(&used, bodies, sizeof(zd_spin));
+    to->sines = next(&used, 3 * bodies, sizeof(double));
+    to->is_placed = next(&used, 1, sizeof(double));
+    to->is_moving = next(&used, 1, sizeof(double));
+    to->row = next(&used, self->tree.nv, sizeof(double));
+    to->x = next(&used, longest, sizeof(double));
+    to->xdot = next(&used, longest, sizeof(double));
+    to->out = next(&used, longest + 3, sizeof(double));
+    return (int)(used / sizeof(double));
 }
 
 zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch)
 {
-    zd_frame frame;
-    divide(mechanism, scratch, &frame);
-    return frame;
-}
-
-int zd_frame_size(const zd_mechanism *mechanism)
-{
-    zd_frame frame;
-    return divide(mechanism, NULL, &frame);
+    const zd_frame_at *at = &mechanism->frame_at;
+    char *begin = (char *)scratch;
+    return (zd_frame){
+        .pose = (void *)(begin + at->pose),
+        .twist = (void *)(begin + at->twist),
+        .wrench = (void *)(begin + at->wrench),
+        .composite = (void *)(begin + at->composite),
+        .spin = (void *)(begin + at->spin),
+        .axis = (void *)(begin + at->axis),
+        .arm = (void *)(begin + at->arm),
+        .spread = (void *)(begin + at->spread),
+        .pull = (void *)(begin + at->pull),
+        .place = (void *)(begin + at->place),
+        .sines = (void *)(begin + at->sines),
+        .is_placed = (void *)(begin + at->is_placed),
+        .is_moving = (void *)(begin + at->is_moving),
+        .row = (void *)(begin + at->row),
+        .x = (void *)(begin + at->x),
+        .xdot = (void *)(begin + at->xdot),
+        .out = (void *)(begin + at->out),
+    };
 }
 
 static double value_of(const void *mechanism, const void *frame, int gauge)

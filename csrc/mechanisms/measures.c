@@ -152,5 +152,5 @@ zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
 {
     const int count = self->measures.count;
     zd_observed_list(&self->uses, count, OF_FORCES, OF_TORQUES, measure);
-    return (zd_measures){count, measure, zd_frame_size(self), evaluate};
+    return (zd_measures){count, measure, self->system.scratch, evaluate};
 }

@@ -15,6 +15,11 @@ typedef struct zd_planned_joint {
     int row_count;
 } zd_planned_joint;
 
+/* Where each part of a frame begins in the scratch, in bytes */
+typedef struct zd_frame_at {
+    size_t pose, twist, wrench, composite, spin, axis, arm, spread, pull, place, sines, is_placed, is_moving, row, x, xdot, out;
+} zd_frame_at;
+
 struct zd_packing;
 
 /* Body numbers in all of these are those of the tree. */
@@ -32,6 +37,7 @@ struct zd_mechanism {
     zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
     int pins, lines;                /* in absolute coordinates, how many of these rows come down to: see pins.h, lines.h */
+    zd_frame_at frame_at;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -61,7 +67,7 @@ typedef struct zd_frame {
 } zd_frame;
 
 zd_frame zd_frame_of(const zd_mechanism *mechanism, double *scratch);
-int zd_frame_size(const zd_mechanism *mechanism);       /* doubles */
+int zd_frame_divide(const zd_mechanism *mechanism, zd_frame_at *to);    /* returns how many doubles that takes */
 /* The gauges of a frame that is placed, and moving where their rates are asked for. */
 zd_readings zd_frame_readings(const zd_mechanism *mechanism, const zd_frame *frame);
 
