@@ -58,18 +58,24 @@ static int reduce(zd_point *point)
 }
 
 /* In the plain metric: whether the second of at most two rows might be the first, or any might be nothing. */
-ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
+ZD_INLINE int are_so_many_doubtful(const int n, const int m, zd_rank *self, const double *C)
 {
     double square[ZD_FEW_ROWS];
-    for (int k = 0; k < self->m; k++) {
+    for (int k = 0; k < m; k++) {
         square[k] = zd_dot(n, C + k * n, C + k * n);
         if (!(square[k] > DOUBTFUL * self->start_square[k])) return self->was_ill_conditioned = 1;
         self->was_ill_conditioned |= !(square[k] > ILL * self->start_square[k]);
     }
-    if (self->m < 2) return 0;
+    if (m < 2) return 0;
     double along = zd_dot(n, C, C + n), both = square[0] * square[1];
     self->was_ill_conditioned |= !((1 - ILL) * both > along * along);
     return !((1 - DOUBTFUL) * both > along * along);
+}
+
+/* Two are the most common. */
+ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
+{
+    return self->m == 2 ? are_so_many_doubtful(n, 2, self, C) : are_so_many_doubtful(n, self->m, self, C);
 }
 
 static void *take_look(zd_arena *arena, const void *system)
@@ -80,16 +86,9 @@ static void *take_look(zd_arena *arena, const void *system)
 /* Where the formulation's factorization should have told, memory for a look is taken only once it did not. */
 static int need_look(zd_rank *self, const zd_system *system)
 {
-    if (self->look || (self->m <= ZD_FEW_ROWS && !system->structure)) return ZD_DONE;
+    if (self->look) return ZD_DONE;
     self->look = zd_store_take(self->store, take_look, system);
     return self->look ? ZD_DONE : ZD_NO_MEMORY;
-}
-
-static int is_doubtful(zd_point *point)
-{
-    zd_rank *self = point->rank;
-    const int are_few = self->m <= ZD_FEW_ROWS && !point->layout;
-    return are_few ? ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C) : zd_look_is_doubtful(self->look, point);
 }
 
 int zd_rows_are_long(const zd_point *point)
@@ -130,10 +129,10 @@ static int use_kept(zd_point *point)
     return 1;
 }
 
-int zd_rows_find(zd_point *point)
+/* Of more than a few rows, or of such as follow from others. */
+static int find_any(zd_point *point)
 {
     zd_rank *self = point->rank;
-    if (point->known & ZD_RANKED) return ZD_DONE;
     if (self->is_large) {
         zd_rows_use_all(point);
         return ZD_DONE;
@@ -144,7 +143,20 @@ int zd_rows_find(zd_point *point)
     if (self->most_rows < self->m || self->m > self->n) return reduce(point);
     status = need_look(self, point->system);
     if (status) return status;
-    if (is_doubtful(point)) return reduce(point);
+    if (zd_look_is_doubtful(self->look, point)) return reduce(point);
+    zd_rows_use_all(point);
+    return ZD_DONE;
+}
+
+int zd_rows_find(zd_point *point)
+{
+    zd_rank *self = point->rank;
+    if (point->known & ZD_RANKED) return ZD_DONE;
+    const int are_few = self->m <= ZD_FEW_ROWS && self->m == self->most_rows && self->m <= self->n && !point->layout;
+    if (!are_few) return find_any(point);
+    int status = zd_point_need(point, ZD_C);
+    if (status) return status;
+    if (ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C)) return reduce(point);
     zd_rows_use_all(point);
     return ZD_DONE;
 }

@@ -42,7 +42,6 @@ static const zd_parameter parameters[] = {
 };
 
 typedef struct projection {
-    given_projection given;
     double *p, *v;      /* (nq,), (nv,): the corrected ones */
     double *landed;     /* (nq,): p before its correction */
     double *rhs, *x;    /* (m,), (nv,) */
@@ -77,7 +76,6 @@ static void *take(zd_arena *arena, const zd_system *system, const void *memory)
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
     int identity = (int)given->metric == IDENTITY;
     projection self = {
-        .given = *given,
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .landed = zd_take_doubles(arena, nq),
@@ -126,21 +124,23 @@ static int solve(projection *self, zd_motion *motion, enum zd_limit what, double
     return status;
 }
 
+/* Phi is known. */
 static int improve_position(void *context)
 {
     position_problem *problem = context;
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
     const zd_system *system = point->system;
-    int status = zd_point_need_times_A(point, ZD_PHI);
-    if (status) return status;
     if (!problem->has_moved) zd_copy_all(system->nq, point->p, self->landed);
     problem->has_moved = 1;
-    for (int k = 0; k < zd_constraints(system); k++) self->rhs[k] = k < system->mh ? point->terms.Phi[k] : 0;
-    status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);
+    zd_copy_all(system->mh, point->terms.Phi, self->rhs);
+    for (int k = system->mh; k < zd_constraints(system); k++) self->rhs[k] = 0;
+    int status = solve(self, problem->motion, ZD_LIMIT_PHI, self->x);
+    const int has_A = zd_has_A(system);
+    if (!status && has_A) status = zd_point_need_times_A(point, 0);
     if (status) return status;
-    zd_point_rate(point, self->x, self->p);
-    ZD_SIZED(zd_subtract, system->nq, point->p, self->p, self->p);          /* (25a), (26a), (27a) */
+    if (has_A) zd_point_rate(point, self->x, self->p);
+    ZD_SIZED(zd_subtract, system->nq, point->p, has_A ? self->p : self->x, self->p);   /* (25a), (26a), (27a) */
     zd_quaternions_normalise(system, self->p);
     zd_point_move_position(point, self->p);
     return ZD_DONE;
@@ -200,7 +200,7 @@ static int iterate(const zd_newton *newton, position_problem *problem)
 
 static int correct_positions(projection *self, zd_motion *motion)
 {
-    zd_newton newton = {position_residual, improve_position, self->given.tol, (int)self->given.max_iterations,
+    zd_newton newton = {position_residual, improve_position, motion->hold.tolerance, motion->hold.max_iterations,
                         motion->in_run ? ZD_TRUSTED_SHARE : 0, NULL};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
@@ -262,7 +262,7 @@ static int improve_directly(void *context)
 static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
 {
     zd_point *point = motion->point;
-    zd_newton newton = {direct_residual, improve_directly, self->given.tol, (int)self->given.max_iterations, ZD_TRUSTED_SHARE, NULL};
+    zd_newton newton = {direct_residual, improve_directly, motion->hold.tolerance, motion->hold.max_iterations, ZD_TRUSTED_SHARE, NULL};
     position_problem problem = {self, motion, 0};
     double size;
     int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
@@ -276,8 +276,8 @@ static int correct_directly(projection *self, zd_motion *motion, int positions, 
 static int after_step(void *memory, zd_motion *motion)
 {
     projection *self = memory;
-    int positions = self->given.positions != 0 && (motion->corrects & ZD_PHI);
-    int velocities = self->given.velocities != 0 && (motion->corrects & ZD_C);
+    int positions = motion->hold.positions && (motion->corrects & ZD_PHI);
+    int velocities = motion->hold.velocities && (motion->corrects & ZD_C);
     int status = ZD_DONE;
     if (zd_is_direct(motion) && !self->plain) {
         positions &= (motion->drifts_from & ZD_PHI) != 0;
