@@ -67,11 +67,12 @@ def test_a_parallelogram_by_steps_that_are_chosen(method, rtol, formulation):
 
 @pytest.mark.parametrize("steps", [400, 411])
 def test_every_integrator_passes_it(steps, integrator):
-    if integrator == "radau":       # rates change abruptly beside the motion, and the stages of fixed steps are not found there
-        with pytest.raises(zd.StepFailed, match="implicit 'radau' step were not solved"):
-            parallelogram(steps, integrator=integrator, on_singular="continue")
+    """Rates change abruptly beside the motion: the stages of radau's fixed steps may not be found there, and it stops then."""
+    sol = parallelogram(steps, integrator=integrator, on_singular="continue", on_failure="return")
+    if integrator == "radau" and not sol.success:
+        assert "implicit 'radau' step were not solved" in sol.message
         return
-    sol = parallelogram(steps, integrator=integrator, on_singular="continue")
+    assert sol.success
     assert np.abs(sol.p[:, 1]).max() < 1e-6
     assert sol.stats["rank_drops"] == 2
 
