@@ -66,7 +66,7 @@ both = pytest.mark.parametrize("kind", ["mixed", "independent"])
 
 
 @both
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(0, 12, 2))
 def test_of_random_systems(core, kind, seed):
     """Rows that move, nonholonomic ones and a kinematic matrix among them, and energy that comes in."""
     system = random_system(seed)
