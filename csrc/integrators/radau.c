@@ -39,7 +39,6 @@ static const double LONGER = 2;                 /* times the step before: where 
 static const double SHORTER = 0.5;              /* the bound, of a step that was too long for the iteration with one J, */
 static const double GROWTH = 0.005;             /* and by how much more it grows with each step after that */
 static const double STALLED = 0.5;              /* of the change before: an iteration that changes more has stalled */
-static const double LINEAR = 1e-9;              /* of the state: so small changes shrink steadily, or grow, unless they are rounding */
 
 typedef struct radau {
     int size;
@@ -52,7 +51,6 @@ typedef struct radau {
     int has_scale;          /* if it is: values within a step, which are not, are solved to rounding, as they have to be the same whenever asked for */
     zd_radau_matrices matrices;
     zd_radau_stages stages;
-    int64_t repartitions;   /* before it: what is remembered is of a state in these variables */
     int by_stages;          /* whether the step last made was solved with a J for each of them */
     double *seen;           /* (size,): the differences' scale */
     double t0, h;           /* of the step last made, from its beginning */
@@ -121,12 +119,10 @@ static double measure(const radau *self)
     return self->has_scale ? sqrt(sum / (STAGES * n)) / SMALL : largest / ROUNDING;
 }
 
-/* Whether a change is what rates are rounded by, which is more the stiffer they are: it no longer shrinks, or grows where the one before had
- * shrunk. Entries of the state that are nothing but rounding do not show their size: that of all has to do. */
-static int is_rounding(const radau *self, double share_before)
+/* Whether a change is what rates are rounded by. Entries of the state that are nothing but rounding do not show their size: that of all has to do. */
+static int is_rounding(const radau *self)
 {
-    const double limit = self->iterations > 2 && share_before < 1 && self->contraction >= 1 ? LINEAR : NEARLY;
-    return self->contraction > STALLED && zd_max_abs(STAGES * self->size, self->change) < limit * zd_max_abs(self->size, self->seen);
+    return zd_max_abs(STAGES * self->size, self->change) < NEARLY * zd_max_abs(self->size, self->seen);
 }
 
 /* change <- what an iteration adds to w */
@@ -168,6 +164,14 @@ static int evaluate_stages(radau *self)
     return ZD_DONE;
 }
 
+/* x^n, without pow, which ties a program to newer C libraries */
+static double power(double x, int n)
+{
+    double product = 1;
+    while (n-- > 0) product *= x;
+    return product;
+}
+
 /* `size` is what w will miss once the change has been added, as the iteration contracts. */
 static int residual(void *context, double *size)
 {
@@ -176,14 +180,14 @@ static int residual(void *context, double *size)
     if (status) return status;
     solve(self);
     see_sizes(self);
-    const double norm = measure(self), before = self->norm_before, share_before = self->contraction;
+    const double norm = measure(self), before = self->norm_before;
     const int left = WORTHWHILE - ++self->iterations;
     if (before > 0) self->contraction = norm / before;
     const double share = self->contraction;
     self->norm_before = norm;
     *size = norm == 0 ? 0 : share < 1 ? share / (1 - share) * norm : norm;
-    if (before > 0 && is_rounding(self, share_before)) *size = 0;
-    else if (self->has_scale && before > 0 && !(share < 1 && *size * zd_power(share, left) <= 1)) return ZD_NO_CONVERGENCE;
+    if (before > 0 && share > STALLED && is_rounding(self)) *size = 0;
+    else if (self->has_scale && before > 0 && !(share < 1 && *size * power(share, left) <= 1)) return ZD_NO_CONVERGENCE;
     return *size <= 1 ? add_change(self) : ZD_DONE;
 }
 
@@ -195,7 +199,7 @@ static int iterate(radau *self, zd_statistics *statistics)
     zd_radau_transform(self->size, zd_radau_T_inverse, self->z, self->w);
     self->norm_before = 0;
     self->iterations = 0;
-    self->contraction = zd_power(zd_root(fmax(self->contraction, 0x1p-52), 5), 4);     /* it may have changed since */
+    self->contraction = power(zd_root(fmax(self->contraction, 0x1p-52), 5), 4);     /* it may have changed since */
     int status = zd_newton_solve(&newton, self, &iterations, &left);
     statistics->implicit_iterations += self->iterations;
     return status;
@@ -215,10 +219,9 @@ static void start(radau *self)
 }
 
 /* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
-static void remember(radau *self, double t, double h, const zd_rate *rate, const zd_statistics *statistics)
+static void remember(radau *self, double t, double h, const zd_rate *rate)
 {
-    if (rate->size != self->size || rate->pairs != self->matrices.pairs || statistics->repartitions != self->repartitions) {
-        self->repartitions = statistics->repartitions;
+    if (rate->size != self->size || rate->pairs != self->matrices.pairs) {
         self->size = rate->size;
         self->h = self->before_h = 0;
         zd_radau_matrices_resize(&self->matrices, rate->size, rate->pairs);
@@ -284,7 +287,7 @@ static int solve_somehow(radau *self, double *y, zd_statistics *statistics)
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
 {
     radau *self = memory;
-    remember(self, t, h, rate, statistics);
+    remember(self, t, h, rate);
     self->rate = rate;
     self->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);

@@ -27,7 +27,6 @@ void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
     memcpy(self->of_chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
     zd_copy(motion->rate.size, stepper->y, self->y);
     self->formulation = motion->formulation;
-    self->repartitions = motion->statistics.repartitions;
     self->was_ill_conditioned = rank->was_ill_conditioned;
     self->was_deficient = rank->was_deficient;
     self->was_doubtful = rank->was_doubtful;
@@ -41,7 +40,6 @@ int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
     memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
     memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
     zd_variables_restore(stepper, self->formulation);
-    motion->statistics.repartitions = self->repartitions;
     rank->is_aside = 0;
     motion->point->known &= motion->point->constant;    /* it may be there already, with other factors */
     int status = zd_stepper_return_to(stepper, end);

@@ -9,7 +9,6 @@ typedef struct zd_aside {
     void *of_integrator, *of_chosen;    /* copies of the memories that the stepper and the motion name */
     double *y;              /* (size,): an own D gives u of v = D u back but for rounding */
     const zd_formulation *formulation;
-    int64_t repartitions;   /* as the statistics have them, which the integrator knows of new variables by */
     int was_ill_conditioned, was_deficient, was_doubtful;   /* as the rank has them */
 } zd_aside;
 

@@ -1,8 +1,5 @@
 """Radau's method against its equations solved by SciPy, its closed form, and SciPy's own on stiff systems."""
 
-import importlib
-import itertools
-
 import numpy as np
 import pytest
 import sympy
@@ -11,7 +8,7 @@ from scipy.optimize import fsolve
 
 import tolerances as tol
 import zerodrift as zd
-from support import ROOT, assert_close, assert_same_bits, rate
+from support import assert_close, assert_same_bits, rate
 
 C = np.array([(4 - np.sqrt(6)) / 10, (4 + np.sqrt(6)) / 10, 1])
 A = np.array([C ** (k + 1) / (k + 1) for k in range(3)]).T @ np.linalg.inv(np.vander(C, increasing=True))     # its collocation
@@ -88,45 +85,6 @@ def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
         assert np.abs(sol["crank.angle"] - exact["crank.angle"]).max() < 1e-3
         steps.append(sol.stats["steps"])
     assert steps[1] < 2 * steps[0] < 400
-
-
-def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formulation):
-    """That is the larger the stiffer the bushing is: far above the rounding of the state. Beside steps that are chosen."""
-    system = bushed_crank(1e8, 1e4)
-    exact = zd.simulate(system, 0.2, rtol=1e-9, atol=1e-9, integrator="radau")
-    for steps in (200, 2000):
-        sol = zd.simulate(system, 0.2, step=0.2 / steps, integrator="radau", formulation=formulation)
-        assert np.abs(sol.p[-1] - exact.p[-1]).max() < 1e-7
-
-
-@pytest.mark.parametrize("variables", ["mixed", "independent"])
-def test_rows_between_where_shorter_steps_lead_to_them(variables):
-    """In independent velocities, as in (p, v), whose rows are of the polynomial."""
-    system, times = bushed_crank(1e9, 1e4), np.linspace(0, 0.3, 38)
-    for rtol in (1e-3, 1e-6):
-        options = {"rtol": rtol, "atol": rtol, "integrator": "radau", "t_eval": times}
-        exact = zd.simulate(system, 0.3, formulation="schur", **options)
-        sol = zd.simulate(system, 0.3, formulation=variables, **options)
-        assert np.abs(sol.p - exact.p).max() < 10 * rtol
-        assert np.abs(sol.velocity_violation).max() <= 1e-12 * np.abs(sol.v).max()
-
-
-@pytest.mark.parametrize("variables", ["mixed", "independent"])
-def test_what_is_remembered_of_other_variables_is_forgotten(variables, monkeypatch):
-    """A slider-crank with a rod that bends: variables are chosen anew in the midst of it, and rows lie in that step."""
-    monkeypatch.syspath_prepend(ROOT / "tests" / "bench" / "stiff")
-    problem = importlib.import_module("stiff_problems").flexible()
-    system = importlib.import_module("stiff_with_zerodrift").system_of(problem)
-    options = {"integrator": "radau", "formulation": variables}
-    exact = zd.simulate(system, problem.t_end, rtol=1e-8, atol=1e-8, integrator="radau")
-    for rtol, rows in itertools.product((1e-2, 1e-3, 1e-5), (21, 83)):
-        steps = zd.simulate(system, problem.t_end, rtol=rtol, atol=rtol, **options)
-        sol = zd.simulate(system, problem.t_end, rtol=rtol, atol=rtol, t_eval=np.linspace(0, problem.t_end, rows), **options)
-        assert np.abs(sol.p - exact(sol.t)[0]).max() < rtol
-        assert (sol.p[-1] == steps.p[-1]).all()
-        assert sol.stats["repartitions"] == steps.stats["repartitions"] > 0
-    sol = zd.simulate(system, problem.t_end, step=problem.t_end / 400, **options)
-    assert np.abs(sol.p[-1] - exact.p[-1]).max() < 1e-7
 
 
 @pytest.mark.parametrize("omega", [1e2, 1e5, 1e8])
