@@ -2,8 +2,6 @@
 #include "short_step.h"
 #include "variables.h"
 
-enum { MOST_HALVINGS = 8 };
-
 static int integrate_and_land(zd_stepper *self, double h, double t1)
 {
     int status = zd_stepper_integrate(self, h);
@@ -35,7 +33,7 @@ int zd_stepper_land_between(zd_stepper *self, double t, double *y)
     return zd_is_short(self->motion) ? zd_short_land_between(self, t, y) : zd_stepper_land(self, t, 0, 1);
 }
 
-static int attempt(zd_stepper *self, double t)
+int zd_stepper_make_substep(zd_stepper *self, double t)
 {
     double h = t - self->t;
     int status = integrate_and_land(self, h, t);
@@ -47,29 +45,6 @@ static int attempt(zd_stepper *self, double t)
     if (zd_variables_lose_digits(self, status)) {
         status = zd_variables_use_dependent(self);
         if (!status) status = integrate_and_land(self, h, t);
-    }
-    return status;
-}
-
-static int is_too_far(int status)
-{
-    return status == ZD_NO_STEP || status == ZD_NO_EMBEDDING || status == ZD_NO_CONVERGENCE;
-}
-
-/* Although the step that it lies within was solved, this may not be, in variables that were chosen at its end: then it is made in parts. */
-int zd_stepper_make_substep(zd_stepper *self, double t)
-{
-    double to = t;
-    int status = attempt(self, to);
-    for (int halvings = 0; self->t != t || status;) {
-        if (!status) to = t;
-        else if (!is_too_far(status) || halvings++ == MOST_HALVINGS) break;
-        else {
-            status = zd_stepper_return(self);
-            if (status) break;
-            to = self->t + (to - self->t) / 2;
-        }
-        status = attempt(self, to);
     }
     self->motion->statistics.output_steps++;
     return status;
