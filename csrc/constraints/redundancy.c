@@ -49,7 +49,7 @@ static double unit_of(const zd_selection *self, int k)
 }
 
 /* By how much the velocity violates (5), in units of the rows. Psi (m,) */
-static double looseness(const zd_point *point, double *Psi)
+static double largest_violation_of_velocity(const zd_point *point, double *Psi)
 {
     const zd_selection *self = point->rank->selection;
     double most = 0;
@@ -58,14 +58,15 @@ static double looseness(const zd_point *point, double *Psi)
     return most;
 }
 
-/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it: zero but for rounding where
- * they are redundant, and for what a velocity makes of it that violates (5), as one does that is nothing but rounding. In units of the
- * rows; (m,), of which so many are used. Returns the first of which that is not so, or m. */
+/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it. Where they are redundant that is
+ * zero, but for rounding and for what is due to a violation of (5) by the velocity: where nothing can move, a computed velocity is
+ * nothing but such a violation. w (m,), in units of the rows; the first m - rows entries are set. Returns the first row that is not
+ * redundant, or m. */
 static int curvature(const zd_point *point, double *w)
 {
     const zd_selection *self = point->rank->selection;
     const double *xi = point->terms.xi;
-    const double speed = zd_max_abs(self->n, point->v), loose = looseness(point, w) / ZD_DOUBTFUL;
+    const double speed = zd_max_abs(self->n, point->v), violation = largest_violation_of_velocity(point, w);
     double largest = 0;
     int first = self->m;
     for (int k = 0; k < self->m; k++) largest = fmax(largest, fabs(xi[k]) / unit_of(self, k));
@@ -79,7 +80,7 @@ static int curvature(const zd_point *point, double *w)
         }
         const double size = 1 + zd_max_abs(point->system->nq, point->p), scale = terms * largest + speed * speed / size;
         w[d - point->rows] = sum;
-        if (!(fabs(sum) <= CURVED * scale + loose * speed / size)) first = d;
+        if (!(fabs(sum) <= CURVED * scale + violation / ZD_DOUBTFUL * speed / size)) first = d;
     }
     return first;
 }

@@ -58,7 +58,7 @@ static int reduce(zd_point *point)
 }
 
 /* In the plain metric: whether the second of at most two rows might be the first, or any might be nothing. */
-ZD_INLINE int are_so_many_doubtful(const int n, const int m, zd_rank *self, const double *C)
+ZD_INLINE int are_doubtful(const int n, const int m, zd_rank *self, const double *C)
 {
     double square[ZD_FEW_ROWS];
     for (int k = 0; k < m; k++) {
@@ -72,10 +72,10 @@ ZD_INLINE int are_so_many_doubtful(const int n, const int m, zd_rank *self, cons
     return !((1 - DOUBTFUL) * both > along * along);
 }
 
-/* Two are the most common. */
+/* Two rows are the most common, and their number is then known to the compiler. */
 ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
 {
-    return self->m == 2 ? are_so_many_doubtful(n, 2, self, C) : are_so_many_doubtful(n, self->m, self, C);
+    return self->m == 2 ? are_doubtful(n, 2, self, C) : are_doubtful(n, self->m, self, C);
 }
 
 static void *take_look(zd_arena *arena, const void *system)

@@ -137,8 +137,8 @@ static int find_resolution(const zd_embedding *self, zd_point *point, double *re
     return status;
 }
 
-/* Phi in units of what cannot be told from zero. Rows that follow from those that the iteration solves do so but for the share that makes
- * a row count; their gradients may be nothing but rounding, in units of which their own is large. */
+/* size <- the largest |Phi| of the rows that the iteration solves, over what cannot be told from zero. Rows that follow from these need only
+ * be below the tolerance by which they were found to follow: their gradients may be so small that rounding is large beside them. */
 static int find_violation(const zd_embedding *self, zd_point *point, double *size)
 {
     double resolution = 0, Phi = self->mh ? zd_point_violation(point) : 0, others = 0;

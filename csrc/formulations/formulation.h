@@ -45,8 +45,9 @@ typedef struct zd_formulation {
     int (*may_have_entries)(const zd_system *system);
     int (*entries)(const void *self, zd_entries *entries);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
-    /* For their Jacobian, NULL together with settle(): what (p, v) at the point changes by with each entry of the state, T (size, nq + nv),
-     * from Psi_p (m, nq), the derivatives of (5) by p; not 0: it is not known here. And what the state has of such changes. */
+    /* For the Jacobian of the rate, where the state is not (p, v); NULL where settle() is. T (size, nq + nv) <- the derivatives
+     * of p and v by each entry of the state, at the point, where Psi_p (m, nq) are those of (5) by p; not 0: they are not known there.
+     * ydot (size,) <- the entries of the state's rate, given the rates of p and v. */
     int (*tangents)(void *self, zd_point *point, const double *Psi_p, double *T);
     void (*pick)(const void *self, const zd_point *point, const double *pdot, const double *vdot, double *ydot);
 } zd_formulation;

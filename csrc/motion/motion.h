@@ -99,7 +99,7 @@ typedef struct zd_road {
     double *D;              /* (m, nv - m): at the point, of the velocities that are solved for */
 } zd_road;
 
-/* Of the rate's Jacobian, where the system brings its own */
+/* Memory for the Jacobian of the rate, by the chain rule from the derivatives that the system brings */
 typedef struct zd_chain {
     double *scratch;        /* of the system's functions */
     double *J;              /* (nq + nv + 1, nq + nv): the system's, and all that follows, for states in independent velocities */

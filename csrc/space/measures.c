@@ -50,8 +50,8 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
     if (out->bias) out->bias[i] = s * bias;
 }
 
-/* Poses, and twists where they are wanted, of the state, unless they are there. */
-static void follow(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const double *p, const double *v,
+/* Finds the poses of the state, and the twists where the measure needs them, unless the call before has found them. */
+static void place_and_move(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const double *p, const double *v,
                    const zd_measured *out)
 {
     if (!out->is_same_state) *frame->is_placed = *frame->is_moving = 0;
@@ -122,7 +122,7 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
     if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    follow(self, &frame, observed, p, v, out);
+    place_and_move(self, &frame, observed, p, v, out);
     if (observed->quantity <= ZD_ACCELERATIONS) {
         for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
         return ZD_DONE;

@@ -229,7 +229,7 @@ typedef struct zd_series {
 typedef struct zd_jacobian {
     int scratch;            /* doubles that a call needs */
     int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);
-    /* Psi_p (m, nq) <- the derivatives of C v + Phi_t, (5), by p: for states in independent velocities. NULL: these have differences. */
+    /* Psi_p (m, nq) <- the derivatives of C v + Phi_t, (5), by p, which `mixed` and `independent` need; NULL: they take differences. */
     int (*constraints)(const void *data, double t, const double *p, const double *v, double *Psi_p, double *scratch);
 } zd_jacobian;
 
@@ -246,7 +246,7 @@ typedef struct zd_measured {    /* where the values go; NULL: not wanted */
     double *rate;           /* (size,) of a measure of positions: its derivative by time, row v + what is explicit in t */
     double *row;            /* (size, nv) of a measure of positions: d rate / d v; of velocities: d value / d v */
     double *bias;           /* (size,) what the derivative of these by time has besides row vdot */
-    int is_same_state;      /* whether t, p, v are those of the call before, and the scratch is as that left it: no need to place bodies again */
+    int is_same_state;      /* 1: t, p, v and the scratch are as in the call before, so that what follows from them need not be found again */
 } zd_measured;
 
 typedef struct zd_measures {
