@@ -166,7 +166,7 @@ def pressed_after(seconds, call):
 
 
 @posix
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")     # it may come while Hypothesis watches the collector
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # within a watch over the collector
 @pytest.mark.parametrize("what", ["simulate", "reference", "work_precision", "tune"])
 def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
     known = zd.reference(bar, 0.5, error=None)
