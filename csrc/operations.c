@@ -10,6 +10,7 @@
 #include "run/create.h"
 #include "run/explain.h"
 #include "run/revisit.h"
+#include "stepping/spread.h"
 #include "run/status.h"
 #include "systems/held.h"
 
@@ -135,6 +136,7 @@ int zd_states_between(const zd_system *system, const zd_settings *settings, cons
     zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
     zd_revisit revisit = {.run = run, .saved = saved, .row = -1};
+    status = zd_spread_prepare(&run->stepper);
     for (int64_t i = 0; i < count && !status; i++) {
         status = zd_revisit_move(&revisit, t[i]);
         copy_state(system, run->motion.point->p, run->motion.point->v, p + i * system->nq, v + i * system->nv);

@@ -201,7 +201,7 @@ static int iterate(const zd_newton *newton, position_problem *problem)
 static int correct_positions(projection *self, zd_motion *motion)
 {
     zd_newton newton = {position_residual, improve_position, motion->hold.tolerance, motion->hold.max_iterations,
-                        motion->in_run ? ZD_TRUSTED_SHARE : 0, NULL};
+                        motion->in_run ? ZD_TRUSTED_SHARE : 0, NULL, 0};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
     /* Near a bifurcation C is small, so that a violation within the tolerance may belong to a p far from the constraints: one more
@@ -262,7 +262,7 @@ static int improve_directly(void *context)
 static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
 {
     zd_point *point = motion->point;
-    zd_newton newton = {direct_residual, improve_directly, motion->hold.tolerance, motion->hold.max_iterations, ZD_TRUSTED_SHARE, NULL};
+    zd_newton newton = {direct_residual, improve_directly, motion->hold.tolerance, motion->hold.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
     position_problem problem = {self, motion, 0};
     double size;
     int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);

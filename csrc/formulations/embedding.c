@@ -20,6 +20,7 @@
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
+static const double NEARLY = 64;      /* units of rounding: a residual of so many that no longer halves is all that there can be */
 static const double FARTHEST = 0.5;   /* in natural units: a longer prediction is not used as the first iterate */
 static const double MOST_RESPONSE = 16;   /* of p to the q of the system's own embedding: with more, q is chosen numerically */
 static const double WORSE = 1.1;      /* q is chosen anew when the response of p to it has grown by more than this factor */
@@ -86,7 +87,7 @@ static double inverse_unit(const zd_embedding *self, const zd_point *point, int 
 static double mismatch(const zd_embedding *self, const zd_point *point, const double *q, int k)
 {
     const int i = self->index[k];
-    if (!has_increments(self)) return point->p[i] == q[k] ? 0 : 2;
+    if (!has_increments(self)) return point->p[i] == q[k] ? 0 : 2 * NEARLY;
     return fabs(zd_increments_value(&self->increments, point, point->p, i) - q[k]) / self->increments.rounding[i];
 }
 
@@ -152,11 +153,11 @@ static int find_violation(const zd_embedding *self, zd_point *point, double *siz
             Phi = fmax(Phi, fabs(point->terms.Phi[row]) * point->inverse_size[row]);
         }
     }
-    *size = fmax(Phi > 0 ? Phi / resolution : 0, others / ZD_RANK_TOLERANCE);
+    *size = fmax(Phi > 0 ? Phi / resolution : 0, others > ZD_RANK_TOLERANCE ? NEARLY * others / ZD_RANK_TOLERANCE : 0);
     return status;
 }
 
-/* In units of rounding; at least 2 as long as q is not what it should be. */
+/* In units of rounding; too many as long as q is not what it should be. */
 static int residual(void *context, double *size)
 {
     problem *it = context;
@@ -189,7 +190,7 @@ static int improve(void *context)
 
 static int place_numerically(zd_embedding *self, zd_point *point, double t, const double *q)
 {
-    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL};
+    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL, NEARLY};
     problem it = {self, point, q};
     int iterations;
     double left;

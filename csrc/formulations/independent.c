@@ -76,6 +76,15 @@ static int leave(void *memory, zd_point *point, double *y)
     return zd_minimal_leave(&self->minimal, point, y + embedding->k);
 }
 
+static int express(void *memory, zd_point *point, double *y)
+{
+    independent *self = memory;
+    const int k = self->minimal.many ? self->minimal.many->k : self->embedding.k;
+    if (self->minimal.many) zd_partitioned_pick_coordinates(self->minimal.many, point->p, y);
+    else zd_embedding_coordinates(&self->embedding, point, y);
+    return zd_minimal_express(&self->minimal, point, y + k);
+}
+
 static int rate(void *memory, zd_point *point, double *ydot)
 {
     independent *self = memory;
@@ -155,6 +164,7 @@ const zd_formulation zd_independent = {
     .solve = zd_minimal_solve,
     .enter = enter,
     .leave = leave,
+    .express = express,
     .settle = zd_minimal_settle,
     .may_have_entries = may_have_entries,
     .entries = entries,

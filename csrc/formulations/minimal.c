@@ -164,16 +164,26 @@ int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
     return zd_minimal_settle(self, point);
 }
 
-int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
+int zd_minimal_express(zd_minimal *self, zd_point *point, double *u)
 {
-    if (self->many) return zd_partitioned_speeds(self->many, point, u);
-    int status = zd_complement_review(&self->complement, point);
+    if (self->many) {
+        zd_partitioned_express_speeds(self->many, point, u);
+        return ZD_DONE;
+    }
+    int status = zd_complement_at(&self->complement, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_point_need(point, ZD_PHI_T);
     if (!status) status = zd_complement_speeds(&self->complement, point, self->u);
     for (int j = 0; j < self->size && !status; j++) u[j] = self->u[j];
     self->lead_time = 0;
     return status;
+}
+
+int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
+{
+    if (self->many) return zd_partitioned_speeds(self->many, point, u);
+    int status = zd_complement_review(&self->complement, point);
+    return status ? status : zd_minimal_express(self, point, u);
 }
 
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot)

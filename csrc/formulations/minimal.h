@@ -31,8 +31,9 @@ void zd_minimal_solve(void *self, const double *force, const double *rhs, double
 void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t);
 /* Remembers u, and gives the point the v that belongs to it. */
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
-/* The point's u, in terms of independent velocities that are reviewed first. */
+/* The point's u, in terms of independent velocities that are reviewed first; or of those that have been chosen. */
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
+int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);

@@ -33,6 +33,12 @@ static int leave(void *self, zd_point *point, double *y)
     return zd_minimal_leave(self, point, y + point->system->nq);
 }
 
+static int express(void *self, zd_point *point, double *y)
+{
+    memcpy(y, point->p, (size_t)point->system->nq * sizeof *y);
+    return zd_minimal_express(self, point, y + point->system->nq);
+}
+
 static int rate(void *memory, zd_point *point, double *ydot)
 {
     zd_minimal *self = memory;
@@ -79,6 +85,7 @@ const zd_formulation zd_mixed = {
     .solve = zd_minimal_solve,
     .enter = enter,
     .leave = leave,
+    .express = express,
     .settle = zd_minimal_settle,
     .may_have_entries = zd_minimal_may_have_entries,
     .entries = zd_minimal_entries,

@@ -97,19 +97,12 @@ static zd_bodies *create_bodies(zd_store *store, const zd_point *point)
     return bodies;
 }
 
-typedef struct plan {
-    const zd_system *system;
-    int rows, independents;
-} plan;
-
-static void *take(zd_arena *arena, const void *of)
+zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independents)
 {
-    const plan *it = of;
-    const size_t n = (size_t)it->system->nv, m = (size_t)zd_constraints(it->system);
+    const size_t n = (size_t)nv, m = (size_t)rows;
     zd_partition self = {
-        .rows = it->rows,
-        .independents = it->independents,
-        .index = zd_take(arena, (size_t)it->independents * sizeof(int)),
+        .independents = independents,
+        .index = zd_take(arena, (size_t)independents * sizeof(int)),
         .left_out = zd_take(arena, n),
         .weight = zd_take_doubles(arena, m),
         .rest = zd_take_doubles(arena, m),
@@ -119,16 +112,13 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-zd_partition *zd_partition_create(zd_store *store, const zd_point *point, int rows, int independents)
+int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *point, int rows)
 {
-    const plan it = {point->system, rows, independents};
     const unsigned char *follows = point->rank->left_out;
-    zd_bodies *bodies = create_bodies(store, point);
-    zd_partition *self = bodies ? zd_store_take(store, take, &it) : NULL;
-    if (!self) return NULL;
-    self->bodies = bodies;
+    self->bodies = create_bodies(store, point);
+    self->rows = rows;
     for (int k = 0; k < rows; k++) self->weight[k] = follows && follows[k] ? 0 : point->inverse_size[k] * point->inverse_size[k];
-    return self;
+    return self->bodies ? ZD_DONE : ZD_NO_MEMORY;
 }
 
 /* ---- factors ---- */

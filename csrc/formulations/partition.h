@@ -7,7 +7,7 @@
 #include "../point/point.h"
 
 typedef struct zd_partition {
-    zd_bodies *bodies;      /* C_w^T W C_w: of the dependent velocities w */
+    zd_bodies *bodies;      /* C_w^T W C_w: of the dependent velocities w; NULL until there is a point */
     int rows;               /* the first of C, that it is of */
     int independents;
     int is_chosen;
@@ -20,8 +20,10 @@ typedef struct zd_partition {
     const double *C;        /* of the point where it was factored */
 } zd_partition;
 
-/* Of the first `rows` rows of C, which leave so many velocities independent; NULL where there is no memory. */
-zd_partition *zd_partition_create(zd_store *store, const zd_point *point, int rows, int independents);
+/* Of at most so many rows of C, which leave so many of nv velocities independent. */
+zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independents);
+/* Of the first `rows` of them, at a point, where it is known which rows count. ZD_NO_MEMORY */
+int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *point, int rows);
 /* At the point, with the velocities that were chosen. C is known there. */
 int zd_partition_factor(zd_partition *self, zd_point *point);
 /* The same, where that has not been done there, and chooses anew where the present choice is badly conditioned. */

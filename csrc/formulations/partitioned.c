@@ -9,17 +9,21 @@
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };
+static const double NEARLY = 64;        /* units of rounding: a residual of so many that no longer halves is all that there can be */
 static const double FARTHEST = 0.5;     /* in natural units: a longer prediction is not used as the first iterate */
 
 zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system)
 {
     if (!zd_rank_is_of_many(system)) return NULL;
-    int rows = 0;
+    int rows = 0, size = system->nv - zd_constraints(system), k = system->nv - system->mh;
     for (int g = 0; g < system->structure->groups; g++) rows += system->structure->rows[g];
+    zd_partition *of_v = zd_partition_take(arena, system->nv, rows, size);
     zd_partitioned self = {
         .structured = zd_structured_take(arena, system),
-        .size = system->nv - zd_constraints(system),
-        .k = system->nv - system->mh,
+        .of_v = of_v,
+        .of_p = system->mn ? zd_partition_take(arena, system->nv, rows, k) : of_v,
+        .size = size,
+        .k = k,
         .u = zd_take_doubles(arena, (size_t)system->nv),
         .rhs = zd_take_doubles(arena, (size_t)rows),
         .x = zd_take_doubles(arena, (size_t)system->nv),
@@ -34,8 +38,8 @@ zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system)
 static int need_speeds(zd_partitioned *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_PHI_T);
-    if (!self->of_v) self->of_v = zd_partition_create(point->rank->store, point, zd_constraints(point->system), self->size);
-    return !self->of_v ? ZD_NO_MEMORY : status;
+    const int begins = !status && !self->of_v->bodies;
+    return begins ? zd_partition_begin(self->of_v, point->rank->store, point, zd_constraints(point->system)) : status;
 }
 
 /* Where little is left of a column, v = D u loses digits: see stepping/variables.c. */
@@ -60,14 +64,19 @@ int zd_partitioned_settle(zd_partitioned *self, zd_point *point)
     return status;
 }
 
+void zd_partitioned_express_speeds(zd_partitioned *self, const zd_point *point, double *u)
+{
+    zd_partitioned_pick_speeds(self, point->v, self->u);
+    memcpy(u, self->u, (size_t)self->size * sizeof *u);
+}
+
 int zd_partitioned_speeds(zd_partitioned *self, zd_point *point, double *u)
 {
     int status = need_speeds(self, point);
     if (!status) status = zd_partition_review(self->of_v, point, point->known & ZD_COMPLEMENTED);
     if (status) return status;
     point->known |= ZD_COMPLEMENTED;
-    zd_partitioned_pick_speeds(self, point->v, self->u);
-    memcpy(u, self->u, (size_t)self->size * sizeof *u);
+    zd_partitioned_express_speeds(self, point, u);
     return ZD_DONE;
 }
 
@@ -83,10 +92,9 @@ void zd_partitioned_pick_coordinates(const zd_partitioned *self, const double *x
 
 static int need_coordinates(zd_partitioned *self, zd_point *point)
 {
-    const zd_system *system = point->system;
     int status = need_speeds(self, point);
-    if (!status && !self->of_p) self->of_p = system->mn ? zd_partition_create(point->rank->store, point, system->mh, self->k) : self->of_v;
-    return !status && !self->of_p ? ZD_NO_MEMORY : status;
+    const int begins = !status && !self->of_p->bodies;
+    return begins ? zd_partition_begin(self->of_p, point->rank->store, point, point->system->mh) : status;
 }
 
 int zd_partitioned_coordinates(zd_partitioned *self, zd_point *point, double *q)
@@ -155,7 +163,7 @@ static void predict(zd_partitioned *self, const zd_point *point, double t, const
 
 int zd_partitioned_place(zd_partitioned *self, zd_point *point, double t, const double *q)
 {
-    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL};
+    static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL, NEARLY};
     problem it = {self, point};
     int iterations, status = need_coordinates(self, point);
     double left;

@@ -8,7 +8,7 @@
 
 typedef struct zd_partitioned {
     zd_structured *structured;
-    zd_partition *of_v, *of_p;      /* of all rows, and of the holonomic ones: the same where there are no others; NULL until first needed */
+    zd_partition *of_v, *of_p;      /* of all rows, and of the holonomic ones: the same where there are no others */
     int size, k;            /* how many u and q there are */
     double *u;              /* (size,) */
     double *rhs, *x, *p;    /* (m,), (nv,), (nq,) */
@@ -22,6 +22,8 @@ zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system);
 int zd_partitioned_settle(zd_partitioned *self, zd_point *point);
 /* The point's u, of velocities that are reviewed first. */
 int zd_partitioned_speeds(zd_partitioned *self, zd_point *point, double *u);
+/* Of those that have been chosen */
+void zd_partitioned_express_speeds(zd_partitioned *self, const zd_point *point, double *u);
 /* The point's q, of coordinates that are reviewed first; and where they are in p, after that. */
 int zd_partitioned_coordinates(zd_partitioned *self, zd_point *point, double *q);
 /* Moves the point to p = g(q) at time t, starting from where its velocity leads. (18) */

@@ -32,7 +32,9 @@ static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, 
 static const double SLOW = 0.001;               /* J is made anew for the next step when an iteration has left more of the one before */
 static const double SMALL = 0.0001;             /* of the error that is allowed: what the iteration may leave, which adds up over steps */
 static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
-static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding */
+static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding; */
+static const double PERHAPS = 1e-9;             /* one so small may be, where rates are stiff */
+static const double EXPLAINED = 16;             /* times what rounding the stages in another way changes: so much it may be */
 static const double LEAST = 1e-3;               /* of the largest entry of the state: the others are varied by no less */
 static const double WORTH_STAGES = 2;           /* times the bound: a step so much longer is worth a J for each stage */
 static const double LONGER = 2;                 /* times the step before: where its polynomial still leads near enough to solve with J there */
@@ -44,7 +46,8 @@ typedef struct radau {
     int size;
     double *f0;             /* (size,): where the step begins */
     double *f, *z, *w;      /* (STAGES, size) */
-    double *change;         /* (STAGES, size): of w, by an iteration */
+    double *change;         /* (STAGES, size): of w, by an iteration; */
+    double *other;          /* the same, where stages are rounded in another way */
     double *before;         /* (STAGES, size): z of the step before, by which an iteration starts */
     double *stage;          /* (size,) */
     double *error_scale;    /* (size,): what the error of the step is measured by, */
@@ -82,6 +85,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .z = zd_take_doubles(arena, STAGES * n),
         .w = zd_take_doubles(arena, STAGES * n),
         .change = zd_take_doubles(arena, STAGES * n),
+        .other = zd_take_doubles(arena, STAGES * n),
         .before = zd_take_doubles(arena, STAGES * n),
         .stage = zd_take_doubles(arena, n),
         .error_scale = zd_take_doubles(arena, n),
@@ -119,12 +123,6 @@ static double measure(const radau *self)
     return self->has_scale ? sqrt(sum / (STAGES * n)) / SMALL : largest / ROUNDING;
 }
 
-/* Whether a change is what rates are rounded by. Entries of the state that are nothing but rounding do not show their size: that of all has to do. */
-static int is_rounding(const radau *self)
-{
-    return zd_max_abs(STAGES * self->size, self->change) < NEARLY * zd_max_abs(self->size, self->seen);
-}
-
 /* change <- what an iteration adds to w */
 static void solve(radau *self)
 {
@@ -153,14 +151,41 @@ static int add_change(void *context)
     return ZD_DONE;
 }
 
-static int evaluate_stages(radau *self)
+/* With entries that are off by shares of these sizes, up and down by turns; 0: by nothing */
+static int evaluate_stages(radau *self, double share)
 {
     const int n = self->size;
     for (int s = 0; s < STAGES; s++) {
-        for (int i = 0; i < n; i++) self->stage[i] = self->y0[i] + self->z[s * n + i];
+        for (int i = 0; i < n; i++) self->stage[i] = (self->y0[i] + self->z[s * n + i]) * (1 + ((i + s) % 2 ? share : -share));
         int status = self->rate->evaluate(self->rate->context, self->t0 + c[s] * self->h, self->stage, self->f + s * n);
         if (status) return status;
     }
+    return ZD_DONE;
+}
+
+static void exchange(double **a, double **b)
+{
+    double *kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Whether a change that no longer shrinks is nothing but what rates are rounded by, which is the more the stiffer they are: then the change is
+ * another by about as much where the stages are rounded in another way. Entries of the state that are nothing but rounding do not show their size: that of
+ * all has to do. */
+static int explain_by_rounding(radau *self, double norm, int *explained)
+{
+    const int n = self->size;
+    const double largest = zd_max_abs(STAGES * n, self->change), of_state = fmax(zd_max_abs(n, self->y0), zd_max_abs(STAGES * n, self->z));
+    *explained = largest < NEARLY * zd_max_abs(n, self->seen);
+    if (*explained || !(largest < PERHAPS * of_state)) return ZD_DONE;
+    int status = evaluate_stages(self, 0x1p-52);
+    if (status) return status;
+    exchange(&self->change, &self->other);
+    solve(self);
+    for (int k = 0; k < STAGES * n; k++) self->change[k] -= self->other[k];
+    *explained = norm <= EXPLAINED * measure(self);
+    exchange(&self->change, &self->other);
     return ZD_DONE;
 }
 
@@ -176,7 +201,7 @@ static double power(double x, int n)
 static int residual(void *context, double *size)
 {
     radau *self = context;
-    int status = evaluate_stages(self);
+    int explained = 0, status = evaluate_stages(self, 0);
     if (status) return status;
     solve(self);
     see_sizes(self);
@@ -186,14 +211,16 @@ static int residual(void *context, double *size)
     const double share = self->contraction;
     self->norm_before = norm;
     *size = norm == 0 ? 0 : share < 1 ? share / (1 - share) * norm : norm;
-    if (before > 0 && share > STALLED && is_rounding(self)) *size = 0;
+    if (before > 0 && share > STALLED) status = explain_by_rounding(self, norm, &explained);
+    if (status) return status;
+    if (explained) *size = 0;
     else if (self->has_scale && before > 0 && !(share < 1 && *size * power(share, left) <= 1)) return ZD_NO_CONVERGENCE;
     return *size <= 1 ? add_change(self) : ZD_DONE;
 }
 
 static int iterate(radau *self, zd_statistics *statistics)
 {
-    const zd_newton newton = {residual, add_change, 1, MOST_ITERATIONS, 0, NULL};
+    const zd_newton newton = {residual, add_change, 1, MOST_ITERATIONS, 0, NULL, 0};
     int iterations;
     double left;
     zd_radau_transform(self->size, zd_radau_T_inverse, self->z, self->w);
@@ -228,9 +255,7 @@ static void remember(radau *self, double t, double h, const zd_rate *rate)
     }
     const double end = self->t0 + self->h;
     if (self->h != 0 && fabs(t - end) <= ROUNDING * fabs(end)) {
-        double *old = self->before;
-        self->before = self->z;
-        self->z = old;
+        exchange(&self->before, &self->z);
         self->before_h = self->h;
         if (self->by_stages) zd_radau_stages_give_J(&self->stages, &self->matrices);
     } else if (t != self->t0) self->before_h = 0;

@@ -194,7 +194,7 @@ static int improve(void *context)
 
 static int find_positions(rattle *self)
 {
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
     zd_motion *motion = self->motion;
     int iterations, status = zd_motion_accelerate(motion);    /* what is recorded there, and needed for a first w */
     double left;

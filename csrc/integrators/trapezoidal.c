@@ -120,7 +120,7 @@ static int improve(void *context)
 
 static int solve_step(trapezoidal *self, zd_statistics *statistics)
 {
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL};
+    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
     int iterations;
     double left;
     self->before = INFINITY;

@@ -22,15 +22,16 @@ static int shorten(const zd_newton *newton, void *context, double before)
 
 int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, double *residual)
 {
-    double first = INFINITY;
+    double first = INFINITY, before = INFINITY;
     for (*iterations = 0;; ++*iterations) {
         int status = newton->residual(context, residual);
         if (status) return status;
-        if (*residual <= newton->tolerance) return ZD_DONE;
+        if (*residual <= newton->tolerance || (*residual <= newton->nearly && *residual > before / 2)) return ZD_DONE;
         if (!isfinite(*residual)) return ZD_NOT_FINITE;
         if (*iterations == newton->max_iterations) return ZD_NO_CONVERGENCE;
         if (*iterations == 1 && newton->contraction > 0 && !(*residual <= newton->contraction * first)) return ZD_NO_CONVERGENCE;
         if (*iterations == 0) first = *residual;
+        before = *residual;
         status = newton->improve(context);
         if (!status && newton->retreat) status = shorten(newton, context, *residual);
         if (status) return status;

@@ -81,7 +81,8 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     self->is_short = may_stay && zd_short_may_stay(stepper);
     self->after.t = stepper->t;
     if (!self->is_short) keep_end(self);
-    int status = self->is_spread ? ZD_DONE : zd_stepper_spread(stepper);
+    if (stepper->motion->formulation->settle) zd_aside_set_variables(&self->aside, stepper);
+    int status = self->is_spread ? ZD_DONE : zd_spread(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
     self->is_spread = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
@@ -104,7 +105,7 @@ int zd_output_make_shorter(zd_output *self, double t)
 int zd_output_go(zd_output *self, double t)
 {
     if (self->is_spread) {
-        int status = zd_stepper_land_between(self->stepper, t, self->is_short ? self->y : self->stepper->y);
+        int status = zd_spread_land(self->stepper, t, self->is_short ? self->y : self->stepper->y);
         if (!status || zd_callable_failed(self->stepper->motion, status)) return status;
         status = go_on_with_shorter_steps(self);
         if (status) return status;

@@ -4,6 +4,7 @@
 
 #include "../stepping/aside.h"
 #include "../stepping/short_step.h"
+#include "../stepping/spread.h"
 #include "record.h"
 
 typedef struct zd_output {
@@ -26,11 +27,12 @@ typedef struct zd_output {
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
+static inline int zd_output_looks_between(const zd_output *self) { return self->has_polynomial && self->aside.y; }
 void zd_output_keep_beginning(zd_output *self);
 /* Whether the step just made has a polynomial that serves for values between. */
 static inline int zd_output_may_spread(const zd_output *self)
 {
-    return self->has_polynomial && zd_stepper_may_spread(self->stepper, self->before.t);
+    return self->has_polynomial && zd_may_spread(self->stepper, self->before.t);
 }
 /* Keeps the end of the step, before the motion leaves it for shorter steps alone; or for any values between, the polynomial being made if
  * there is one; and back to it, so that the next step is what it would have been. `may_stay`: whether the stepper's state may, as the motion

@@ -7,6 +7,9 @@
 
 #include <string.h>
 
+#include "../stepping/adaptive.h"
+#include "../stepping/spread.h"
+
 static int64_t row_before(const zd_saved *saved, double t)
 {
     int64_t low = 0, high = saved->rows;      /* it is in low ... high - 1 */
@@ -33,6 +36,7 @@ static int make_step(zd_revisit *self, int64_t row)
     zd_stepper *stepper = &self->run->stepper;
     const double *t = self->saved->t + row, step = self->run->settings.step;
     const int is_last = row + 2 == self->saved->rows;
+    if (!(step > 0)) zd_adaptive_weigh(&self->run->course);
     int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : t[1] - t[0]);
     return status ? status : zd_stepper_land(stepper, t[1], row + 1, is_last);
 }
@@ -72,7 +76,7 @@ static int begin_from_before(zd_revisit *self, int64_t row)
 
 static int may_have_polynomial(const zd_revisit *self)
 {
-    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread && !self->run->motion.formulation->settle;
+    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread;
 }
 
 static int make_general_step(zd_revisit *self, int64_t row)
@@ -104,8 +108,8 @@ static int find_road(zd_revisit *self, int64_t row)
     self->row = row;
     self->is_general = self->has_polynomial = 0;
     int status = may_interpolate || self->run->motion.road.direct ? make_again(self, row) : ZD_DONE;
-    if (!status && may_interpolate && zd_stepper_may_spread(stepper, stepper->last.t)) {
-        status = zd_stepper_spread(stepper);
+    if (!status && may_interpolate && zd_may_spread(stepper, stepper->last.t)) {
+        status = zd_spread(stepper);
         self->has_polynomial = !status;
     }
     if (!zd_callable_failed(&self->run->motion, status)) return ZD_DONE;
@@ -120,7 +124,7 @@ int zd_revisit_move(zd_revisit *self, double t)
     int status = row == self->row ? ZD_DONE : find_road(self, row);
     if (status) return status;
     if (self->has_polynomial) {
-        status = zd_stepper_land_between(&self->run->stepper, t, self->run->stepper.y);
+        status = zd_spread_land(&self->run->stepper, t, self->run->stepper.y);
         if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;

@@ -92,9 +92,10 @@ static void watch_stiffness(zd_course *course, double lambda_h)
     } else if (++control->below_limit >= NOT_STIFF_AFTER) control->at_limit = 0;
 }
 
-static void weigh(zd_course *course)
+void zd_adaptive_weigh(zd_course *course)
 {
     zd_stepper *stepper = course->stepper;
+    if (!stepper->integrator->weigh) return;
     set_scale(course, stepper->y, stepper->y);
     stepper->integrator->weigh(stepper->memory, course->motion->rate.size, course->control.scale);
 }
@@ -117,7 +118,7 @@ static int attempt(zd_course *course, double h, double t1, double *norm)
 {
     zd_stepper *stepper = course->stepper;
     const int is_short = zd_is_short(course->motion);
-    if (stepper->integrator->weigh) weigh(course);
+    zd_adaptive_weigh(course);
     int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(stepper, h);
     if (status) return status;
     set_scale(course, stepper->last.y, stepper->y);

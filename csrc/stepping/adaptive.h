@@ -8,5 +8,7 @@ zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t
 /* Chooses the first step; work (3, size). */
 int zd_adaptive_start(zd_course *course, double *work);
 int zd_adaptive_step(zd_course *course);
+/* Tells the integrator, where it makes a difference to its step from here, by what the error of that will be measured, about. */
+void zd_adaptive_weigh(zd_course *course);
 
 #endif

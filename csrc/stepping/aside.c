@@ -21,15 +21,22 @@ zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper)
 
 void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
 {
+    zd_aside_set_variables(self, stepper);
+    memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
+    self->has_integrator = 1;
+}
+
+void zd_aside_set_variables(zd_aside *self, const zd_stepper *stepper)
+{
     const zd_motion *motion = stepper->motion;
     zd_rank *rank = motion->point->rank;
-    memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
     memcpy(self->of_chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
     zd_copy(motion->rate.size, stepper->y, self->y);
     self->formulation = motion->formulation;
     self->was_ill_conditioned = rank->was_ill_conditioned;
     self->was_deficient = rank->was_deficient;
     self->was_doubtful = rank->was_doubtful;
+    self->has_integrator = 0;
     self->is_set = rank->is_aside = 1;
 }
 
@@ -37,7 +44,7 @@ int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
 {
     zd_motion *motion = stepper->motion;
     zd_rank *rank = motion->point->rank;
-    memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
+    if (self->has_integrator) memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
     memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
     zd_variables_restore(stepper, self->formulation);
     rank->is_aside = 0;

@@ -6,6 +6,7 @@
 
 typedef struct zd_aside {
     int is_set;
+    int has_integrator;     /* whether what the integrator remembers is in it */
     void *of_integrator, *of_chosen;    /* copies of the memories that the stepper and the motion name */
     double *y;              /* (size,): an own D gives u of v = D u back but for rounding */
     const zd_formulation *formulation;
@@ -13,8 +14,9 @@ typedef struct zd_aside {
 } zd_aside;
 
 zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper);
-/* At the end of a step of the run */
+/* At the end of a step of the run; and only what a formulation has chosen, where no steps are made meanwhile */
 void zd_aside_set(zd_aside *self, const zd_stepper *stepper);
+void zd_aside_set_variables(zd_aside *self, const zd_stepper *stepper);
 /* Back to it, where the place says it is */
 int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end);
 

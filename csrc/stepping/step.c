@@ -47,6 +47,7 @@ static void remember(zd_stepper *self, double h)
     self->last.t = self->t;
     self->last.h = h;
     point->rank->was_ill_conditioned = 0;
+    if (self->last.chosen) zd_stepper_keep_variables(self);
     zd_copy_all(self->motion->rate.size, self->y, self->last.y);
     if (self->last.p == self->last.y) return;
     zd_copy_all(point->system->nq, point->p, self->last.p);
@@ -79,7 +80,8 @@ static int land_embedded(zd_stepper *self, double t1, int64_t step, int forced)
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
 
-int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
+/* `leave` is of the formulation: see zd_stepper_land() and the other. */
+static int land(zd_stepper *self, double t1, int64_t step, int forced, int (*leave)(void *, zd_point *, double *))
 {
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;
@@ -92,10 +94,21 @@ int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
     if (!status) status = zd_motion_correct(motion, step, forced);
     if (!status) zd_point_follow(motion->point);
-    if (!status) status = formulation->leave(motion->solver, motion->point, self->y);
+    if (!status) status = leave(motion->solver, motion->point, self->y);
     /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
     if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
+}
+
+int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
+{
+    return land(self, t1, step, forced, self->motion->formulation->leave);
+}
+
+int zd_stepper_land_within(zd_stepper *self, double t)
+{
+    const zd_formulation *formulation = self->motion->formulation;
+    return land(self, t, 0, 1, formulation->settle ? formulation->express : formulation->leave);
 }
 
 int zd_stepper_return(zd_stepper *self)

@@ -35,14 +35,11 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 int zd_stepper_make(zd_stepper *self, double h);
 /* y from t to t + h, where the step began being remembered. */
 int zd_stepper_integrate(zd_stepper *self, double h);
+void zd_stepper_keep_variables(zd_stepper *self);   /* spread.c: of the step that begins, where that is prepared for */
 /* The point at t1, with the corrections that are due in this step, or with all if it is `forced`; and y to match. */
 int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
-/* The same at any time within the step just made, its ends being believed, from the state that the integrator says there is. */
-int zd_stepper_land_between(zd_stepper *self, double t, double *y);
-/* Whether the integrator can say so of the step from t0, which is the one just made; and for that its polynomial, which serves until another
- * step is made. */
-int zd_stepper_may_spread(const zd_stepper *self, double t0);
-int zd_stepper_spread(zd_stepper *self);
+/* The same with all corrections, in the variables that the step was made in. */
+int zd_stepper_land_within(zd_stepper *self, double t);
 /* A shorter step to a time between steps, at which all corrections are made. */
 int zd_stepper_make_substep(zd_stepper *self, double t);
 /* Point and y to where the step began. */

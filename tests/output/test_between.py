@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from large_mechanisms import four_bars
 from support import SYSTEMS
 
 TIMES = np.array([0.0, 0.013, 0.1, 0.10001, 0.237, 0.5])
@@ -110,6 +111,8 @@ def chosen(system, rtol, times=None, **options):
 
 @pytest.mark.parametrize("options", [{}, {"direct": False}, {"formulation": "augmented"}, {"energy": True},
                                      {"stabilization": "baumgarte"}, {"integrator": "dormand_prince"},
+                                     {"formulation": "mixed"}, {"formulation": "independent", "energy": True},
+                                     {"formulation": "independent", "direct": False}, {"formulation": "mixed", "direct": False},
                                      {"integrator": "dormand_prince", "direct": False, "energy": True}], ids=str)
 def test_the_polynomial_of_a_method_errs_as_its_steps_do(bar, options):
     """By how much the rows between steps are off, beside the rows at their ends: at either, what the tolerance leaves."""
@@ -196,17 +199,54 @@ def test_a_value_does_not_depend_on_what_else_is_asked_for(bar, method):
         assert (some.multipliers == every.multipliers[5::stride]).all()
 
 
-def with_steps(system, method, n, times=None):
+def ball():
+    """Two bodies on balls, in unit quaternions: increments about where a step begins are what `independent` integrates."""
+    m = zd.Mechanism("balls", dimension=3, gravity=(0, 0, -9.81))
+    arm, tool = m.body("arm", 1.0, (1, 2, 2), at=(0.5, 0, 0)), m.body("tool", 2.0, (1, 1.5, 2), at=(1.4, 0.3, 0.1))
+    m.spherical("shoulder", m.ground, arm, at=(0, 0, 0))
+    m.spherical("wrist", arm, tool, at=(1, 0, 0))
+    m.start({"arm.angular_velocity": (1.0, 0.5, -0.3), "tool.angular_velocity": (3.0, 0.5, 1)})
+    return m.system("absolute")
+
+
+CHOSEN_ANEW = {"turning pendulum": (zd.systems.pendulum, (0.0, 8.0), 2.0), "unit quaternions": (ball, None, 2.0),
+               "many rows": (lambda: four_bars(15).system(), None, 0.6)}
+
+
+@pytest.mark.parametrize("method", [*INTERPOLATED, "radau"])
+@pytest.mark.parametrize("name", CHOSEN_ANEW)
+@pytest.mark.parametrize("variables", ["mixed", "independent"])
+def test_the_polynomial_where_variables_are_chosen_anew_at_the_end_of_its_step(name, variables, method):
+    """Its values are in those that the step was made in, and the run goes on in the others as if nobody had asked."""
+    make, v0, end = CHOSEN_ANEW[name]
+    system, times = make(), np.linspace(0, end, 241)
+    options = {"integrator": method, "formulation": variables, "direct": False}
+    exact = zd.simulate(system, end, None, v0, integrator="dop853", rtol=1e-11, atol=1e-11, t_eval=times)
+    for rtol in (1e-4, 1e-7):
+        steps = zd.simulate(system, end, None, v0, rtol=rtol, atol=rtol, **options)
+        rows = zd.simulate(system, end, None, v0, rtol=rtol, atol=rtol, t_eval=times, **options)
+        error = np.abs(steps.p[-1] - exact.p[-1]).max()
+        assert np.abs(rows.p - exact.p).max() <= 30 * max(error, rtol)      # of Radau's stages, which have a lower order
+        assert np.abs(rows.velocity_violation).max(initial=0) <= 1e-12 * (1 + np.abs(rows.v).max())
+        assert np.abs(rows.position_violation).max(initial=0) <= 1e-10
+        assert rows.p[-1].tobytes() == steps.p[-1].tobytes()
+        assert rows.v[-1].tobytes() == steps.v[-1].tobytes()
+        assert rows.stats["repartitions"] == steps.stats["repartitions"]
+        assert rows.stats["evaluations"] - steps.stats["evaluations"] < 8 * len(times)      # a step takes more
+        assert name != "turning pendulum" or steps.stats["repartitions"] > 5
+
+
+def with_steps(system, method, n, times=None, **options):
     """Of one size, chosen by nothing else."""
-    return zd.simulate(system, 0.5, integrator=method, rtol=1e3, atol=1e3, first_step=0.5 / n, max_step=0.5 / n, t_eval=times)
+    return zd.simulate(system, 0.5, integrator=method, rtol=1e3, atol=1e3, first_step=0.5 / n, max_step=0.5 / n, t_eval=times, **options)
 
 
 @pytest.mark.parametrize(("method", "steps", "slope"), [("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
 @pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
-def test_the_order_of_polynomials(system, method, steps, slope):
+def test_the_order_of_polynomials(system, formulation, method, steps, slope):
     """What they miss within a step is one power of h more than their order, which is that of the method less one."""
     times = np.linspace(0.013, 0.487, 11)
     exact = zd.simulate(system, 0.5, step=0.5 / 400, integrator="dop853", t_eval=times)
-    errors = [np.abs(with_steps(system, method, n, times).p - exact.p).max() for n in steps]
+    errors = [np.abs(with_steps(system, method, n, times, formulation=formulation).p - exact.p).max() for n in steps]
     if errors[1] > 1e-12:       # else it is rounding
         assert np.log2(errors[0] / errors[1]) / np.log2(steps[1] / steps[0]) > slope

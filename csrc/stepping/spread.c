@@ -1,0 +1,75 @@
+/* Values within a step just made, where its method has a polynomial for them.
+ *
+ * The polynomial is one of the state, and a state in independent velocities has variables that may be chosen anew at the end of a step, or begin
+ * anew there, as increments do. So what the formulation had chosen where the step began is copied, and taken back while values within
+ * the step are wanted. On the direct road variables stay for a step.
+ */
+#include "spread.h"
+
+#include <string.h>
+
+#include "short_step.h"
+
+static int are_reviewed(const zd_motion *motion)
+{
+    return motion->formulation->settle && !zd_is_embedded(motion);
+}
+
+static void *take_chosen(zd_arena *arena, const void *of)
+{
+    const zd_motion *motion = of;
+    return zd_take(arena, motion->memory_of_chosen.bytes);
+}
+
+int zd_spread_prepare(zd_stepper *stepper)
+{
+    zd_motion *motion = stepper->motion;
+    if (stepper->last.chosen || !stepper->integrator->spread || !motion->formulation->settle) return ZD_DONE;
+    stepper->last.chosen = zd_store_take(&motion->store, take_chosen, motion);
+    return stepper->last.chosen ? ZD_DONE : ZD_NO_MEMORY;
+}
+
+void zd_stepper_keep_variables(zd_stepper *stepper)
+{
+    const zd_motion *motion = stepper->motion;
+    memcpy(stepper->last.chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
+}
+
+static void take_variables_back(zd_stepper *stepper)
+{
+    zd_motion *motion = stepper->motion;
+    memcpy(motion->memory_of_chosen.at, stepper->last.chosen, motion->memory_of_chosen.bytes);
+    motion->point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
+}
+
+int zd_may_spread(const zd_stepper *stepper, double t0)
+{
+    const zd_last *last = &stepper->last;
+    if (!stepper->integrator->spread || last->t != t0 || last->h != stepper->t - t0) return 0;
+    return !are_reviewed(stepper->motion) || last->chosen;
+}
+
+int zd_spread(zd_stepper *stepper)
+{
+    zd_motion *motion = stepper->motion;
+    const zd_last *last = &stepper->last;
+    int status = ZD_DONE;
+    if (are_reviewed(motion)) {
+        take_variables_back(stepper);
+        status = motion->formulation->express(motion->solver, motion->point, stepper->y);
+    }
+    /* The point is where the step has ended. */
+    motion->rate.vdot = zd_is_short(motion) && motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
+    if (!status) status = stepper->integrator->spread(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
+    motion->rate.vdot = NULL;
+    return status;
+}
+
+int zd_spread_land(zd_stepper *stepper, double t, double *y)
+{
+    const zd_last *last = &stepper->last;
+    if (are_reviewed(stepper->motion)) take_variables_back(stepper);
+    stepper->integrator->between(stepper->memory, (t - last->t) / last->h, last->y, y);
+    stepper->motion->statistics.output_steps++;
+    return zd_is_short(stepper->motion) ? zd_short_land_between(stepper, t, y) : zd_stepper_land_within(stepper, t);
+}
