@@ -68,6 +68,31 @@ def test_stiff_bushings(formulation):
     assert np.abs(sol.position_violation).max() <= 1e-12
 
 
+@pytest.mark.parametrize(("stiffness", "damping"), [(1e8, 1e4), (1e10, 1e6)])
+def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formulation, stiffness, damping):
+    """That is far above the rounding of the state, and the more the stiffer the bushing. Beside steps that are chosen."""
+    system = bushed_crank(stiffness, damping)
+    exact = zd.simulate(system, 0.2, rtol=1e-9, atol=1e-9, integrator="radau")
+    for steps in (200, 2000):
+        sol = zd.simulate(system, 0.2, step=0.2 / steps, integrator="radau", formulation=formulation)
+        assert np.abs(sol.p[-1] - exact.p[-1]).max() < 1e-7
+
+
+@pytest.mark.parametrize("variables", ["mixed", "independent"])
+def test_rows_of_stiff_systems_in_independent_velocities(variables):
+    """Shorter steps to them, from where a step began, are not solved at some of these tolerances."""
+    system, times = bushed_crank(1e9, 1e4), np.linspace(0, 0.3, 38)
+    for rtol in (1e-3, 1e-6, 1e-8):
+        options = {"rtol": rtol, "atol": rtol, "integrator": "radau"}
+        exact = zd.simulate(system, 0.3, formulation="schur", t_eval=times, **options)
+        sol = zd.simulate(system, 0.3, formulation=variables, t_eval=times, **options)
+        assert np.abs(sol.p - exact.p).max() < 10 * rtol
+        assert np.abs(sol.velocity_violation).max() <= 1e-12 * np.abs(sol.v).max()
+        p, v = zd.simulate(system, 0.3, formulation=variables, **options)(times)
+        assert np.abs(p - sol.p).max() < rtol
+        assert np.abs(v - sol.v).max() < 10 * rtol * np.abs(sol.v).max()
+
+
 def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
     """Beside the same crank with a pin that gives nothing. With one J for all stages, steps would go as stiffness^(-1/4)."""
     m = zd.Mechanism("slider-crank", gravity=(0, -9.81))

@@ -267,9 +267,8 @@ class Solution:
         steps of a method that has a polynomial, of order 4 in `dormand_prince`, 7 in `dop853` (what its conditions miss of that,
         8e-8, is below rounding in steps so short that it would show) and 3 in `radau`, the step from the row before to the row
         after is made again and interpolated: values between steps have one order less than a step (of `radau`, two), which adds
-        no more to the error of the run than its steps do. In `mixed` and `independent`, and
-        where steps are of fixed size, one shorter step is made from the row before, with the order of the method. All values
-        are corrected as the rows are.
+        no more to the error of the run than its steps do. Where steps are of fixed size, one shorter step is made from the row
+        before, with the order of the method. All values are corrected as the rows are.
 
         By a part of the run's error they may differ from `t_eval` where a step has a memory: `radau` begins to solve its
         equations where the step before leads, the integral term of `Baumgarte` begins at zero at the row, and `mixed` and
