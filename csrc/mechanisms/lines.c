@@ -31,7 +31,7 @@ typedef struct sight {      /* from mass centre to point, of both bodies, and fr
 ZD_INLINE sight look(const zd_line *line, const zd_frame *frame, const double *p)
 {
     const zd_vector a = frame->axis[line->first], b = frame->axis[line->second];
-    const double *x1 = p + 3 * line->first, *x2 = p + 3 * line->second;
+    const double *x1 = zd_of_body(p, line->first), *x2 = zd_of_body(p, line->second);
     const zd_vector u = zd_rotated(a.x, a.y, line->point1), w = zd_rotated(b.x, b.y, line->point2);
     return (sight){u, w, {x2[0] + w.x - (x1[0] + u.x), x2[1] + w.y - (x1[1] + u.y)}};
 }
@@ -51,7 +51,7 @@ static zd_pull pull_of(const zd_line *line, const zd_frame *frame, const double 
 {
     const double c = line->coefficient;
     if (line->kind == ZD_GAUGE_ANGLE) {
-        *value = c * (p[3 * line->second + 2] - p[3 * line->first + 2] - line->zero);
+        *value = c * (zd_of_body(p, line->second)[2] - zd_of_body(p, line->first)[2] - line->zero);
         return (zd_pull){{0, 0}, -c, c};
     }
     const sight at = look(line, frame, p);
@@ -95,7 +95,7 @@ static void write_C(const zd_lines *self, const zd_frame *frame, double *C)
 
 static double bias_of(const zd_line *line, const zd_frame *frame, zd_vector e, const double *p, const double *v)
 {
-    const double *v1 = v + 3 * line->first, *v2 = v + 3 * line->second, turn1 = v1[2], turn2 = v2[2];
+    const double *v1 = zd_of_body(v, line->first), *v2 = zd_of_body(v, line->second), turn1 = v1[2], turn2 = v2[2];
     const sight at = look(line, frame, p);
     zd_vector speed = zd_plus((zd_vector){v2[0], v2[1]}, zd_turned(turn2, at.w)), change = zd_times(-turn2 * turn2, at.w);
     const zd_vector edot = zd_turned(turn1, e);
@@ -136,8 +136,8 @@ void zd_lines_write(const zd_lines *self, const zd_pins *pins, const zd_mechanis
     if (!self->count) return;
     const zd_tree *tree = &mechanism->tree;
     if (want & (ZD_PHI | ZD_PHI_T | ZD_XI)) begin_rows(self, &mechanism->uses, want, t, out);
-    if (want & (ZD_MOVED | ZD_PHI | ZD_XI)) zd_pins_spread(pins, tree, p, frame->place);
-    if (want & (ZD_MOVED | ZD_PHI)) write_pulls(self, frame, want, mechanism->uses.mh, frame->place, out->Phi);
+    const double *place = want & (ZD_MOVED | ZD_PHI | ZD_XI) ? zd_pins_spread(pins, tree, p, frame->place) : NULL;
+    if (want & (ZD_MOVED | ZD_PHI)) write_pulls(self, frame, want, mechanism->uses.mh, place, out->Phi);
     if (want & ZD_C) write_C(self, frame, out->C);
-    if (want & ZD_XI) write_xi(self, frame, frame->place, zd_pins_spread(pins, tree, v, frame->spread), out->xi);
+    if (want & ZD_XI) write_xi(self, frame, place, zd_pins_spread(pins, tree, v, frame->spread), out->xi);
 }

@@ -60,13 +60,13 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
 
 const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const double *x, double *to)
 {
-    to[0] = to[1] = to[2] = 0;
-    if (self->have_angles) memcpy(to + 3, x, (size_t)tree->nv * sizeof *x);
-    for (int i = 1; !self->have_angles && i <= tree->bodies; i++) {
+    if (self->have_angles) return x;
+    double *of = to;
+    for (int i = 1; i <= tree->bodies; i++, of += 3) {
         const double *own = x + tree->link[i].coordinate;
-        to[3 * i] = own[0];
-        to[3 * i + 1] = own[1];
-        to[3 * i + 2] = tree->link[i].hang == ZD_HANGS_FREE ? own[2] : 0;
+        of[0] = own[0];
+        of[1] = own[1];
+        of[2] = tree->link[i].hang == ZD_HANGS_FREE ? own[2] : 0;
     }
     return to;
 }
@@ -77,7 +77,7 @@ static void write_Phi(const zd_pins *self, const zd_frame *frame, const double *
 {
     for (int k = 0; k < self->count; k++) {
         const zd_pin *pin = self->pin + k;
-        const double *a = p + 3 * pin->first, *b = p + 3 * pin->second;
+        const double *a = zd_of_body(p, pin->first), *b = zd_of_body(p, pin->second);
         const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
         Phi[pin->row] = b[0] + w.x - (a[0] + u.x) - pin->zero.x;
         Phi[pin->row + 1] = b[1] + w.y - (a[1] + u.y) - pin->zero.y;
@@ -88,7 +88,7 @@ static void write_xi(const zd_pins *self, const zd_frame *frame, const double *v
 {
     for (int k = 0; k < self->count; k++) {
         const zd_pin *pin = self->pin + k;
-        const double turn1 = v[3 * pin->first + 2], turn2 = v[3 * pin->second + 2], square1 = turn1 * turn1, square2 = turn2 * turn2;
+        const double turn1 = zd_of_body(v, pin->first)[2], turn2 = zd_of_body(v, pin->second)[2], square1 = turn1 * turn1, square2 = turn2 * turn2;
         const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
         xi[pin->row] = square2 * w.x - square1 * u.x;
         xi[pin->row + 1] = square2 * w.y - square1 * u.y;

@@ -33,7 +33,13 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
 void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
                    const zd_terms *out);
 
-/* to <- x (nv,), with three entries for each body, and those of the ground before them. */
+/* x (nv,) with three entries for each body: as it is, where all have them, else in `to`. */
 const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const double *x, double *to);
+/* Those of body i. */
+static inline const double *zd_of_body(const double *spread, int i)
+{
+    static const double of_ground[3] = {0, 0, 0};
+    return i ? spread + 3 * (i - 1) : of_ground;
+}
 
 #endif
