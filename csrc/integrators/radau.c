@@ -55,7 +55,8 @@ typedef struct radau {
     zd_radau_matrices matrices;
     zd_radau_stages stages;
     int by_stages;          /* whether the step last made was solved with a J for each of them */
-    double *seen;           /* (size,): the differences' scale */
+    double *seen;           /* (size,): the differences' scale, */
+    double *seen_before;    /* and what it was before the step, which an iteration may have led anywhere */
     double t0, h;           /* of the step last made, from its beginning */
     double before_h;        /* 0: there was no step before */
     double contraction;     /* what the last iteration left of the change before */
@@ -88,6 +89,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .other = zd_take_doubles(arena, STAGES * n),
         .before = zd_take_doubles(arena, STAGES * n),
         .stage = zd_take_doubles(arena, n),
+        .seen_before = zd_take_doubles(arena, n),
         .error_scale = zd_take_doubles(arena, n),
         .matrices = zd_radau_matrices_take(arena, size),
         .stages = zd_radau_stages_take(arena, size),
@@ -299,7 +301,7 @@ static int solve_by_stages(radau *self, double *y, zd_statistics *statistics)
 /* Longer steps than the iteration has just been able to solve with one J are solved with that of each stage. */
 static int solve_somehow(radau *self, double *y, zd_statistics *statistics)
 {
-    const int had_J = self->matrices.has_J, has_stages = self->matrices.pairs > 0;
+    const int had_J = self->matrices.has_J, has_stages = zd_radau_stages_serve(&self->matrices);
     if (has_stages && self->bound > 0 && self->h > self->bound) return solve_by_stages(self, y, statistics);
     int status = solve_step(self, y, !had_J, statistics);
     if (status && status != ZD_CALLBACK && had_J) status = solve_step(self, y, 1, statistics);
@@ -318,11 +320,13 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
     self->matrices.differences.least_size = LEAST * zd_max_abs(rate->size, y);
+    memcpy(self->seen_before, self->seen, (size_t)rate->size * sizeof *self->seen);
     for (int i = 0; i < rate->size; i++) self->seen[i] = fmax(self->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
     status = solve_somehow(self, y, statistics);
     self->has_scale = 0;
     self->matrices.has_J = !status && (self->contraction <= SLOW || self->iterations <= 2);
     if (status) {
+        memcpy(self->seen, self->seen_before, (size_t)rate->size * sizeof *self->seen);
         self->contraction = 1;
         self->h = 0;
         return status == ZD_NO_CONVERGENCE || status == ZD_NOT_FINITE ? ZD_NO_STEP : status;
@@ -382,7 +386,7 @@ static double fit(const void *memory, double h)
 {
     const radau *self = memory;
     if (self->bound == 0 || h <= self->bound) return h;
-    return self->matrices.pairs && h > WORTH_STAGES * self->bound ? fmin(h, LONGER * self->h) : self->bound;
+    return zd_radau_stages_serve(&self->matrices) && h > WORTH_STAGES * self->bound ? fmin(h, LONGER * self->h) : self->bound;
 }
 
 /* The polynomial that the stages lie on */

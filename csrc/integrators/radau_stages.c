@@ -7,6 +7,8 @@
  *     sum_j B_ij x_j - y_i = a_i,    sum_j B_ij y_j - J_p,i x_i - J_v,i y_i = b_i,
  *
  * leave one system for all x_i: sum_j (B^2)_ij x_j - J_v,i sum_j B_ij x_j - J_p,i x_i = b_i + sum_j B_ij a_j - J_v,i a_i.
+ *
+ * For any other state x, which is in independent velocities, it is sum_j B_ij x_j - J_i x_i = a_i as it stands.
  */
 #include "radau_stages.h"
 
@@ -15,11 +17,14 @@
 
 #include "../linalg/lu.h"
 
-enum { STAGES = ZD_RADAU_STAGES };
+enum {
+    STAGES = ZD_RADAU_STAGES,
+    MOST_OF_ANY = 200,      /* the largest state that is not made of pairs: its matrix has three times as many rows */
+};
 
 zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size)
 {
-    const size_t n = (size_t)size, rows = STAGES * (n / 2);
+    const size_t n = (size_t)size, rows = STAGES * (size <= MOST_OF_ANY ? n : n / 2);
     return (zd_radau_stages){
         .J = zd_take_doubles(arena, STAGES * n * n),
         .factors = zd_take_doubles(arena, rows * rows),
@@ -28,6 +33,17 @@ zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size)
         .right = zd_take_doubles(arena, rows),
         .change = zd_take_doubles(arena, STAGES * n),
     };
+}
+
+int zd_radau_stages_serve(const zd_radau_matrices *matrices)
+{
+    return matrices->pairs > 0 || matrices->size <= MOST_OF_ANY;
+}
+
+/* Unknowns of a stage */
+static int count_unknowns(const zd_radau_matrices *matrices)
+{
+    return matrices->pairs > 0 ? matrices->pairs : matrices->size;
 }
 
 static void set_step(zd_radau_stages *self, double h)
@@ -54,16 +70,33 @@ static double *row_of(const zd_radau_stages *self, int n, int stage, int i)
     return self->factors + (stage * n + i) * STAGES * n;
 }
 
-/* A row of the matrix, multiplied by a power of two, so that rows compare */
-static void fill_row(const zd_radau_stages *self, const zd_radau_matrices *matrices, int stage, int i)
+static void fill_row_of_pairs(const zd_radau_stages *self, const zd_radau_matrices *matrices, int stage, int i, double *row)
 {
     const int n = matrices->pairs, size = matrices->size;
     const double *J_p = self->J + (stage * size + n + i) * size, *J_v = J_p + n, *inverse_slope = matrices->inverse_slope;
-    double *row = row_of(self, n, stage, i), largest = 0;
     for (int s = 0; s < STAGES; s++) {
         for (int j = 0; j < n; j++) row[s * n + j] = -(s == stage ? J_p[j] : 0) - self->B[stage][s] * inverse_slope[j] * J_v[j];
         row[s * n + i] += self->BB[stage][s] * inverse_slope[i];
     }
+}
+
+static void fill_row_of_any(const zd_radau_stages *self, const zd_radau_matrices *matrices, int stage, int i, double *row)
+{
+    const int size = matrices->size;
+    const double *J = self->J + (stage * size + i) * size;
+    for (int s = 0; s < STAGES; s++) {
+        for (int j = 0; j < size; j++) row[s * size + j] = s == stage ? -J[j] : 0;
+        row[s * size + i] += self->B[stage][s];
+    }
+}
+
+/* A row of the matrix, multiplied by a power of two, so that rows compare */
+static void fill_row(const zd_radau_stages *self, const zd_radau_matrices *matrices, int stage, int i)
+{
+    const int n = count_unknowns(matrices);
+    double *row = row_of(self, n, stage, i), largest = 0;
+    if (matrices->pairs > 0) fill_row_of_pairs(self, matrices, stage, i, row);
+    else fill_row_of_any(self, matrices, stage, i, row);
     for (int j = 0; j < STAGES * n; j++) largest = fmax(largest, fabs(row[j]));
     int exponent = 0;
     (void)frexp(largest, &exponent);
@@ -74,7 +107,7 @@ static void fill_row(const zd_radau_stages *self, const zd_radau_matrices *matri
 int zd_radau_stages_make(zd_radau_stages *self, zd_radau_matrices *matrices, const zd_rate *rate, double t, double h, const double *y,
                          const double *z, double *stage, double *f)
 {
-    const int n = matrices->pairs, size = matrices->size;
+    const int n = count_unknowns(matrices), size = matrices->size;
     set_step(self, h);
     for (int s = 0; s < STAGES; s++) {
         for (int i = 0; i < size; i++) stage[i] = y[i] + z[s * size + i];
@@ -112,7 +145,18 @@ static void follow(const zd_radau_stages *self, const zd_radau_matrices *matrice
             }
 }
 
-void zd_radau_stages_solve(const zd_radau_stages *self, const zd_radau_matrices *matrices, double *x)
+static void solve_any(const zd_radau_stages *self, const zd_radau_matrices *matrices, double *x)
+{
+    const int n = matrices->size;
+    double *r = self->change, *right = self->right;
+    zd_radau_transform(n, zd_radau_T, x, r);
+    for (int k = 0; k < STAGES * n; k++) right[k] = r[k] * matrices->inverse_unit[k % n] * self->weight[k];
+    zd_lu_solve(STAGES * n, self->factors, self->order, right);
+    for (int k = 0; k < STAGES * n; k++) r[k] = right[k] * matrices->differences.unit[k % n];
+    zd_radau_transform(n, zd_radau_T_inverse, r, x);
+}
+
+static void solve_pairs(const zd_radau_stages *self, const zd_radau_matrices *matrices, double *x)
 {
     const int n = matrices->pairs, size = matrices->size;
     const double *unit = matrices->differences.unit, a = ZD_RADAU_ALPHA / self->h, b = ZD_RADAU_BETA / self->h, norm = a * a + b * b;
@@ -134,6 +178,12 @@ void zd_radau_stages_solve(const zd_radau_stages *self, const zd_radau_matrices 
         x[size + i] = (a * re - b * im) / norm;
         x[2 * size + i] = (a * im + b * re) / norm;
     }
+}
+
+void zd_radau_stages_solve(const zd_radau_stages *self, const zd_radau_matrices *matrices, double *x)
+{
+    if (matrices->pairs > 0) solve_pairs(self, matrices, x);
+    else solve_any(self, matrices, x);
 }
 
 void zd_radau_stages_give_J(const zd_radau_stages *self, zd_radau_matrices *matrices)

@@ -1,4 +1,4 @@
-/* Newton's iteration of radau.c with a Jacobian of its own for each stage: one matrix for all of them, of p alone. */
+/* Newton's iteration of radau.c with a Jacobian of its own for each stage: one matrix for all of them, of p alone where the state is (p, v). */
 #ifndef ZD_RADAU_STAGES_H
 #define ZD_RADAU_STAGES_H
 
@@ -7,7 +7,7 @@
 
 typedef struct zd_radau_stages {
     double *J;              /* (stages, size, size), in the units of the matrices */
-    double *factors;        /* (stages n, stages n) for n pairs */
+    double *factors;        /* (stages n, stages n) for n pairs, or any state of n */
     int *order;
     double *weight, *right; /* (stages n,): what its rows are multiplied by; */
     double *change;         /* (stages, size): of z */
@@ -17,6 +17,8 @@ typedef struct zd_radau_stages {
 } zd_radau_stages;
 
 zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size);
+/* Whether they may be taken: a large state has to be of pairs. */
+int zd_radau_stages_serve(const zd_radau_matrices *matrices);
 /* At y + z (stages, size) in a step from t; stage and f (size,) are working space. */
 int zd_radau_stages_make(zd_radau_stages *self, zd_radau_matrices *matrices, const zd_rate *rate, double t, double h, const double *y,
                          const double *z, double *stage, double *f);

@@ -29,12 +29,6 @@ int zd_spread_prepare(zd_stepper *stepper)
     return stepper->last.chosen ? ZD_DONE : ZD_NO_MEMORY;
 }
 
-void zd_stepper_keep_variables(zd_stepper *stepper)
-{
-    const zd_motion *motion = stepper->motion;
-    memcpy(stepper->last.chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
-}
-
 static void take_variables_back(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;

@@ -43,12 +43,13 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 
 static void remember(zd_stepper *self, double h)
 {
-    const zd_point *point = self->motion->point;
+    const zd_motion *motion = self->motion;
+    const zd_point *point = motion->point;
     self->last.t = self->t;
     self->last.h = h;
     point->rank->was_ill_conditioned = 0;
-    if (self->last.chosen) zd_stepper_keep_variables(self);
-    zd_copy_all(self->motion->rate.size, self->y, self->last.y);
+    if (self->last.chosen) memcpy(self->last.chosen, motion->memory_of_chosen.at, motion->memory_of_chosen.bytes);
+    zd_copy_all(motion->rate.size, self->y, self->last.y);
     if (self->last.p == self->last.y) return;
     zd_copy_all(point->system->nq, point->p, self->last.p);
     zd_copy_all(point->system->nv, point->v, self->last.v);

@@ -35,7 +35,6 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 int zd_stepper_make(zd_stepper *self, double h);
 /* y from t to t + h, where the step began being remembered. */
 int zd_stepper_integrate(zd_stepper *self, double h);
-void zd_stepper_keep_variables(zd_stepper *self);   /* spread.c: of the step that begins, where that is prepared for */
 /* The point at t1, with the corrections that are due in this step, or with all if it is `forced`; and y to match. */
 int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
 /* The same with all corrections, in the variables that the step was made in. */

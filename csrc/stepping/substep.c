@@ -1,5 +1,9 @@
 /* A shorter step, to a time between steps: in the variables that serve there. */
+#include <math.h>
+
 #include "variables.h"
+
+enum { MOST_HALVINGS = 8 };
 
 static int integrate_and_land(zd_stepper *self, double h, double t1)
 {
@@ -7,7 +11,7 @@ static int integrate_and_land(zd_stepper *self, double h, double t1)
     return status ? status : zd_stepper_land(self, t1, 0, 1);
 }
 
-int zd_stepper_make_substep(zd_stepper *self, double t)
+static int attempt(zd_stepper *self, double t)
 {
     double h = t - self->t;
     int status = integrate_and_land(self, h, t);
@@ -19,6 +23,34 @@ int zd_stepper_make_substep(zd_stepper *self, double t)
     if (zd_variables_lose_digits(self, status)) {
         status = zd_variables_use_dependent(self);
         if (!status) status = integrate_and_land(self, h, t);
+    }
+    return status;
+}
+
+static int is_too_long(int status)
+{
+    return status == ZD_NO_STEP || status == ZD_NO_EMBEDDING || status == ZD_NO_CONVERGENCE;
+}
+
+static double nearer(double a, double b)
+{
+    return fabs(a) < fabs(b) ? a : b;
+}
+
+/* In parts, if it is not solved at once: the step that it lies within may have begun where another had led, or in other variables. */
+int zd_stepper_make_substep(zd_stepper *self, double t)
+{
+    double part = t - self->t;
+    int status = attempt(self, t), halvings = 0;
+    while (status ? is_too_long(status) && halvings < MOST_HALVINGS : self->t != t) {
+        if (status) {
+            halvings++;
+            part /= 2;
+            status = zd_stepper_return(self);
+            if (status) break;
+        }
+        const double h = nearer(part, t - self->t);
+        status = attempt(self, h == part ? self->t + h : t);
     }
     self->motion->statistics.output_steps++;
     return status;

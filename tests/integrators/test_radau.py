@@ -78,9 +78,9 @@ def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formu
         assert np.abs(sol.p[-1] - exact.p[-1]).max() < 1e-7
 
 
-@pytest.mark.parametrize("variables", ["mixed", "independent"])
-def test_rows_of_stiff_systems_in_independent_velocities(variables):
-    """Shorter steps to them, from where a step began, are not solved at some of these tolerances."""
+@pytest.mark.parametrize("variables", ["schur", "mixed", "independent"])
+def test_rows_between_long_steps_of_stiff_systems(variables):
+    """While the run goes on, and afterwards: there a step may be too long to be solved without the one before it, and is made in parts."""
     system, times = bushed_crank(1e9, 1e4), np.linspace(0, 0.3, 38)
     for rtol in (1e-3, 1e-6, 1e-8):
         options = {"rtol": rtol, "atol": rtol, "integrator": "radau"}
@@ -90,10 +90,10 @@ def test_rows_of_stiff_systems_in_independent_velocities(variables):
         assert np.abs(sol.velocity_violation).max() <= 1e-12 * np.abs(sol.v).max()
         p, v = zd.simulate(system, 0.3, formulation=variables, **options)(times)
         assert np.abs(p - sol.p).max() < rtol
-        assert np.abs(v - sol.v).max() < 10 * rtol * np.abs(sol.v).max()
+        assert np.abs(v - sol.v).max() < 100 * rtol * np.abs(sol.v).max()       # the polynomial's rate is of order two
 
 
-def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
+def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer(formulation):
     """Beside the same crank with a pin that gives nothing. With one J for all stages, steps would go as stiffness^(-1/4)."""
     m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
     crank = m.link("crank", (0, 0), (0.1, 0), mass=0.5)
@@ -106,7 +106,7 @@ def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer():
     exact = zd.simulate(m.system(), 0.3, integrator="dop853", **options)
     steps = []
     for stiffness in (1e8, 1e10):
-        sol = zd.simulate(bushed_crank(stiffness, stiffness / 1e4), 0.3, integrator="radau", **options)
+        sol = zd.simulate(bushed_crank(stiffness, stiffness / 1e4), 0.3, integrator="radau", formulation=formulation, **options)
         assert np.abs(sol["crank.angle"] - exact["crank.angle"]).max() < 1e-3
         steps.append(sol.stats["steps"])
     assert steps[1] < 2 * steps[0] < 400
