@@ -27,11 +27,11 @@ int zd_pin_is_at(const zd_mechanism *mechanism, int row)
 void zd_pins_list(zd_pins *self, int bodies)
 {
     int *at = self->end_at;
-    for (int k = 0; k < self->count; k++) at[self->pin[k].first + 1]++, at[self->pin[k].second + 1]++;
+    for (int k = 0; k < self->count; k++) at[self->between[k].first + 1]++, at[self->between[k].second + 1]++;
     for (int body = 0; body <= bodies; body++) at[body + 1] += at[body];
     for (int k = self->count - 1; k >= 0; k--) {        /* each one's place is where the next one's end is, from the back */
-        self->end[--at[self->pin[k].second + 1]] = 2 * k + 1;
-        self->end[--at[self->pin[k].first + 1]] = 2 * k;
+        self->end[--at[self->between[k].second + 1]] = 2 * k + 1;
+        self->end[--at[self->between[k].first + 1]] = 2 * k;
     }
     for (int body = 0; body <= bodies; body++) at[body] = at[body + 1];
     at[bodies + 1] = 2 * self->count;
@@ -51,10 +51,9 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
         k += turns;
     }
     for (int k = 0; k < self->count; k++) {
-        const zd_pin *pin = self->pin + k;
-        const zd_vector a = axis[pin->first], b = axis[pin->second];
-        frame->arm[2 * k] = zd_rotated(a.x, a.y, pin->point1);
-        frame->arm[2 * k + 1] = zd_rotated(b.x, b.y, pin->point2);
+        const zd_vector a = axis[self->between[k].first], b = axis[self->between[k].second];
+        frame->arm[2 * k] = zd_rotated(a.x, a.y, self->points[k].first);
+        frame->arm[2 * k + 1] = zd_rotated(b.x, b.y, self->points[k].second);
     }
 }
 
@@ -76,18 +75,18 @@ const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const dou
 static void write_Phi(const zd_pins *self, const zd_frame *frame, const double *p, double *Phi)
 {
     for (int k = 0; k < self->count; k++) {
-        const zd_pin *pin = self->pin + k;
+        const zd_pin_bodies *pin = self->between + k;
         const double *a = zd_of_body(p, pin->first), *b = zd_of_body(p, pin->second);
-        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
-        Phi[pin->row] = b[0] + w.x - (a[0] + u.x) - pin->zero.x;
-        Phi[pin->row + 1] = b[1] + w.y - (a[1] + u.y) - pin->zero.y;
+        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1], zero = self->pin[k].zero;
+        Phi[pin->row] = b[0] + w.x - (a[0] + u.x) - zero.x;
+        Phi[pin->row + 1] = b[1] + w.y - (a[1] + u.y) - zero.y;
     }
 }
 
 static void write_xi(const zd_pins *self, const zd_frame *frame, const double *v, double *xi)
 {
     for (int k = 0; k < self->count; k++) {
-        const zd_pin *pin = self->pin + k;
+        const zd_pin_bodies *pin = self->between + k;
         const double turn1 = zd_of_body(v, pin->first)[2], turn2 = zd_of_body(v, pin->second)[2], square1 = turn1 * turn1, square2 = turn2 * turn2;
         const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
         xi[pin->row] = square2 * w.x - square1 * u.x;
@@ -121,5 +120,5 @@ void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_
     if (want & ZD_PHI) write_Phi(self, frame, zd_pins_spread(self, &mechanism->tree, p, frame->spread), out->Phi);
     if (want & ZD_XI) write_xi(self, frame, zd_pins_spread(self, &mechanism->tree, v, frame->spread), out->xi);
     if (want & ZD_C) write_C(self, frame, out->C);
-    for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->pin[k].row] = out->Phi_t[self->pin[k].row + 1] = 0;
+    for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->between[k].row] = out->Phi_t[self->between[k].row + 1] = 0;
 }

@@ -5,17 +5,27 @@
 
 #include "plan.h"
 
-typedef struct zd_pin {
+/* What is known of a pin lies in three arrays, as most that goes through all of them looks at one or two. */
+typedef struct zd_pin_bodies {
     int first, second;      /* bodies */
-    zd_vector point1, point2, zero;
     int row;                /* the first of the two */
-    int C, width;           /* where that begins in C, and how long each is */
+} zd_pin_bodies;
+
+typedef struct zd_points {
+    zd_vector first, second;    /* in the axes of each body */
+} zd_points;
+
+typedef struct zd_pin {
+    zd_vector zero;         /* from the first point to the second where Phi is zero */
+    int C, width;           /* where the first row begins in C, and how long each is */
     int near, far;          /* where in a row the entries of each body begin; -1: it is the ground */
     int near_turns, far_turns;  /* whether the body has an angle */
 } zd_pin;
 
 typedef struct zd_pins {
     int count;
+    zd_pin_bodies *between; /* (count,), and so are these: */
+    zd_points *points;
     zd_pin *pin;
     int *end_at;            /* (bodies + 2,): where the pins of each body begin in */
     int *end;               /* (2 count,): 2 * pin, or 1 more where the body is its second */

@@ -8,6 +8,8 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     zd_packed_take(&self->packed, arena, bodies, rows, terms);
 #define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
     TAKE(weight, 3 * bodies);
+    TAKE(pins.between, rows / 2);
+    TAKE(pins.points, rows / 2);
     TAKE(pins.pin, rows / 2);
     TAKE(pins.end_at, bodies + 2);
     TAKE(pins.end, rows);
@@ -31,9 +33,10 @@ static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
         if (!zd_pin_is_at(mechanism, row)) continue;
         const int term = mechanism->uses.row[row].first, next = mechanism->uses.row[row + 1].first;
         const zd_gauge *x = mechanism->gauge + mechanism->uses.term[term].gauge, *y = mechanism->gauge + mechanism->uses.term[next].gauge;
+        pins->between[pins->count] = (zd_pin_bodies){x->first, x->second, row};
+        pins->points[pins->count] = (zd_points){{x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}};
         pins->pin[pins->count++] = (zd_pin){
-            x->first, x->second, {x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}, {x->zero, y->zero},
-            row, packed->at[row], packed->at[row + 1] - packed->at[row], packed->near[term], packed->far[term],
+            {x->zero, y->zero}, packed->at[row], packed->at[row + 1] - packed->at[row], packed->near[term], packed->far[term],
             has_angle(mechanism, x->first), has_angle(mechanism, x->second)};
         self->is_known[row] = self->is_known[row + 1] = 1;
         row++;
@@ -90,10 +93,11 @@ static void plan_pinned(zd_packing *self, const zd_mechanism *mechanism)
         *numbers++ = 1 / link->mass;
         *numbers++ = link->hang == ZD_HANGS_FREE ? 1 / link->inertia : 0;
     }
-    for (const zd_pin *pin = pins->pin; pin < pins->pin + pins->count; pin++, numbers += 6) {
-        self->pin_first[pin - pins->pin] = pin->first - 1;
-        self->pin_second[pin - pins->pin] = pin->second - 1;
-        const double of_pin[] = {pin->point1.x, pin->point1.y, pin->point2.x, pin->point2.y, pin->zero.x, pin->zero.y};
+    for (int k = 0; k < pins->count; k++, numbers += 6) {
+        const zd_vector a = pins->points[k].first, b = pins->points[k].second, zero = pins->pin[k].zero;
+        self->pin_first[k] = pins->between[k].first - 1;
+        self->pin_second[k] = pins->between[k].second - 1;
+        const double of_pin[] = {a.x, a.y, b.x, b.y, zero.x, zero.y};
         memcpy(numbers, of_pin, sizeof of_pin);
     }
     numbers[0] = mechanism->gravity.x;
