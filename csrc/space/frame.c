@@ -4,7 +4,7 @@
 #include "turns.h"
 
 enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double),
-       QUATERNION = 4, SIGHTED = sizeof(zd_sighted) / sizeof(double) };
+       QUATERNION = 4, ARMS = sizeof(zd_arms) / sizeof(double), DIRECTIONS = sizeof(zd_directions) / sizeof(double) };
 
 zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 {
@@ -19,8 +19,10 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     scratch += all * QUATERNION;
     frame.angle = scratch;
     scratch += space->turns.count;
-    frame.sighted = (zd_sighted *)scratch;
-    scratch += space->sockets.count * SIGHTED;
+    frame.arms = (zd_arms *)scratch;
+    scratch += space->sockets.count * ARMS;
+    frame.directions = (zd_directions *)scratch;
+    scratch += space->sockets.count * DIRECTIONS;
     frame.turns = scratch;
     scratch += space->sockets.turns;
     frame.row = scratch;
@@ -38,7 +40,7 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
 
 int zd_frame3_size(const zd_space *space)
 {
-    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * SIGHTED
+    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * (ARMS + DIRECTIONS)
          + space->turns.count + space->sockets.turns + 2 + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 

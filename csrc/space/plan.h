@@ -65,7 +65,8 @@ typedef struct zd_frame3 {
     zd_wrench3 *wrench;
     double *quaternion;             /* (bodies + 1, 4), of the ground and of particles unused */
     double *angle;                  /* (turns,) of joints */
-    zd_sighted *sighted;            /* (sockets,) */
+    zd_arms *arms;                  /* (sockets,), and so are these: */
+    zd_directions *directions;
     double *turns;                  /* of the sockets' rows, see sockets.h */
     double *is_placed, *is_moving;  /* of measures alone: whether poses and twists are those of the state */
     double *row;                    /* (nv,) of measures alone */

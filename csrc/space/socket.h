@@ -8,21 +8,34 @@
 
 enum { ZD_SOCKET_POINT = 3, ZD_SOCKET_ROWS = 6 };   /* rows of the point, and at most of all */
 
+/* What is known of one lies in four arrays, as most that goes through all of them looks at one or two. */
 typedef struct zd_socket {
     int first, second;      /* bodies */
     int rows;               /* how many it has */
     int row;                /* the first of them */
     int turns;              /* where what they have of angular velocities begins: (2, rows, 3), of the first body and the second */
-    int C, width;           /* where the first begins in C, and how long each is */
+} zd_socket;
+
+typedef struct zd_socket_points {
+    zd_vector3 first, second;   /* in the axes of each body */
+} zd_socket_points;
+
+typedef struct zd_directions {
+    zd_vector3 a[ZD_SOCKET_ROWS - ZD_SOCKET_POINT], b[ZD_SOCKET_ROWS - ZD_SOCKET_POINT];    /* of the first, and of the second */
+} zd_directions;
+
+typedef struct zd_socket_entries {  /* of C */
+    int C, width;           /* where the first row begins in C, and how long each is */
     int near, far;          /* where in a row the entries of each body begin; -1: it is the ground */
     int near_turns, far_turns;  /* whether the body has an angular velocity */
-    zd_vector3 point1, point2;
-    zd_vector3 a[ZD_SOCKET_ROWS - ZD_SOCKET_POINT], b[ZD_SOCKET_ROWS - ZD_SOCKET_POINT];    /* directions of the first, and of the second */
-} zd_socket;
+} zd_socket_entries;
 
 typedef struct zd_sockets {
     int count;
-    zd_socket *socket;
+    zd_socket *socket;      /* (count,), and so are these: */
+    zd_socket_points *points;
+    zd_directions *directions;
+    zd_socket_entries *entries;
     unsigned char *has_row; /* (m,) whether a row is of one */
     int *end_at;            /* (bodies + 2,) where the sockets of each body begin in */
     int *end;               /* (2 count,) 2 * socket, or 1 more where the body is its second */
@@ -31,10 +44,9 @@ typedef struct zd_sockets {
     int are_all;            /* whether there are no other rows, and all bodies turn */
 } zd_sockets;
 
-/* What a move leaves of each socket: in the drawing's axes, but for `turns`, which are in the body's own. */
-typedef struct zd_sighted {
-    zd_vector3 arm1, arm2;  /* from the mass centres to the points */
-    zd_vector3 a[ZD_SOCKET_ROWS - ZD_SOCKET_POINT], b[ZD_SOCKET_ROWS - ZD_SOCKET_POINT];
-} zd_sighted;
+/* What a move leaves of each socket, besides its directions: in the drawing's axes, as these then are, but for `turns`, which are in the body's own. */
+typedef struct zd_arms {
+    zd_vector3 first, second;   /* from the mass centres to the points */
+} zd_arms;
 
 #endif

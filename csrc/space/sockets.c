@@ -10,6 +10,9 @@ void zd_sockets_take(zd_sockets *self, zd_arena *arena, size_t bodies, size_t jo
 {
 #define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
     TAKE(socket, joints);
+    TAKE(points, joints);
+    TAKE(directions, joints);
+    TAKE(entries, joints);
     TAKE(has_row, rows);
     TAKE(end_at, bodies + 2);
     TAKE(end, 2 * joints);
@@ -53,21 +56,23 @@ static void list_ends(zd_sockets *self, int bodies)
     at[bodies + 1] = 2 * self->count;
 }
 
-static zd_socket socket_at(const zd_space *space, int row, int rows)
+static void add_socket(zd_sockets *self, const zd_space *space, int row, int rows)
 {
     const zd_space_gauge *point = gauge_of_row(space, row);
-    const int term = space->uses.row[row].first;
-    zd_socket socket = {
-        .first = point->first, .second = point->second, .rows = rows, .row = row,
-        .C = space->packed.at[row], .width = space->packed.at[row + 1] - space->packed.at[row], .near = space->packed.near[term], .far = space->packed.far[term],
-        .near_turns = space->body[point->first].turns, .far_turns = space->body[point->second].turns,
-        .point1 = zd_vector3_of(point->point1), .point2 = zd_vector3_of(point->point2)};
+    const int term = space->uses.row[row].first, k = self->count++;
+    self->socket[k] = (zd_socket){point->first, point->second, rows, row, self->turns};
+    self->points[k] = (zd_socket_points){zd_vector3_of(point->point1), zd_vector3_of(point->point2)};
+    self->entries[k] = (zd_socket_entries){
+        .C = space->packed.at[row], .width = space->packed.at[row + 1] - space->packed.at[row],
+        .near = space->packed.near[term], .far = space->packed.far[term],
+        .near_turns = space->body[point->first].turns, .far_turns = space->body[point->second].turns};
     for (int i = 0; i < rows - ZD_SOCKET_POINT; i++) {
         const zd_space_gauge *gauge = gauge_of_row(space, row + ZD_SOCKET_POINT + i);
-        socket.a[i] = zd_vector3_of(gauge->a);
-        socket.b[i] = zd_vector3_of(gauge->b);
+        self->directions[k].a[i] = zd_vector3_of(gauge->a);
+        self->directions[k].b[i] = zd_vector3_of(gauge->b);
     }
-    return socket;
+    self->turns += 2 * 3 * rows;
+    self->rows = k == 0 || self->rows == rows ? rows : 0;
 }
 
 static int do_all_turn(const zd_space *space)
@@ -83,11 +88,7 @@ void zd_sockets_plan(zd_sockets *self, const zd_space *space)
     for (int row = 0, rows; row < space->uses.mh; row += rows ? rows : 1) {
         rows = count_rows(space, row);
         if (!rows) continue;
-        zd_socket *socket = self->socket + self->count++;
-        *socket = socket_at(space, row, rows);
-        socket->turns = self->turns;
-        self->turns += 2 * 3 * rows;
-        self->rows = self->count == 1 || self->rows == rows ? rows : 0;
+        add_socket(self, space, row, rows);
         memset(self->has_row + row, 1, (size_t)rows);
         of_sockets += rows;
     }
@@ -114,14 +115,15 @@ void zd_sockets_turn(const zd_sockets *self, const zd_frame3 *frame)
         const zd_rotation *R1 = &frame->pose[socket->first].turned, *R2 = &frame->pose[socket->second].turned;
         const int rows = socket->rows;
         double *first = frame->turns + socket->turns, *second = first + 3 * rows;
-        zd_sighted *now = frame->sighted + k;
-        now->arm1 = zd_rotated3(R1, socket->point1);
-        now->arm2 = zd_rotated3(R2, socket->point2);
-        turn_point(-1, R1, socket->point1, first);
-        turn_point(1, R2, socket->point2, second);
+        const zd_socket_points *points = self->points + k;
+        frame->arms[k] = (zd_arms){zd_rotated3(R1, points->first), zd_rotated3(R2, points->second)};
+        turn_point(-1, R1, points->first, first);
+        turn_point(1, R2, points->second, second);
         for (int i = 0; i < rows - ZD_SOCKET_POINT; i++) {
-            now->a[i] = zd_rotated3(R1, socket->a[i]);
-            now->b[i] = zd_rotated3(R2, socket->b[i]);
+            const zd_directions *own = self->directions + k;
+            zd_directions *now = frame->directions + k;
+            now->a[i] = zd_rotated3(R1, own->a[i]);
+            now->b[i] = zd_rotated3(R2, own->b[i]);
             const zd_vector3 torque = zd_cross3(now->b[i], now->a[i]);
             keep(-1, zd_rotated_back3(R1, torque), first + 3 * (ZD_SOCKET_POINT + i));
             keep(1, zd_rotated_back3(R2, torque), second + 3 * (ZD_SOCKET_POINT + i));
@@ -135,8 +137,9 @@ static void write_Phi(const zd_sockets *self, const zd_frame3 *frame, double *Ph
 {
     for (int k = 0; k < self->count; k++) {
         const zd_socket *socket = self->socket + k;
-        const zd_sighted *now = frame->sighted + k;
-        const zd_vector3 Q = zd_plus3(frame->pose[socket->second].at, now->arm2), P = zd_plus3(frame->pose[socket->first].at, now->arm1);
+        const zd_arms *arms = frame->arms + k;
+        const zd_directions *now = frame->directions + k;
+        const zd_vector3 Q = zd_plus3(frame->pose[socket->second].at, arms->second), P = zd_plus3(frame->pose[socket->first].at, arms->first);
         double *own = Phi + socket->row;
         keep(1, zd_minus3(Q, P), own);
         for (int i = 0; i < socket->rows - ZD_SOCKET_POINT; i++) own[ZD_SOCKET_POINT + i] = zd_inner3(now->a[i], now->b[i]);
@@ -156,19 +159,20 @@ static void write_xi(const zd_sockets *self, const zd_frame3 *frame, double *xi)
 {
     for (int k = 0; k < self->count; k++) {
         const zd_socket *socket = self->socket + k;
-        const zd_sighted *now = frame->sighted + k;
+        const zd_arms *arms = frame->arms + k;
+        const zd_directions *now = frame->directions + k;
         const zd_vector3 spin1 = frame->twist[socket->first].spin, spin2 = frame->twist[socket->second].spin;
         double *own = xi + socket->row;
-        keep(1, zd_minus3(turned_twice(spin1, now->arm1), turned_twice(spin2, now->arm2)), own);
+        keep(1, zd_minus3(turned_twice(spin1, arms->first), turned_twice(spin2, arms->second)), own);
         for (int i = 0; i < socket->rows - ZD_SOCKET_POINT; i++)
             own[ZD_SOCKET_POINT + i] = -bias_of_directions(spin1, spin2, now->a[i], now->b[i]);
     }
 }
 
 /* The rows of one body; what is not written is zero already. */
-static void write_body(const zd_socket *socket, double sign, const double *turns, int has_turns, double *C)
+static void write_body(int rows, int width, double sign, const double *turns, int has_turns, double *C)
 {
-    for (int i = 0; i < socket->rows; i++, C += socket->width, turns += 3) {
+    for (int i = 0; i < rows; i++, C += width, turns += 3) {
         if (i < ZD_SOCKET_POINT) C[i] = sign;
         for (int j = 0; has_turns && j < 3; j++) C[3 + j] = turns[j];
     }
@@ -176,10 +180,12 @@ static void write_body(const zd_socket *socket, double sign, const double *turns
 
 static void write_C(const zd_sockets *self, const zd_frame3 *frame, double *C)
 {
-    for (const zd_socket *socket = self->socket; socket < self->socket + self->count; socket++) {
-        const double *first = frame->turns + socket->turns, *second = first + 3 * socket->rows;
-        if (socket->near >= 0) write_body(socket, -1, first, socket->near_turns, C + socket->C + socket->near);
-        if (socket->far >= 0) write_body(socket, 1, second, socket->far_turns, C + socket->C + socket->far);
+    for (int k = 0; k < self->count; k++) {
+        const int rows = self->socket[k].rows;
+        const zd_socket_entries *at = self->entries + k;
+        const double *first = frame->turns + self->socket[k].turns, *second = first + 3 * rows;
+        if (at->near >= 0) write_body(rows, at->width, -1, first, at->near_turns, C + at->C + at->near);
+        if (at->far >= 0) write_body(rows, at->width, 1, second, at->far_turns, C + at->C + at->far);
     }
 }
 
