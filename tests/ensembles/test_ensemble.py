@@ -165,7 +165,7 @@ def test_with_times_that_are_asked_for_all_rows_stack():
 
 def test_progress_is_that_of_the_runs():
     seen = []
-    zd.ensemble(pendulum, 5.0, parameters={"gravity": np.linspace(1, 20, 20)}, step=1e-3, progress=seen.append)
+    zd.ensemble(pendulum, 50.0, parameters={"gravity": np.linspace(1, 20, 20)}, step=1e-3, save_every=1000, progress=seen.append)
     assert seen == sorted(seen)
     assert 0 <= seen[0] < seen[-1] == 1
 

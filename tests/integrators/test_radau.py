@@ -80,7 +80,7 @@ def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formu
 
 @pytest.mark.parametrize("variables", ["schur", "mixed", "independent"])
 def test_rows_between_long_steps_of_stiff_systems(variables):
-    """While the run goes on, and afterwards: there a step may be too long to be solved without the one before it, and is made in parts."""
+    """While the run goes on, and afterwards: a step may then be too long to be solved without the one before."""
     system, times = bushed_crank(1e9, 1e4), np.linspace(0, 0.3, 38)
     for rtol in (1e-3, 1e-6, 1e-8):
         options = {"rtol": rtol, "atol": rtol, "integrator": "radau"}

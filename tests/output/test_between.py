@@ -238,7 +238,8 @@ def test_the_polynomial_where_variables_are_chosen_anew_at_the_end_of_its_step(n
 
 def with_steps(system, method, n, times=None, **options):
     """Of one size, chosen by nothing else."""
-    return zd.simulate(system, 0.5, integrator=method, rtol=1e3, atol=1e3, first_step=0.5 / n, max_step=0.5 / n, t_eval=times, **options)
+    of_one_size = {"rtol": 1e3, "atol": 1e3, "first_step": 0.5 / n, "max_step": 0.5 / n}
+    return zd.simulate(system, 0.5, integrator=method, t_eval=times, **of_one_size, **options)
 
 
 @pytest.mark.parametrize(("method", "steps", "slope"), [("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
