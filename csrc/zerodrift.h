@@ -1,8 +1,8 @@
 /* zerodrift: constrained multibody systems without constraint drift.
  *
  * The whole public C interface, with what a system is in the header that is shipped to those who write one. Declarations and nothing
- * else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer, "Elimination of Constraint Violation and
- * Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002) 265-284.
+ * else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer, "Elimination of Constraint Violation
+ * and Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002) 265-284.
  */
 #ifndef ZERODRIFT_H
 #define ZERODRIFT_H
@@ -43,8 +43,8 @@ const zd_term_row *zd_term_at(int row);                         /* NULL: there a
 zd_shape zd_term_shape(const zd_system *system, int row);       /* as the equations have it */
 size_t zd_term_size(const zd_system *system, int row);          /* how many doubles evaluate() writes */
 
-/* What it takes to eliminate C W C^T of a declared structure, W = M^-1. Multiplications are counted apart in blocks that have a kernel of their
- * size, [0], and in the others, [1]: of C W C^T, of its factors, and of a solve with them. */
+/* What it takes to eliminate C W C^T of a declared structure, W = M^-1. Multiplications are counted apart in blocks that have a kernel of
+ * their size, [0], and in the others, [1]: of C W C^T, of its factors, and of a solve with them. */
 typedef struct zd_structure_work {
     int columns, blocks, rows;  /* columns of blocks; blocks below the diagonal, with fill */
     double products[2], factors[2], solves[2];
@@ -264,8 +264,8 @@ enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES, ZD_UNUSUAL };     /* how 
 /* Systems of one shape, of which every run has its own. */
 typedef struct zd_family {
     const void *of;
-    /* The system of a run, and where it starts if this is not known before, p (nq,), v (nv,). NULL: it is one that somebody has to look at more
-     * closely. In any case free(*made) has to follow. Several threads may call it. */
+    /* The system of a run, and where it starts if this is not known before, p (nq,), v (nv,). NULL: it is one that somebody has to look at
+     * more closely. In any case free(*made) has to follow. Several threads may call it. */
     const zd_system *(*make)(const void *of, int64_t run, double *p, double *v, void **made);
     void (*free)(void *made);
 } zd_family;
@@ -298,20 +298,20 @@ typedef struct zd_batch {
     int *way;                       /* (runs,) of zd_way; one that could not be created is not begun, and what its family does not make is unusual */
     zd_statistics *statistics;      /* (runs,) */
     double *kinetic, *energy_error; /* (runs,) as zd_run_kinetic() and zd_run_energy_error() have them */
-    /* (runs,), of runs that are made by themselves: as zd_run_omega_h() has it; the largest |Phi| and |Psi| of the saved rows, NaN where there
-     * are none; and the time that each took, in s */
+    /* (runs,), of runs that are made by themselves: as zd_run_omega_h() has it; the largest |Phi| and |Psi| of the saved rows, NaN where
+     * there are none; and the time that each took, in s */
     double *omega_h, *position_violation, *velocity_violation, *seconds;
     char *message;                  /* (runs, message_size): of runs that failed, or ended early */
     int message_size;
 } zd_batch;
 
 int zd_lanes_of_unit(enum zd_unit unit);     /* how many runs are made side by side with it; 0: the core is compiled without it */
-/* What is wrong with a run is said of that run; only where there is no memory for any it is returned. Calls for other batches may be made at the
- * same time. */
+/* What is wrong with a run is said of that run; only where there is no memory for any it is returned. Calls for other batches may be made
+ * at the same time. */
 int zd_batch_run(const zd_batch *batch);
 
-/* Rows of a run that was made in lanes, with what these leave out, from the states that they keep: (rows, nq), (rows, nv), and what has come in
- * of energy. The run has to be one from the same start, and is of no other use then. */
+/* Rows of a run that was made in lanes, with what these leave out, from the states that they keep: (rows, nq), (rows, nv), and what has
+ * come in of energy. The run has to be one from the same start, and is of no other use then. */
 int zd_run_record_states(zd_run *run, int64_t rows, const double *t, const double *p, const double *v, const double *input, zd_record *record);
 
 /* The tables of a batch from the parameters of a kind of system (runs, all parameters): constants (runs, kind->constants), starts (runs, nq),

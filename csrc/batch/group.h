@@ -58,7 +58,8 @@ typedef struct zd_lane_group {
     zd_reader reader;       /* of events */
 } zd_lane_group;
 
-/* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice: the first time only counts the memory. */
+/* lanes.c: lays out the lanes of a run with direct functions or pins, the other being NULL. Called twice:
+ * the first time only counts the memory. */
 void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
                    const zd_pins_plan *pins, int64_t doubles);
 const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit);

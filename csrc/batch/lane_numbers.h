@@ -75,7 +75,8 @@ typedef struct zd_lanes {
     double *is_corrected;
     double *next_look, *look_soon;      /* the step after which somebody looks closely; whether that has to be sooner than it was */
     double *look_pause, *looked_at;     /* one of so many steps is looked at; the last that was */
-    /* (nv,), where steps are of fixed size: of each part of the motion, what zd_resolution has; and what has been seen of those not resolved. */
+    /* (nv,), where steps are of fixed size: of each part of the motion, what zd_resolution has;
+     * and what has been seen of those not resolved. */
     double *error, *path, *place, *lowest, *highest;
     double *unresolved, *unresolved_time, *part_error, *part;
     double *at_limit, *below_limit, *stiff;     /* steps that are as long as stability allows, and not; those that count */

@@ -10,7 +10,8 @@ static const double UNEQUAL = 0x1p6;        /* what bodies contribute to a row, 
 
 static int body_of(const zd_pinned *of, int end) { return end & 1 ? of->second[end / 2] : of->first[end / 2]; }
 
-/* `at` (bodies + 2,) and `end` (2 pins,): the ends of each body, where those of pin k are 2 place[k] and the next; place NULL: as they are given. */
+/* `at` (bodies + 2,) and `end` (2 pins,): the ends of each body, where those of pin k are 2 place[k] and the next; place NULL:
+ * as they are given. */
 static void list_ends(const zd_pinned *of, const int *place, int *at, int *end)
 {
     memset(at, 0, (size_t)(of->bodies + 2) * sizeof *at);

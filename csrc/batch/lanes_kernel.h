@@ -1,5 +1,5 @@
-/* One text for the lanes of each vector unit, included with ZD_UNIT and ZD_LANES: see zerodrift/lanes.h. What a lane gets depends on what is in
- * that lane alone.
+/* One text for the lanes of each vector unit, included with ZD_UNIT and ZD_LANES: see zerodrift/lanes.h. What a lane gets depends on what
+ * is in that lane alone.
  */
 #include "../include/zerodrift/lanes.h"
 #include "lane_numbers.h"

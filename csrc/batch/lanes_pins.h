@@ -231,7 +231,8 @@ ZD_KERNEL ZD_NAMED(moved) ZD_NAMED(move_end)(const zd_lane_pins *pins, int end, 
                                                       ZD_NAMED(size_of)(y) + ZD_NAMED(size_of)(along)}};
 }
 
-/* rest <- rhs - C x, and y <- its opposite where that is more than the rounding of x makes it, else 0. Returns how much it is of its terms. */
+/* rest <- rhs - C x, and y <- its opposite where that is more than the rounding of x makes it, else 0.
+ * Returns how much it is of its terms. */
 ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
 {
     zd_real left = ZD_SPLAT(0.0);

@@ -117,7 +117,8 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
     return sound;
 }
 
-/* Steps of fixed size in succession that are longer than the method is stable for: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0), as guard.c has it. */
+/* Steps of fixed size in succession that are longer than the method is stable for: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0),
+ * as guard.c has it. */
 ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real moved)
 {
     zd_real changed = ZD_SPLAT(0.0);

@@ -73,8 +73,8 @@ zd_look *zd_look_take_choice(zd_arena *arena, const zd_system *system)
 static int row_of(const zd_look *self, int k) { return self->row ? self->row[k] : k; }
 
 /* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
- * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each entry has
- * a share of its own, and none asks which body it is of. Infinite where nothing is known. */
+ * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each
+ * entry has a share of its own, and none asks which body it is of. Infinite where nothing is known. */
 static double bound_by_bodies(const zd_look *self, const zd_point *point)
 {
     const double *C = point->terms.C;
@@ -184,9 +184,9 @@ static int need_blocks(zd_look *self, const zd_point *point)
     return self->inverse != NULL;
 }
 
-/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those that are
- * eliminated before are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. A body that is taken as several
- * enlarges rows on the diagonal, which makes shares smaller. Without memory, nothing is believed. */
+/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those that
+ * are eliminated before are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. A body that is taken as
+ * several enlarges rows on the diagonal, which makes shares smaller. Without memory, nothing is believed. */
 static zd_shares factor_products(zd_look *self, const zd_point *point)
 {
     if (!need_blocks(self, point)) return (zd_shares){0, 1, 0};

@@ -19,8 +19,8 @@ struct zd_look {
     double *inverse;        /* blocks of (C C^T)^-1 */
 };
 
-/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. Where the structure is declared,
- * the rank's store has the rest once it is first looked closely. */
+/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. Where the structure is
+ * declared, the rank's store has the rest once it is first looked closely. */
 zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G);
 /* Of a choice among rows of which some are redundant */
 zd_look *zd_look_take_choice(zd_arena *arena, const zd_system *system);

@@ -2,12 +2,13 @@
  *
  * Pivots of S = C U^2 C^T, U diagonal, are the squares of what is left of each row once those eliminated before are taken out: of a row that
  * follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random velocity is
- * projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that follows from them,
- * too, and with probability one no other. Where it does not, a row was taken aside that is independent, and with it those may be missed that
- * follow from it: all of this is done again with less that counts as little.
+ * projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that follows from
+ * them, too, and with probability one no other. Where it does not, a row was taken aside that is independent, and with it those may be
+ * missed that follow from it: all of this is done again with less that counts as little.
  *
- * U says how far bodies move that move alike. A length is the same for all of them, and the angle of each is such that its longest arm moves by
- * as much. With the length of the whole mechanism, as natural units have it, all that angles leave of a row would be small in a long one.
+ * U says how far bodies move that move alike. A length is the same for all of them, and the angle of each is such that its longest arm
+ * moves by as much. With the length of the whole mechanism, as natural units have it,
+ * all that angles leave of a row would be small in a long one.
  *
  * A row that follows from others here is redundant if it does so wherever the system goes: then accelerations that the others ask for satisfy
  * it at any velocity, (6), and so at this random one. Else it only does so in this position, a bifurcation.

@@ -16,8 +16,8 @@ static void *take_kept(zd_arena *arena, const void *system)
     return zd_look_take_choice(arena, system);
 }
 
-/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one, in the metric of M^-1 as well:
- * there `is_ill` tells. */
+/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one, in the metric of M^-1 as
+ * well: there `is_ill` tells. */
 static int keep_choice(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;

@@ -6,8 +6,8 @@
  * a part that is the smaller the larger W is, and each time the equations are those without W, so that W costs no digits. The matrix is
  * definite where C leaves free nothing that has no mass, whether or not M is, and whether or not rows of C follow from others. Of multipliers
  * that are not determined these are the smallest, sum lambda_k^2 / W_k = min, as they are W times what is in the range of C: with 1 / W_k
- * proportional to C_k M^-1 C_k^T, those of least effect, see constraints/rank.c. As such weights may leave a part of s for many times, where M
- * has a light direction within a block, x is found with weights by its diagonal.
+ * proportional to C_k M^-1 C_k^T, those of least effect, see constraints/rank.c. As such weights may leave a part of s for many times,
+ * where M has a light direction within a block, x is found with weights by its diagonal.
  */
 #include "bodywise.h"
 

@@ -4,13 +4,13 @@
  *     S = C W C^T                             blocks of groups of rows that touch a body both: point/weighted.c
  *     S lambda = C W (f - d) - xi,   vdot = W (f - d - C^T lambda)
  *
- * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids; and W enlarges the rounding of large reactions
- * that meet in a light body. Both show: in a small pivot of S, and in a row of C to which its bodies contribute unequally. Where either is so,
- * the solution is compared with C vdot = xi and corrected with the same factors until nothing is left of it.
+ * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids; and W enlarges the rounding of large
+ * reactions that meet in a light body. Both show: in a small pivot of S, and in a row of C to which its bodies contribute unequally. Where
+ * either is so, the solution is compared with C vdot = xi and corrected with the same factors until nothing is left of it.
  *
- * The smallest pivot of a long chain is small for its length alone, and its solutions are accurate. To compare them takes C, which is not stored
- * otherwise, and as long as all the rest: so what has many rows, and was found accurate, is compared again after some factorizations, each time
- * after twice as many, or as soon as the pivot is half of what it was.
+ * The smallest pivot of a long chain is small for its length alone, and its solutions are accurate. To compare them takes C, which is not
+ * stored otherwise, and as long as all the rest: so what has many rows, and was found accurate, is compared again after some
+ * factorizations, each time after twice as many, or as soon as the pivot is half of what it was.
  */
 #include "coupling.h"
 

@@ -42,8 +42,8 @@ typedef struct zd_formulation {
     int (*express)(void *self, zd_point *point, double *y);
     /* Gives the point the v that follows from its p and the state; NULL where v is part of the state. */
     int (*settle)(void *self, zd_point *point);
-    /* Of such formulations: whether the state can be entries of p and v, as direct functions of the system have it; and whether it is, and which.
-     * NULL together with settle(). */
+    /* Of such formulations: whether the state can be entries of p and v, as direct functions of the system have it; and whether it is, and
+     * which. NULL together with settle(). */
     int (*may_have_entries)(const zd_system *system);
     int (*entries)(const void *self, zd_entries *entries);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */

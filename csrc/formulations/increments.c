@@ -34,8 +34,8 @@ zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v. What follows other coordinates says nothing that these do
- * not, and is left out. */
+/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v. What follows other coordinates says nothing
+ * that these do not, and is left out. */
 static void weigh(zd_increments *self, const zd_point *point)
 {
     const int nq = self->nq, nv = self->nv, leading = nq - point->system->followers;

@@ -2,14 +2,14 @@
  *
  *     C_w^T W C_w dx_w = C_w^T W (rhs - C x)
  *
- * again and again, until nothing is left but rounding, with W the inverse squares of the rows' sizes. Its block rows are bodies, of which what
- * is independent is left out; rows that follow from others have no weight. So D is never formed, and what is solved has the pattern of the
- * bodies, whatever is chosen.
+ * again and again, until nothing is left but rounding, with W the inverse squares of the rows' sizes. Its block rows are bodies, of which
+ * what is independent is left out; rows that follow from others have no weight. So D is never formed, and what is solved has the pattern
+ * of the bodies, whatever is chosen.
  *
  * The choice is an elimination, too: of C^T W C, all columns, outermost bodies first, so that as much as possible of each follows from those
- * nearer to the ground. A pivot is the square of what is left of a velocity's column once those eliminated before are taken out: where that is
- * little, the velocity is independent of them, and left out. How little is told by how many have to be: the largest share by which no more
- * are left out than are independent.
+ * nearer to the ground. A pivot is the square of what is left of a velocity's column once those eliminated before are taken out: where
+ * that is little, the velocity is independent of them, and left out. How little is told by how many have to be: the largest share by which
+ * no more are left out than are independent.
  */
 #include "partition.h"
 

@@ -1,4 +1,5 @@
-/* The front builds the tables, and names bodies and joints to its user; here it is only made sure that nothing is looked up that is not there. */
+/* The front builds the tables, and names bodies and joints to its user;
+ * here it is only made sure that nothing is looked up that is not there. */
 #include "check.h"
 
 #include <stdarg.h>

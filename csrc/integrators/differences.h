@@ -16,8 +16,8 @@ zd_differences zd_differences_take(zd_arena *arena, int size);
 /* The state has become one of another size. */
 void zd_differences_resize(zd_differences *self, int size);
 void zd_differences_choose_units(zd_differences *self);
-/* J (size, size) <- share df/dy at (t, y), where f is known, in the units that were chosen: its entry (i, j) times unit_j / unit_i. A state changes by about h f in a
- * step. y is as it was afterwards. */
+/* J (size, size) <- share df/dy at (t, y), where f is known, in the units that were chosen: its entry (i, j) times unit_j / unit_i. A
+ * state changes by about h f in a step. y is as it was afterwards. */
 int zd_differences_make(zd_differences *self, const zd_rate *rate, double t, double h, double share, double *y, const double *f, double *J);
 
 #endif

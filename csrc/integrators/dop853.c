@@ -46,9 +46,9 @@ static const double e3[STAGES + 1] = {
 };
 
 /* Of the stages for values between, and of the polynomial. With the three of the book it has order seven. These two meet all conditions of
- * order six and the quadrature of order seven, and miss the others of order seven, which two cannot all meet, by 8e-8 at most: root of the sum
- * of squares over the trees. Those of order eight they miss by 1.3e-5, where those of the book miss them by 3.8e-5. So they err by less than
- * those in steps of h L > 0.003; and where the term in h^7 would show in shorter ones, it is far below rounding.
+ * order six and the quadrature of order seven, and miss the others of order seven, which two cannot all meet, by 8e-8 at most: root of the
+ * sum of squares over the trees. Those of order eight they miss by 1.3e-5, where those of the book miss them by 3.8e-5. So they err by
+ * less than those in steps of h L > 0.003; and where the term in h^7 would show in shorter ones, it is far below rounding.
  */
 static const double more_a[MORE * ALL] = {
     [0 * ALL + 0] = 0.06425056847867465, [0 * ALL + 6] = 0.42843873933159243, [0 * ALL + 7] = -0.39968173097686277,

@@ -27,8 +27,8 @@ typedef struct zd_integrator {
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h);
     double (*fit)(const void *self, double h);  /* the step after the one just made, of at most h, that serves best as its solution goes; NULL: h */
-    /* A polynomial between y0 and y1, the ends of the step just made from t to t + h, whose error is that of the method; then its value y at a
-     * share of the step. NULL: there is none, and shorter steps lead between. */
+    /* A polynomial between y0 and y1, the ends of the step just made from t to t + h, whose error is that of the method; then its value y
+     * at a share of the step. NULL: there is none, and shorter steps lead between. */
     int (*spread)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);
     void (*between)(const void *self, double share, const double *y0, double *y);
 } zd_integrator;

@@ -172,9 +172,9 @@ static void exchange(double **a, double **b)
     *b = kept;
 }
 
-/* Whether a change that no longer shrinks is nothing but what rates are rounded by, which is the more the stiffer they are: then the change is
- * another by about as much where the stages are rounded in another way. Entries of the state that are nothing but rounding do not show their size: that of
- * all has to do. */
+/* Whether a change that no longer shrinks is nothing but what rates are rounded by, which is the more the stiffer they are: then the
+ * change is another by about as much where the stages are rounded in another way. Entries of the state that are nothing but rounding do
+ * not show their size: that of all has to do. */
 static int explain_by_rounding(radau *self, double norm, int *explained)
 {
     const int n = self->size;

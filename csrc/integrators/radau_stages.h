@@ -1,4 +1,5 @@
-/* Newton's iteration of radau.c with a Jacobian of its own for each stage: one matrix for all of them, of p alone where the state is (p, v). */
+/* Newton's iteration of radau.c with a Jacobian of its own for each stage: one matrix for all of them, of p alone where the state is (p,
+ * v). */
 #ifndef ZD_RADAU_STAGES_H
 #define ZD_RADAU_STAGES_H
 

@@ -52,7 +52,8 @@ ZD_INLINE void zd_combine_some(int begin, int end, const int size, const int ter
     }
 }
 
-/* In (p, v), the positions of a stage do not wait for the acceleration of the one before: so none is computed in one vector with a velocity. */
+/* In (p, v), the positions of a stage do not wait for the acceleration of the one before:
+ * so none is computed in one vector with a velocity. */
 ZD_INLINE void zd_combine(const int positions, const int size, const int terms, const double *weight, double h, const double *k,
                           const double *y, double *to)
 {

@@ -1,4 +1,5 @@
-/* Force at a point of the second body along an axis of the first, on which nothing acts: the ground, or the body whose frame it turns with. */
+/* Force at a point of the second body along an axis of the first, on which nothing acts: the ground,
+ * or the body whose frame it turns with. */
 #include "joint.h"
 
 const zd_element_kind zd_force = {

@@ -35,9 +35,9 @@ zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering);
 /* Where block (i, j) of the pattern is in S: that of the later row of the two, in the order of elimination, and the earlier column. */
 int zd_blocks_find(const zd_blocks *self, int i, int j);
 void zd_blocks_clear(zd_blocks *self);
-/* S, whose blocks have been filled, into its factors. Where `left_out` (rows,) is not NULL, rows whose pivots are not more than `least` of their
- * diagonal entries are noted there, and are as if they were not there, with their columns; with `least` below zero, those noted there already.
- * Where x (rows,) is not NULL, zd_blocks_forward() is made of it on the way. */
+/* S, whose blocks have been filled, into its factors. Where `left_out` (rows,) is not NULL, rows whose pivots are not more than `least` of
+ * their diagonal entries are noted there, and are as if they were not there, with their columns; with `least` below zero, those noted
+ * there already. Where x (rows,) is not NULL, zd_blocks_forward() is made of it on the way. */
 zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double least, double *x);
 /* x (rows,), in the order of elimination, <- S^-1 x, in two halves; those left out become zero. */
 void zd_blocks_forward(const zd_blocks *self, double *x);

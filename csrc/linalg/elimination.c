@@ -8,8 +8,8 @@
  *     forward     x_k <- P x_k,    x_i <- x_i - B_i x_k
  *     backward    x_k <- x_k - P sum_i B_i^T x_i
  *
- * Kernels are told what the compiler is to know. `n` is the size of the pivot's block; `is_same`: of all blocks of its column, too; `is_whole`:
- * of all blocks of the matrix, so that where they stand follows from their numbers.
+ * Kernels are told what the compiler is to know. `n` is the size of the pivot's block; `is_same`: of all blocks of its column, too;
+ * `is_whole`: of all blocks of the matrix, so that where they stand follows from their numbers.
  */
 #include <math.h>
 #include <stddef.h>

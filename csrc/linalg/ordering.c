@@ -1,10 +1,10 @@
-/* Multiple minimum degree: next are the block rows that are coupled with fewest others by then, all of them that are not coupled with each other;
- * those coupled with one of them wait, with their new degrees, until these are through (George and Liu, The evolution of the minimum degree ordering
- * algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row joins all cliques that it is in to
- * one, which has its column of the factor as members. So there is no more to keep than the factor has.
+/* Multiple minimum degree: next are the block rows that are coupled with fewest others by then, all of them that are not coupled with each
+ * other; those coupled with one of them wait, with their new degrees, until these are through (George and Liu, The evolution of the
+ * minimum degree ordering algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row
+ * joins all cliques that it is in to one, which has its column of the factor as members. So there is no more to keep than the factor has.
  *
- * Of equal ones, that is taken which has waited longest. So what is not coupled is eliminated next to each other, a row of loops as a chain from both
- * ends at once: the machine then need not wait for one product before it begins the next.
+ * Of equal ones, that is taken which has waited longest. So what is not coupled is eliminated next to each other, a row of loops as a
+ * chain from both ends at once: the machine then need not wait for one product before it begins the next.
  */
 #include "ordering.h"
 

@@ -1,5 +1,5 @@
-/* With S = L D L^T by blocks, P_k = D_k^-1 and L_ik = B_i P_k, see elimination.c, blocks of Z = S^-1 follow from those of later columns, and those
- * alone that are in the pattern (Takahashi, Fagan and Chen 1973):
+/* With S = L D L^T by blocks, P_k = D_k^-1 and L_ik = B_i P_k, see elimination.c, blocks of Z = S^-1 follow from those of later columns,
+ * and those alone that are in the pattern (Takahashi, Fagan and Chen 1973):
  *
  *     U_i = sum_j Z_ij B_j,    Z_ik = -U_i P_k,    Z_kk = P_k + P_k (sum_i B_i^T U_i) P_k
  *

@@ -46,8 +46,8 @@ ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
     else ZD_SIZED(zd_copy, n, from, to);
 }
 
-/* Two neighbours in one store, or in one load. A processor hands on what it has just stored to loads of that or of a part of it; one of more has to wait until
- * it is in the cache. */
+/* Two neighbours in one store, or in one load. A processor hands on what it has just stored to loads of that or of a part of it; one of
+ * more has to wait until it is in the cache. */
 #if defined(__GNUC__) || defined(__clang__)
 #define ZD_HAS_VECTORS 1
 typedef double zd_two __attribute__((vector_size(16)));

@@ -1,9 +1,9 @@
-/* Bunch and Kaufman's factorization with rook pivoting (C. Ashcraft, R. G. Grimes, J. G. Lewis, SIAM Journal on Matrix Analysis and Applications
- * 20 (1998) 513-561): half the memory and work of Gaussian elimination. A pivot is a diagonal entry that is not small beside its row, or a block of two
- * rows around an entry that is the largest of both its row and its column. Entries of L are so less than 3.
+/* Bunch and Kaufman's factorization with rook pivoting (C. Ashcraft, R. G. Grimes, J. G. Lewis, SIAM Journal on Matrix Analysis and
+ * Applications 20 (1998) 513-561): half the memory and work of Gaussian elimination. A pivot is a diagonal entry that is not small beside
+ * its row, or a block of two rows around an entry that is the largest of both its row and its column. Entries of L are so less than 3.
  *
- * Rows are swapped in what is left to be factored only, so that the solves swap as they go. Diagonal blocks are stored inverted; `order` has the
- * complement of a row, which is negative, where it belongs to a block of two.
+ * Rows are swapped in what is left to be factored only, so that the solves swap as they go. Diagonal blocks are stored inverted; `order`
+ * has the complement of a row, which is negative, where it belongs to a block of two.
  */
 #include "symmetric.h"
 

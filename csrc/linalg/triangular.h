@@ -4,7 +4,8 @@
 
 #include "blocks.h"
 
-/* S, whose blocks have been filled, into its factors. Returns the first row, in the order of elimination, whose pivot is not positive, or -1. */
+/* S, whose blocks have been filled, into its factors. Returns the first row, in the order of elimination, whose pivot is not positive,
+ * or -1. */
 int zd_triangular_factor(zd_blocks *self);
 /* x (rows,), in the order of elimination, <- S^-1 x */
 void zd_triangular_solve(const zd_blocks *self, double *x);

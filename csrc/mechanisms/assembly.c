@@ -1,8 +1,8 @@
 /* The same steps as those of Python's assembly.py, which has more to say where something is wrong, and knows wishes and redundant
  * rows: least steps in the mass metric, in absolute coordinates, told in rad and parts of the mechanism's length.
  *
- * Where rows are independent, a least step with J x = r is x = W^-2 J^T (J W^-2 J^T)^-1 r, by orthogonalization of the rows of J W^-1; and that of
- * Levenberg and Marquardt, damped by mu, is x = -J^T (J J^T + mu)^-1 r.
+ * Where rows are independent, a least step with J x = r is x = W^-2 J^T (J W^-2 J^T)^-1 r, by orthogonalization of the rows of J W^-1; and
+ * that of Levenberg and Marquardt, damped by mu, is x = -J^T (J J^T + mu)^-1 r.
  */
 #include "assembly.h"
 

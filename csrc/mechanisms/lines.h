@@ -1,6 +1,6 @@
-/* Rows of bodies that are free, but for those of pins and of laws: along each of its gauges a row is a force along a line on the second body, the
- * opposite on the first, and a torque on each, from which C is written where it is wanted. Products with C by these four numbers take longer
- * than with what is stored of it, as each row has to be put together again: they were measured, and are not here. */
+/* Rows of bodies that are free, but for those of pins and of laws: along each of its gauges a row is a force along a line on the second
+ * body, the opposite on the first, and a torque on each, from which C is written where it is wanted. Products with C by these four numbers
+ * take longer than with what is stored of it, as each row has to be put together again: they were measured, and are not here. */
 #ifndef ZD_LINES_H
 #define ZD_LINES_H
 

@@ -96,7 +96,8 @@ void zd_mechanism_state(const zd_mechanism *mechanism, const double *poses, cons
 
 /* Components of measures of positions and velocities, which (count, 2) <- measure and component, all at one state in absolute coordinates:
  * value (count,); where the velocities of the two bodies begin that each touches, at (count, 2), or -1 for the ground; and what zd_measured
- * has as its row at these, row (count, 2, 3). The cost is in proportion to bodies and components; `scratch` holds measures->scratch doubles. */
+ * has as its row at these, row (count, 2, 3). The cost is in proportion to bodies and components;
+ * `scratch` holds measures->scratch doubles. */
 void zd_mechanism_components(const zd_mechanism *mechanism, const double *p, const double *v, int count, const int *which, double *value,
                              int *at, double *row, double *scratch);
 

@@ -125,8 +125,8 @@ static void forget_pivots(zd_motion *motion)
     }
 }
 
-/* Where those of the next step may be for a glance to be enough, if the order is the first: large, and within a factor of four, so that of two
- * steps none has shrunk by more than sixteen in the second. */
+/* Where those of the next step may be for a glance to be enough, if the order is the first: large, and within a factor of four, so that of
+ * two steps none has shrunk by more than sixteen in the second. */
 static void remember_pivots(zd_motion *motion)
 {
     zd_road *road = &motion->road;

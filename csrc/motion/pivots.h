@@ -6,8 +6,8 @@
 
 #include "motion.h"
 
-/* Then the next step may begin with the same order, the first. Compared are their bits, which lie as the sizes do: what computes is busy with the
- * step that follows. */
+/* Then the next step may begin with the same order, the first. Compared are their bits, which lie as the sizes do: what computes is busy
+ * with the step that follows. */
 ZD_INLINE int zd_pivots_stay(zd_road *road)
 {
     for (int k = 0; k < road->ranges; k++) {

@@ -51,9 +51,9 @@ zd_pivots zd_weighted_factor_by(zd_weighted *self, const zd_operations *products
                                double *y);
 /* The same without the rows that are noted in `without`, in the order of S. */
 zd_pivots zd_weighted_factor_without(zd_weighted *self, const double *C, const double *W, unsigned char *without);
-/* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the metric W,
- * once those eliminated before are taken out. Returns how many rows of welds are left out in the place of such, or -1 where there is no
- * memory. */
+/* The same, with the rows of C noted in `left_out` (m,) that follow from others: of which less than the share `least` is left, in the
+ * metric W, once those eliminated before are taken out. Returns how many rows of welds are left out in the place of such, or -1 where
+ * there is no memory. */
 int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, double least, unsigned char *left_out);
 /* y <- C x - rhs, y <- S^-1 y and x <- x - C^T y: y in the order of S, where welds have no right side; rhs (m,) NULL: zero. */
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y);

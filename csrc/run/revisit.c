@@ -1,5 +1,5 @@
-/* The step from a row to the row after it is made again, and its polynomial taken, as rows between chosen steps are made while a run goes on: with
- * the same bits, as long as a step depends on nothing but where it begins. Where those take shorter steps instead, so does this.
+/* The step from a row to the row after it is made again, and its polynomial taken, as rows between chosen steps are made while a run goes
+ * on: with the same bits, as long as a step depends on nothing but where it begins. Where those take shorter steps instead, so does this.
  *
  * What a run measures its rows, energies and pivots by comes from its start, where this one has begun, too.
  */

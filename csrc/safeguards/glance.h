@@ -1,7 +1,7 @@
 /* Whether a step on the direct road needs no more than a glance, as nearly all do: then nothing of guard.c and motion/direct.c would find
  * anything in it, and all that these would keep is kept. It is made of every step, and so asks for less than they do, in fewer instructions:
- * where the detour is at most 1 / ZD_CALM of the displacement, the velocities of both ends allow for it, too, and pivots within a factor of four
- * of one number, of one sign, have neither changed it nor shrunk by more than 16. */
+ * where the detour is at most 1 / ZD_CALM of the displacement, the velocities of both ends allow for it, too, and pivots within a factor
+ * of four of one number, of one sign, have neither changed it nor shrunk by more than 16. */
 #ifndef ZD_GLANCE_H
 #define ZD_GLANCE_H
 
@@ -45,7 +45,8 @@ ZD_INLINE zd_seen zd_see(const int n, double half, const double *p0, const doubl
     return seen;
 }
 
-/* Of n coordinates whose rates are the velocities, where the step has led to (p, v). What is not a number or infinite is passed by no comparison. */
+/* Of n coordinates whose rates are the velocities, where the step has led to (p, v).
+ * What is not a number or infinite is passed by no comparison. */
 ZD_INLINE int zd_safeguards_glance(const int n, zd_safeguards *self, double h, int64_t next_step, const double *p, const double *v)
 {
     zd_guard *guard = &self->guard;

@@ -11,7 +11,8 @@
  *
  * What one coordinate misses is added up over a thousand steps or so, in natural units: earlier steps are forgotten, as otherwise every
  * long run would be doubted. The sum is compared with the length of that coordinate's path, and is bounded by the range in which it moves: it
- * cannot be off by more than that. The factors and bounds are those that separated wrong from right runs best, see tests/stress/light_parts.py.
+ * cannot be off by more than that. The factors and bounds are those that separated wrong from right runs best,
+ * see tests/stress/light_parts.py.
  */
 #include "resolution.h"
 

@@ -1,8 +1,8 @@
 /* Each primitive once: its value, what a unit force along it is for both bodies, and its bias.
  *
  * All are made of points and directions that move with bodies. With omega and the acceleration of mass centres as the drawing's axes have
- * them, a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the mass
- * centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
+ * them, a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the
+ * mass centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
  */
 #include "gauge.h"
 

@@ -1,6 +1,7 @@
-/* Joints whose points coincide: three rows that hold a point of one body on a point of another, and up to three more that each keep a direction
- * of one perpendicular to one of the other. These are spherical, universal and revolute joints and welds. Of velocities of mass centres their
- * rows have 1 and -1; what they have of angular velocities is kept in the scratch, so that C is not stored for products with it. */
+/* Joints whose points coincide: three rows that hold a point of one body on a point of another, and up to three more that each keep a
+ * direction of one perpendicular to one of the other. These are spherical, universal and revolute joints and welds. Of velocities of mass
+ * centres their rows have 1 and -1; what they have of angular velocities is kept in the scratch,
+ * so that C is not stored for products with it. */
 #ifndef ZD_SOCKET_H
 #define ZD_SOCKET_H
 
@@ -44,7 +45,8 @@ typedef struct zd_sockets {
     int are_all;            /* whether there are no other rows, and all bodies turn */
 } zd_sockets;
 
-/* What a move leaves of each socket, besides its directions: in the drawing's axes, as these then are, but for `turns`, which are in the body's own. */
+/* What a move leaves of each socket, besides its directions: in the drawing's axes, as these then are, but for `turns`,
+ * which are in the body's own. */
 typedef struct zd_arms {
     zd_vector3 first, second;   /* from the mass centres to the points */
 } zd_arms;

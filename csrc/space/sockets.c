@@ -3,7 +3,8 @@
  *     Phi = x2 + w - x1 - u,      C v = v2 + omega2 x w - v1 - omega1 x u,        xi = omega1 x (omega1 x u) - omega2 x (omega2 x w)
  *     Phi = a . b,                C v = (omega2 - omega1) . (b x a),              xi = -a" . b - 2 a' . b' - a . b"      (3), (5), (6)
  *
- * with omega in the drawing's axes. In those of a body, (omega x w)_k = omega . (w x e_k), where e_k is what the drawing's k-th axis is there. */
+ * with omega in the drawing's axes. In those of a body, (omega x w)_k = omega . (w x e_k),
+ * where e_k is what the drawing's k-th axis is there. */
 #include "sockets.h"
 
 void zd_sockets_take(zd_sockets *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows)

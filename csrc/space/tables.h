@@ -1,10 +1,11 @@
 /* Mechanisms in space from bodies and joints: the tables that describe one, and the system that is made from them.
  *
- * Coordinates are absolute, unless joints carry bodies (../space_tree/tree.h). Each body has the position of its mass centre and a unit quaternion, scalar first, which turns its own axes
- * into the drawing's; its velocities are that of its mass centre in the drawing's axes, and its angular velocity in its own. These are its
- * principal axes, so that M is constant and diagonal. A particle has a position and a velocity alone. Body 0 is the ground; bodies given
- * have the numbers from 1 on. Behind the bodies are the angles of joints, in their order, which count turns: turns.h. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's axes, from its origin).
- * Relations, efforts, measures and laws are of gauges in space; forces and torques have three components.
+ * Coordinates are absolute, unless joints carry bodies (../space_tree/tree.h). Each body has the position of its mass centre and a unit
+ * quaternion, scalar first, which turns its own axes into the drawing's; its velocities are that of its mass centre in the drawing's axes,
+ * and its angular velocity in its own. These are its principal axes, so that M is constant and diagonal. A particle has a position and a
+ * velocity alone. Body 0 is the ground; bodies given have the numbers from 1 on. Behind the bodies are the angles of joints, in their
+ * order, which count turns: turns.h. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's
+ * axes, from its origin). Relations, efforts, measures and laws are of gauges in space; forces and torques have three components.
  *
  * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
  */
@@ -52,8 +53,8 @@ typedef struct zd_space_tables {
 
 typedef struct zd_space zd_space;
 
-/* All memory is taken here, and the tables are copied but for names, which have to stay. On failure returns NULL and says why. Where joints carry
- * bodies, take zd_space_tree_create(). */
+/* All memory is taken here, and the tables are copied but for names, which have to stay. On failure returns NULL and says why. Where
+ * joints carry bodies, take zd_space_tree_create(). */
 zd_space *zd_space_create(const zd_space_tables *tables, char *message, int message_size);
 void zd_space_free(zd_space *space);
 /* The system; it refers to the mechanism. */

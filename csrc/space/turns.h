@@ -1,6 +1,6 @@
 /* Angles of joints that count turns. An attitude does not tell how often a body went round, so that each angle of a joint is a coordinate of
- * its own, too: where bodies are free it follows both attitudes by its rate, and after each step it is brought to what they say; where the joint
- * carries a body it moves that body, and where it closes a loop of such joints it follows again. */
+ * its own, too: where bodies are free it follows both attitudes by its rate, and after each step it is brought to what they say; where the
+ * joint carries a body it moves that body, and where it closes a loop of such joints it follows again. */
 #ifndef ZD_SPACE_TURNS_H
 #define ZD_SPACE_TURNS_H
 

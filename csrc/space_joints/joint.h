@@ -56,7 +56,8 @@ typedef struct zd_space_coordinate {
     zd_space_pick pick;
 } zd_space_coordinate;
 
-/* What a joint leaves free, one after another from the first body's frame to the second's: a joint that says it can carry a body in a tree. */
+/* What a joint leaves free, one after another from the first body's frame to the second's:
+ * a joint that says it can carry a body in a tree. */
 enum zd_space_freedom_kind {
     ZD_SPACE_SLIDES,        /* along a direction of the frame */
     ZD_SPACE_TURNS,         /* about it, through the point where the frame is by then */

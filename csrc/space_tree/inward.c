@@ -1,5 +1,5 @@
-/* A wrench on a body does to each velocity its product with the column, which is the twist of that body by this velocity; then it goes on to the
- * body that this one hangs on. */
+/* A wrench on a body does to each velocity its product with the column, which is the twist of that body by this velocity; then it goes on
+ * to the body that this one hangs on. */
 #include "inward.h"
 
 #include <string.h>

@@ -4,8 +4,8 @@
 
 #include "links.h"
 
-/* row (nv,) += what `scale` times a unit force along a gauge does. Of bodies that both of its bodies hang on that is nothing, to the last bit, unless
- * the force acts on one body alone, or particles between them pass no torque on. */
+/* row (nv,) += what `scale` times a unit force along a gauge does. Of bodies that both of its bodies hang on that is nothing, to the last
+ * bit, unless the force acts on one body alone, or particles between them pass no torque on. */
 void zd_tree3_act(const zd_space *space, const zd_frame3 *frame, const zd_space_gauge *gauge, double scale, const zd_reading3 *reading,
                   double *row);
 /* to (nv,) <- what the wrenches on all bodies, frame->wrench, do; they are used up. */

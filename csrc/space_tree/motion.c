@@ -1,7 +1,7 @@
 /* A frame goes along the freedoms of each joint, from a point of the inner body to the joint's point of the outer one.
  *
- * In it stands what moves so far. With omega its angular velocity, a direction e of it has the rate omega x e, also where it turns about e; so
- * where vdot is zero, a turn at the rate s adds omega x (s e) to the angular acceleration, and a slide by the way d at the rate s adds
+ * In it stands what moves so far. With omega its angular velocity, a direction e of it has the rate omega x e, also where it turns about
+ * e; so where vdot is zero, a turn at the rate s adds omega x (s e) to the angular acceleration, and a slide by the way d at the rate s adds
  * alpha x d + omega x (omega x d) + 2 omega x (s e) to the acceleration of the point.
  */
 #include "motion.h"
@@ -59,7 +59,8 @@ static void go(const zd_freedom3 *freedom, const double *p, zd_axes3 *F, zd_vect
 
 static const zd_rotation AS_DRAWN = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-/* The body whose axes are `own` in its joint's frame F: its axis j is the sum of the frame's directions, each with its j-th component in the body. */
+/* The body whose axes are `own` in its joint's frame F: its axis j is the sum of the frame's directions,
+ * each with its j-th component in the body. */
 static zd_rotation rotation_from(const zd_axes3 *F, const zd_axes3 *own)
 {
     const zd_rotation all = {F->d[0], F->d[1], F->d[2]};

@@ -41,8 +41,8 @@ static zd_twist3 given_twist(const double *twists, int body)
     return (zd_twist3){zd_vector3_of(twists + TWIST * (body - 1)), zd_vector3_of(twists + TWIST * (body - 1) + 3)};
 }
 
-/* The quaternion of the rotation whose entry (i, k) is a_i . b_k, with a scalar part that is not negative: of the four that are each right but for
- * their size, the one that loses no digits. */
+/* The quaternion of the rotation whose entry (i, k) is a_i . b_k, with a scalar part that is not negative: of the four that are each right
+ * but for their size, the one that loses no digits. */
 static void write_quaternion(const zd_axes3 *a, const zd_axes3 *b, double *q)
 {
 #define R(i, k) zd_inner3(a->d[i], b->d[k])
@@ -74,7 +74,8 @@ static side side_of(zd_pose3 pose, zd_twist3 twist, zd_vector3 point, const zd_a
     return of;
 }
 
-/* How far the outer frame has turned about a direction of the one that comes along: seen by a direction that later turns, about `next`, leave. */
+/* How far the outer frame has turned about a direction of the one that comes along: seen by a direction that later turns, about `next`,
+ * leave. */
 static double angle_between(const zd_axes3 *F, const zd_axes3 *outer, int direction, int next)
 {
     const int i = (direction + 1) % 3, k = (direction + 2) % 3, seen = next == direction ? i : next;

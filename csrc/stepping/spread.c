@@ -1,7 +1,7 @@
 /* Values within a step just made, where its method has a polynomial for them.
  *
- * The polynomial is one of the state, and a state in independent velocities has variables that may be chosen anew at the end of a step, or begin
- * anew there, as increments do. So what the formulation had chosen where the step began is copied, and taken back while values within
+ * The polynomial is one of the state, and a state in independent velocities has variables that may be chosen anew at the end of a step, or
+ * begin anew there, as increments do. So what the formulation had chosen where the step began is copied, and taken back while values within
  * the step are wanted. On the direct road variables stay for a step.
  */
 #include "spread.h"

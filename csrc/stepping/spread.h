@@ -11,8 +11,8 @@ int zd_spread_prepare(zd_stepper *stepper);
  * serves until another step is made. The motion is at the end of the step. */
 int zd_may_spread(const zd_stepper *stepper, double t0);
 int zd_spread(zd_stepper *stepper);
-/* The point at any time within the step, with all corrections, its ends being believed, from the state y (size,) that the integrator says there
- * is. */
+/* The point at any time within the step, with all corrections, its ends being believed, from the state y (size,) that the integrator says
+ * there is. */
 int zd_spread_land(zd_stepper *stepper, double t, double *y);
 
 #endif

@@ -1,4 +1,5 @@
-/* One text for one trajectory and for several: the numbers of as many trajectories as a vector of the processor holds, side by side in its lanes.
+/* One text for one trajectory and for several: the numbers of as many trajectories as a vector of the processor holds,
+ * side by side in its lanes.
  *
  *     #define ZD_UNIT 1       ZD_AVX2: whose operations are used; 0: those that every processor of this kind has
  *     #define ZD_LANES 4      1, or as many as zerodrift/units.h says

@@ -73,8 +73,8 @@ ZD_SERIES_ON static inline void zd_series_drop(const int size, double *restrict 
     for (int i = 0; i < size; i++) G[i * size + k] = G[k * size + i] = 0;
 }
 
-/* G <- its inverse, of the leading matrix of (8) with n velocities and m rows. M is definite, and so is what its elimination leaves of the rows of
- * C: pivots need no order. A row of which nothing but rounding is left follows from others, and gets multiplier zero. Not 0: M is not
+/* G <- its inverse, of the leading matrix of (8) with n velocities and m rows. M is definite, and so is what its elimination leaves of the
+ * rows of C: pivots need no order. A row of which nothing but rounding is left follows from others, and gets multiplier zero. Not 0: M is not
  * definite. */
 ZD_SERIES_ON static inline int zd_series_invert(const int n, const int m, double *restrict G, double *restrict size_of_row)
 {

@@ -201,8 +201,8 @@ ZD_SINES_INLINE void zd_sines_of_two(const zd_pair angle, zd_pair *s, zd_pair *c
 }
 #endif
 
-/* s, c (n,) <- sines and cosines of `angle` (n,), which is neither of them. Compilers that have vectors take two at once, the last beside a zero:
- * left to themselves, they put together and take apart more than they save. */
+/* s, c (n,) <- sines and cosines of `angle` (n,), which is neither of them. Compilers that have vectors take two at once, the last beside
+ * a zero: left to themselves, they put together and take apart more than they save. */
 ZD_SINES_INLINE void zd_sines(const int n, const double *restrict angle, double *restrict s, double *restrict c)
 {
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)

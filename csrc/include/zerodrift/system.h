@@ -13,8 +13,8 @@
  * A shared library that has both goes to zerodrift.native("library.so", symbol="pendulum", ...), which says the sizes and terms.
  * One that has a `const zd_kind zd_kind_pendulum` instead says all of it itself, and is as good as a built-in system.
  *
- * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer, "Elimination of
- * Constraint Violation and Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002)
+ * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer,
+ * "Elimination of Constraint Violation and Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002)
  * 265-284. Matrices are row-major; SI units throughout.
  *
  *     nq  coordinates p       mh  holonomic rows of Phi         m = mh + mn  rows of C
@@ -139,31 +139,32 @@ typedef struct zd_structure {
     const int *block;           /* (first[groups],) the blocks that each group touches, at least one, increasing */
 } zd_structure;
 
-/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. They follow a call with
- * ZD_MOVED at the same (t, p), from whose scratch they may take what they need. Where both of the last two are there, and all of M is diagonal by
- * structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare: so these and times_C must not
- * read it. */
+/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. They follow a call
+ * with ZD_MOVED at the same (t, p), from whose scratch they may take what they need. Where both of the last two are there, and all of M is
+ * diagonal by structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare: so these and
+ * times_C must not read it. */
 typedef struct zd_operations {
     void (*times_A)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = A x, (nq,): where A is provided */
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
     /* x <- x - W C^T y, W (nv,) diagonal; row k of C has entry place[k] of y, and rows of a group stand together there, too */
     void (*subtract_weighted)(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x);
-    /* S <- S + C W C^T: for each block in order, the products of its columns in the groups that touch it, of each group g and all h <= g, increasing
-     * both. The block (rows[g], rows[h]) of the next of them begins in S at half of the next entry of `at`; it is stored transposed where that entry
-     * is odd. Of those with g = h, nothing but the lower triangle is read. */
+    /* S <- S + C W C^T: for each block in order, the products of its columns in the groups that touch it, of each group g and all h <= g,
+     * increasing both. The block (rows[g], rows[h]) of the next of them begins in S at half of the next entry of `at`; it is stored
+     * transposed where that entry is odd. Of those with g = h, nothing but the lower triangle is read. */
     void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 
-/* Bodies in the plane that are joined by pins alone, and of which nothing but their weight asks anything: all that there is to know of them, so that
- * the core can make several trajectories at once by itself. It says the same as the structure, in which each body is a block of two coordinates,
- * or of three with its angle, and each pin a group of two rows, in the same order. */
+/* Bodies in the plane that are joined by pins alone, and of which nothing but their weight asks anything: all that there is to know of
+ * them, so that the core can make several trajectories at once by itself. It says the same as the structure, in which each body is a block
+ * of two coordinates, or of three with its angle, and each pin a group of two rows, in the same order. */
 typedef struct zd_pinned {
     int bodies, pins;
     const int *at;              /* (bodies + 1,) where the coordinates of each begin: x and y of its mass centre, and its angle */
     const int *first, *second;  /* (pins,) bodies; -1: the ground */
-    /* 2 and 6 for each body and pin: 1 / mass, 1 / inertia, 0 without an angle; from mass centre to pin in the axes of the first body and of the
-     * second, on the ground from its origin; and what Phi = x2 + w - x1 - u is where the pin is closed. Behind all of them the two of gravity. */
+    /* 2 and 6 for each body and pin: 1 / mass, 1 / inertia, 0 without an angle; from mass centre to pin in the axes of the first body and
+     * of the second, on the ground from its origin; and what Phi = x2 + w - x1 - u is where the pin is closed.
+     * Behind all of them the two of gravity. */
     const double *numbers;
 } zd_pinned;
 
@@ -187,13 +188,15 @@ typedef struct zd_elimination {
     /* Phi (3), and Newton's steps in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v) and to
      * be subtracted. NULL where there are no constraints. */
     int (*correct)(const void *data, const double *t, const double *p, const double *v, double *Phi, double *dp, double *dv);
-    /* Both at once, for the end of a step: Phi, and where every |Phi| is as small as `allowed` (mh,), v less that dv, and what accelerate() has
-     * there with nothing added. Else only dp, v stays, and it returns ZD_NO_CONVERGENCE. NULL: the core calls both of the others. */
+    /* Both at once, for the end of a step: Phi, and where every |Phi| is as small as `allowed` (mh,), v less that dv, and what
+     * accelerate() has there with nothing added. Else only dp, v stays, and it returns ZD_NO_CONVERGENCE. NULL:
+     * the core calls both of the others. */
     int (*land)(const void *data, const double *t, const double *p, double *v, const double *allowed, double *Phi, double *dp, double *pdot,
                 double *vdot, double *lambda, double *power, double *pivots);
-    /* The same for a state in the velocities that are not solved for, and where dp is wanted in as many coordinates: with `added` as above, and
-     * with steps that keep these instead of Newton's shortest, so that the v left is all that follows from them. D (m, nv - m), which goes with
-     * the pivots and may be NULL without them: dv of the velocities solved for to dv of each of the others, in their order. */
+    /* The same for a state in the velocities that are not solved for, and where dp is wanted in as many coordinates: with `added` as
+     * above, and with steps that keep these instead of Newton's shortest, so that the v left is all that follows from them. D (m, nv - m),
+     * which goes with the pivots and may be NULL without them: dv of the velocities solved for to dv of each of the others,
+     * in their order. */
     int (*embed)(const void *data, const double *t, const double *p, double *v, const double *added, const double *allowed, double *Phi,
                  double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
 } zd_elimination;
@@ -216,16 +219,17 @@ typedef struct zd_direct {
     const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); of one lane alone */
 } zd_direct;
 
-/* Taylor coefficients of the motion from (t, p, v) on, up to t^order: p_series (order + 1, nq), v_series (order + 1, nv), the first ones being
- * p and v; and work (order + 1,), NULL: not wanted, of the energy that comes in (28), the first one being 0. Not 0: there are none here. */
+/* Taylor coefficients of the motion from (t, p, v) on, up to t^order: p_series (order + 1, nq), v_series (order + 1, nv), the first ones
+ * being p and v; and work (order + 1,), NULL: not wanted, of the energy that comes in (28), the first one being 0. Not 0:
+ * there are none here. */
 typedef struct zd_series {
     int scratch;            /* doubles that a call needs, for each order and one more */
     int (*evaluate)(const void *data, int order, double t, const double *p, const double *v, double *p_series, double *v_series,
                     double *work, double *scratch);
 } zd_series;
 
-/* How the rates of a state (p, v) change with it: J (nq + nv, nq + nv) <- the derivatives of pdot = A v and of vdot as (2) and (6) have it, and in
- * one row more, where ZD_POWER or ZD_PHI_T is provided, those of the power of (28). Not 0: there are none here. */
+/* How the rates of a state (p, v) change with it: J (nq + nv, nq + nv) <- the derivatives of pdot = A v and of vdot as (2) and (6) have
+ * it, and in one row more, where ZD_POWER or ZD_PHI_T is provided, those of the power of (28). Not 0: there are none here. */
 typedef struct zd_jacobian {
     int scratch;            /* doubles that a call needs */
     int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);

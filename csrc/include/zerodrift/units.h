@@ -14,7 +14,8 @@
 #define ZD_SET_AVX512_1 16
 #define ZD_SET_AVX512_8 32
 
-/* What the compiler can, but for gcc on Windows, which aligns the stack to 16 bytes there and yet spills longer vectors as if it were to more, */
+/* What the compiler can, but for gcc on Windows, which aligns the stack to 16 bytes there and yet spills longer vectors as if it were to
+ * more, */
 #if defined(__GNUC__) && defined(__x86_64__) && (!defined(_WIN32) || defined(__clang__))
 #define ZD_POSSIBLE_SETS 63
 #elif defined(__GNUC__)
