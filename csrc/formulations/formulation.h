@@ -38,7 +38,7 @@ typedef struct zd_formulation {
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
     int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
-    /* The same in the variables that have been chosen, where leave() reviews these; NULL together with settle(). */
+    /* The same without choosing variables anew, which leave() may do; NULL together with settle(). */
     int (*express)(void *self, zd_point *point, double *y);
     /* Gives the point the v that follows from its p and the state; NULL where v is part of the state. */
     int (*settle)(void *self, zd_point *point);

@@ -31,7 +31,7 @@ void zd_minimal_solve(void *self, const double *force, const double *rhs, double
 void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t);
 /* Remembers u, and gives the point the v that belongs to it. */
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
-/* The point's u, in terms of independent velocities that are reviewed first; or of those that have been chosen. */
+/* The point's u, once the choice of independent velocities has been reviewed; and with the choice as it is. */
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */

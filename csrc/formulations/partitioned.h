@@ -22,7 +22,7 @@ zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system);
 int zd_partitioned_settle(zd_partitioned *self, zd_point *point);
 /* The point's u, of velocities that are reviewed first. */
 int zd_partitioned_speeds(zd_partitioned *self, zd_point *point, double *u);
-/* Of those that have been chosen */
+/* With the choice as it is */
 void zd_partitioned_express_speeds(zd_partitioned *self, const zd_point *point, double *u);
 /* The point's q, of coordinates that are reviewed first; and where they are in p, after that. */
 int zd_partitioned_coordinates(zd_partitioned *self, zd_point *point, double *q);

@@ -19,12 +19,12 @@
 
 enum {
     STAGES = ZD_RADAU_STAGES,
-    MOST_OF_ANY = 200,      /* the largest state that is not made of pairs: its matrix has three times as many rows */
+    LARGEST_STATE = 200,    /* that is not (p, v): its matrix has three times as many rows */
 };
 
 zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size)
 {
-    const size_t n = (size_t)size, rows = STAGES * (size <= MOST_OF_ANY ? n : n / 2);
+    const size_t n = (size_t)size, rows = STAGES * (size <= LARGEST_STATE ? n : n / 2);
     return (zd_radau_stages){
         .J = zd_take_doubles(arena, STAGES * n * n),
         .factors = zd_take_doubles(arena, rows * rows),
@@ -37,7 +37,7 @@ zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size)
 
 int zd_radau_stages_serve(const zd_radau_matrices *matrices)
 {
-    return matrices->pairs > 0 || matrices->size <= MOST_OF_ANY;
+    return matrices->pairs > 0 || matrices->size <= LARGEST_STATE;
 }
 
 /* Unknowns of a stage */

@@ -18,7 +18,7 @@ typedef struct zd_radau_stages {
 } zd_radau_stages;
 
 zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size);
-/* Whether they may be taken: a large state has to be of pairs. */
+/* Whether the state is small enough for that, or is (p, v). */
 int zd_radau_stages_serve(const zd_radau_matrices *matrices);
 /* At y + z (stages, size) in a step from t; stage and f (size,) are working space. */
 int zd_radau_stages_make(zd_radau_stages *self, zd_radau_matrices *matrices, const zd_rate *rate, double t, double h, const double *y,

@@ -9,7 +9,7 @@ typedef struct zd_newton {
     int max_iterations;
     double contraction;     /* the first improvement has to leave no more than this part; 0: any */
     int (*retreat)(void *context);  /* goes back half of the last improvement; NULL: improvements are believed */
-    double nearly;                  /* so small a residual that an improvement has not halved is rounding: solved; 0: none is */
+    double nearly;                  /* a residual up to this is solved once an improvement no longer halves it: rounding is left; 0: never */
 } zd_newton;
 
 /* Returns 0 with the number of iterations and the last residual; ZD_NO_CONVERGENCE; ZD_NOT_FINITE; or what a function

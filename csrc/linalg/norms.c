@@ -7,6 +7,13 @@ double zd_max_abs(int n, const double *x)
     return ZD_SIZED(zd_largest, n, x);
 }
 
+double zd_root_mean_square(int n, const double *x, const double *scale)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += (x[i] / scale[i]) * (x[i] / scale[i]);
+    return n ? sqrt(sum / n) : 0;
+}
+
 /* Zero times what is not finite is not a number; the sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *x)
 {

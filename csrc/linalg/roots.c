@@ -1,6 +1,6 @@
 #include "roots.h"
 
-static double power(double y, int k)
+double zd_power(double y, int k)
 {
     double product = 1;
     for (int i = 0; i < k; i++) product *= y;
@@ -18,7 +18,7 @@ double zd_root(double x, int k)
     int whole = exponent / k - (exponent % k < 0), rest = exponent - k * whole;     /* x = mantissa 2^rest (2^whole)^k */
     double reduced = ldexp(mantissa, rest), y = 1 + (rest + mantissa - 1) / k;
     for (int i = 0; i < (k > 16 ? 8 : 3); i++) {
-        double now = power(y, k);
+        double now = zd_power(y, k);
         y *= ((k - 1) * now + (k + 1) * reduced) / ((k + 1) * now + (k - 1) * reduced);
     }
     return ldexp(y, whole);

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+double zd_power(double x, int k);       /* x^k */
 double zd_root(double x, int k);        /* x^(1/k) of an x that is not negative; to rounding for k from 1 to 16, to some digits for more */
 
 /* (x^2 + y^2)^(1/2), without overflow between. In the header, as systems are compiled by themselves, too. */

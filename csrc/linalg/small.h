@@ -39,6 +39,13 @@ ZD_INLINE void zd_copy(const int n, const double *from, double *to)
     for (int i = 0; i < n; i++) to[i] = from[i];
 }
 
+ZD_INLINE void zd_exchange(double **a, double **b)
+{
+    double *kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 /* Of any size, many by one call */
 ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
 {

@@ -5,7 +5,7 @@
 
 #include "plan.h"
 
-/* What is known of a pin lies in three arrays, as most that goes through all of them looks at one or two. */
+/* The data of pins lie in three arrays: most loops over all pins read one or two of them, and large mechanisms wait for memory. */
 typedef struct zd_pin_bodies {
     int first, second;      /* bodies */
     int row;                /* the first of the two */

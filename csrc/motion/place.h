@@ -20,7 +20,7 @@ typedef struct zd_rates_there {
 typedef struct zd_last {    /* the step being made: its size, and where it began */
     double t, h;
     double *y, *p, *v;      /* (size,), (nq,), (nv,) */
-    void *chosen;           /* what the formulation had chosen there, a copy; NULL: not kept */
+    void *chosen;           /* a copy of the formulation's choice of variables there; NULL: none is kept */
 } zd_last;
 
 #endif

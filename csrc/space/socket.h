@@ -9,7 +9,7 @@
 
 enum { ZD_SOCKET_POINT = 3, ZD_SOCKET_ROWS = 6 };   /* rows of the point, and at most of all */
 
-/* What is known of one lies in four arrays, as most that goes through all of them looks at one or two. */
+/* Their data lie in four arrays: most loops over all sockets read one or two of them, and large mechanisms wait for memory. */
 typedef struct zd_socket {
     int first, second;      /* bodies */
     int rows;               /* how many it has */

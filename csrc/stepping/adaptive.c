@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "../linalg/norms.h"
 #include "../linalg/roots.h"
 #include "passage.h"
 #include "road.h"
@@ -23,13 +24,6 @@ enum {
 };
 static const double AT_THE_LIMIT = 0.95;    /* of the largest |lambda h| that is stable */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
-
-static double root_mean_square(int n, const double *x, const double *scale)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += (x[i] / scale[i]) * (x[i] / scale[i]);
-    return n ? sqrt(sum / n) : 0;
-}
 
 zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
@@ -67,14 +61,14 @@ int zd_adaptive_start(zd_course *course, double *work)
     set_scale(course, y, y);
     int status = rate->evaluate(rate->context, t, y, f0);
     if (status) return status;
-    double d0 = root_mean_square(n, y, control->scale), d1 = root_mean_square(n, f0, control->scale);
+    double d0 = zd_root_mean_square(n, y, control->scale), d1 = zd_root_mean_square(n, f0, control->scale);
     double span = settings->t1 - settings->t0, time = d0 < 1e-5 || d1 * span < 1e-5 ? 1e-4 * span : d0 / d1;
     double h0 = bounded(course, 0.01 * time);
     for (int i = 0; i < n; i++) y1[i] = y[i] + h0 * f0[i];
     status = rate->evaluate(rate->context, t + h0, y1, f1);
     if (status) return status;
     for (int i = 0; i < n; i++) f1[i] -= f0[i];
-    double fastest = fmax(time * d1, time * time * root_mean_square(n, f1, control->scale) / h0);
+    double fastest = fmax(time * d1, time * time * zd_root_mean_square(n, f1, control->scale) / h0);
     double h1 = fastest <= 1e-15 ? h0 : time * zd_root(0.01 / fastest, stepper->integrator->card.error_order + 1);
     control->h = fmin(100 * h0, h1);
     return ZD_DONE;

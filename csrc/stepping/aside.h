@@ -14,7 +14,8 @@ typedef struct zd_aside {
 } zd_aside;
 
 zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper);
-/* At the end of a step of the run; and only what a formulation has chosen, where no steps are made meanwhile */
+/* At the end of a step of the run. The second keeps the formulation's choice of variables alone, which is enough where no steps are made
+ * meanwhile. */
 void zd_aside_set(zd_aside *self, const zd_stepper *stepper);
 void zd_aside_set_variables(zd_aside *self, const zd_stepper *stepper);
 /* Back to it, where the place says it is */

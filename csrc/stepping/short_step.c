@@ -86,18 +86,11 @@ int zd_short_land_between(zd_stepper *stepper, double t, double *y)
 }
 
 /* What is known at the end changes places with memory for what is known between: a copy would take as long as a row of a table. */
-static void exchange(double **a, double **b)
-{
-    double *kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
 static void exchange_rates(zd_motion *motion, zd_rates_there *rates)
 {
-    exchange(&motion->point->vdot, &rates->vdot);
-    exchange(&motion->point->lambda, &rates->lambda);
-    exchange(&motion->road.pivots, &rates->pivots);
+    zd_exchange(&motion->point->vdot, &rates->vdot);
+    zd_exchange(&motion->point->lambda, &rates->lambda);
+    zd_exchange(&motion->road.pivots, &rates->pivots);
 }
 
 void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates)

@@ -4,15 +4,14 @@
 
 #include "step.h"
 
-/* From the next step on, what that is made in is remembered with where it begins: else there are no values within steps in variables that may
- * be chosen anew at the end. ZD_NO_MEMORY */
+/* Allocates the copy of the formulation's choice of variables that values within a step need where that choice may change at its end. To be
+ * called before the first step. ZD_NO_MEMORY */
 int zd_spread_prepare(zd_stepper *stepper);
-/* Whether the integrator can say what the state is within the step from t0, which is the one just made; and for that its polynomial, which
- * serves until another step is made. The motion is at the end of the step. */
+/* Whether there is a polynomial for the step from t0, which is the one just made; and prepares it, the motion being at the end of the step.
+ * It serves until another step is made. */
 int zd_may_spread(const zd_stepper *stepper, double t0);
 int zd_spread(zd_stepper *stepper);
-/* The point at any time within the step, with all corrections, its ends being believed, from the state y (size,) that the integrator says
- * there is. */
+/* Moves the point to time t within the step: the value of the polynomial, with all corrections. y (size,) receives the state there. */
 int zd_spread_land(zd_stepper *stepper, double t, double *y);
 
 #endif

@@ -32,12 +32,8 @@ static int is_too_long(int status)
     return status == ZD_NO_STEP || status == ZD_NO_EMBEDDING || status == ZD_NO_CONVERGENCE;
 }
 
-static double nearer(double a, double b)
-{
-    return fabs(a) < fabs(b) ? a : b;
-}
-
-/* In parts, if it is not solved at once: the step that it lies within may have begun where another had led, or in other variables. */
+/* Divided into parts where one step is not solved: the run's own step may have converged only as its iteration began on the polynomial of the
+ * step before, or was made in other variables. */
 int zd_stepper_make_substep(zd_stepper *self, double t)
 {
     double part = t - self->t;
@@ -49,7 +45,7 @@ int zd_stepper_make_substep(zd_stepper *self, double t)
             status = zd_stepper_return(self);
             if (status) break;
         }
-        const double h = nearer(part, t - self->t);
+        const double h = fmin(part, t - self->t);
         status = attempt(self, h == part ? self->t + h : t);
     }
     self->motion->statistics.output_steps++;
