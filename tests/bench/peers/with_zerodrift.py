@@ -89,8 +89,11 @@ def sweeps(chain):
 
 
 def _chosen(system, formulation):
-    """Integrators that choose their steps, as far as the system has what they need: Taylor's method goes with states (p, v)."""
-    wanted = ("dormand_prince", "dop853") + (("taylor",) if formulation == "schur" else ())
+    """Integrators that choose their steps, as far as the system has what they need: Taylor's method goes with states (p, v).
+
+    Radau's, which is for stiff systems, is there once.
+    """
+    wanted = ("dormand_prince", "dop853") + (("taylor", "radau") if formulation == "schur" else ())
     return [name for name in wanted if name in zd.integrators(system)]
 
 
