@@ -1,9 +1,12 @@
 """What the documentation shows, runs: examples of docstrings, and the Python code of the README."""
 
+import contextlib
 import doctest
 import importlib
+import inspect
 import pkgutil
 import re
+import warnings
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -19,10 +22,41 @@ MODULES = [module.name for module in pkgutil.walk_packages(zerodrift.__path__, "
 
 @pytest.mark.parametrize("name", ["zerodrift", *MODULES])
 def test_examples_of_docstrings(name):
+    """Each example runs by itself, with the names that it imports and no others."""
     matplotlib.use("Agg")
-    failed, _ = doctest.testmod(importlib.import_module(name))
+    runner = doctest.DocTestRunner()
+    for examples in doctest.DocTestFinder().find(importlib.import_module(name), globs={}):
+        runner.run(examples)
     plt.close("all")
-    assert failed == 0
+    assert runner.summarize(verbose=False).failed == 0
+
+
+def texts():
+    """Texts that users read, by where they stand: modules with their docstrings, the README and notebooks."""
+    files = [*(ROOT / "python" / "zerodrift").rglob("*.py"), README, *(ROOT / "notebooks").glob("*.ipynb")]
+    return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in files}
+
+
+def is_there(name):
+    """Existence of a dotted name such as ``zd.plot.path`` or ``zerodrift.plot.path``."""
+    place = zerodrift
+    for part in name.split(".")[1:]:
+        if inspect.ismodule(place) and not name.startswith("zd."):      # `zd.` has what an import of the package brings
+            with contextlib.suppress(ModuleNotFoundError):
+                importlib.import_module(f"{place.__name__}.{part}")
+        if not hasattr(place, part):
+            return False
+        place = getattr(place, part)
+        if not (inspect.ismodule(place) or inspect.isclass(place)):
+            return True         # attributes of results and instances are beyond
+    return True
+
+
+def test_names_in_documentation_exist():
+    dotted = re.compile(r"(?<![\w/])(?:zd|zerodrift)(?:\.[a-zA-Z_]\w*)+")
+    named = {(where, name) for where, text in texts().items() for name in dotted.findall(text)}
+    assert len(named) > 400
+    assert not [each for each in sorted(named) if not is_there(each[1])]
 
 
 @pytest.mark.parametrize("name", [name for name in zerodrift.__all__ if callable(getattr(zerodrift, name))])
@@ -35,7 +69,9 @@ def test_the_code_of_the_readme_runs(capsys):
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
     assert len(blocks) == 4
     for block in blocks:
-        exec(compile(block, "README.md", "exec"), {})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")      # AccuracyWarning, too, which other tests ignore
+            exec(compile(block, "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "left the range of doubles" in printed
     assert "nothing wrong" in printed

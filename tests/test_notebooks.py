@@ -29,9 +29,9 @@ def test_there_is_a_notebook_for_each_figure():
 
 
 @pytest.mark.filterwarnings("default")      # what Jupyter warns of is not ours
-def test_notebook_runs(path):
-    """The last cell asserts what the notebook states, so running it is the test."""
-    nbclient.NotebookClient(read(path), timeout=tol.HUNG, resources={"metadata": {"path": str(path.parent)}}).execute()
+def test_notebook_runs(path, tmp_path):
+    """The last cell asserts what the notebook states, so running it is the test; it needs no other file of the repository."""
+    nbclient.NotebookClient(read(path), timeout=tol.HUNG, resources={"metadata": {"path": str(tmp_path)}}).execute()
 
 
 @pytest.mark.skipif((ROOT / "PKG-INFO").exists(), reason="a source distribution has notebooks without their outputs")

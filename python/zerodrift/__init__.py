@@ -48,10 +48,10 @@ __all__ = [
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart", "InconsistentSystem",
     "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution",
     "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
-    "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check", "corrections", "ensemble",
-    "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load", "models", "native",
-    "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map", "symbolic",
-    "systems", "trace", "transmission_angle", "tune", "work_precision",
+    "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check", "compare", "corrections",
+    "ensemble", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load",
+    "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate",
+    "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism",
@@ -65,7 +65,7 @@ _LATER = {      # imported, or made, at first use
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
+    if name in ("compare", "inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
         return importlib.import_module(f".{name}", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)

@@ -296,6 +296,22 @@ def test_what_a_callable_returns_is_a_number():
         zd.simulate(m, 1.0, step=0.1)
 
 
+@pytest.mark.parametrize("motion", [lambda t: np.interp(t, [0, 1], [0, 1]), lambda t: np.floor(t) + t, lambda t: t % 2,
+                                    lambda t: np.sinc(t)])
+def test_prescribed_motions_have_derivatives(motion):
+    m, _, joints = wheels(1)
+    m.motor("drive", joints[0], angle=motion)
+    with pytest.raises(TypeError, match=r"angle of motor 'drive' must have derivatives: .* np\.interp, np\.floor and % have"):
+        zd.simulate(m, 1.0, step=0.1)
+
+
+@pytest.mark.parametrize("given", [([0.0, 1.0], [0.0, 1.0]), np.zeros((2, 2)), {"t": 1.0}])
+def test_laws_are_numbers_functions_or_expressions(given):
+    m, _, joints = wheels(1)
+    with pytest.raises(TypeError, match="angle of motor 'drive' must be a number, a function or an expression of SymPy"):
+        m.motor("drive", joints[0], angle=given)
+
+
 # ---- events ----
 
 

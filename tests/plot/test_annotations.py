@@ -1,5 +1,6 @@
 """Pictures of mechanisms: names, forces to a scale, paths of points, other positions; in films, too."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -156,3 +157,30 @@ def test_what_needs_bodies_and_joints_says_so(given):
 @pytest.mark.parametrize(("value", "rounded"), [(0.73, 0.5), (1.0, 1.0), (4.9, 2.0), (999.0, 500.0), (0.0, 1.0)])
 def test_round_numbers(value, rounded):
     assert annotations.round_number(value) == pytest.approx(rounded)
+
+
+def test_a_load_of_zero_is_not_drawn_and_symbols_beside_arrows_are_hollow():
+    m = zd.Mechanism("cantilever", gravity=(0, -9.81))
+    beam = m.link("beam", (0, 0), (1, 0), mass=100.0)
+    m.revolute("A", m.ground, beam.start)
+    m.force("nothing", beam.end, along=(0, 1), value=0.0)
+    m.torque("no moment", beam, value=0.0)
+    m.force("wind", beam.end, along=(1, 1), value=5.0)
+    sol = zd.simulate(m, 0.1, step=0.01)
+    to_scale, alone = zd.plot.mechanism(sol, t=0.0, forces=["A"], names=True), zd.plot.mechanism(sol, t=0.0)
+    assert len(outlines(alone, "load")) == 1
+    assert len(outlines(to_scale, "load_symbol")) == 1
+    for ax in (to_scale, alone):
+        assert not [each for each in ax.collections if each.get_label() == "_moment"]
+    assert not [each for each in to_scale.collections if each.get_label() == "_load"]
+    assert "nothing" not in {text.get_text() for text in to_scale.texts}
+
+
+def test_paths_in_space_are_those_of_the_points():
+    m = zd.Mechanism("pendulum", dimension=3, gravity=(0, 0, -9.81))
+    m.rod("wire", m.ground.point((0, 0, 0)), m.particle("bob", 1.0, at=(1, 0, -1)))
+    sol = zd.simulate(m, 1.0, step=0.01)
+    ax = zd.plot.path(sol, "bob")
+    np.testing.assert_array_equal(np.array(ax.lines[0].get_data_3d()).T, sol["bob.position"])
+    with pytest.raises(ValueError, match="3D axes"):
+        zd.plot.path(sol, "bob", ax=plt.figure().add_subplot())

@@ -77,7 +77,7 @@ def kinds(system, name):
 
 def test_every_glyph_is_drawn():
     made = {shape.kind for m in (sorts(), planetary(), steering(), valve()) for shape in m.system()._shapes(m.system().p0)}
-    assert made == set(GLYPHS) - {"curve"}      # of systems that are drawn from points
+    assert made == set(GLYPHS) - {"curve", "load_symbol"}     # of systems that are drawn from points; beside arrows to scale
 
 
 @pytest.mark.parametrize("what", [every_element.machinery, every_element.hinged, every_element.vehicles,

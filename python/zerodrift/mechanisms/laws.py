@@ -36,6 +36,8 @@ class Law:
             self._function, self._bound = given, {name: bound[name] for name in self._names if name in bound}
         elif hasattr(given, "free_symbols"):
             self._read_expression(given, bound, list(parameters))
+        elif isinstance(given, tuple | list | dict) or np.ndim(given):
+            raise TypeError(f"{what} must be a number, a function or an expression of SymPy, not {_check.shown(given)}")
         else:
             self.constant, self._names, self._bound = _check.number(what, given), [], {}
         self.measures = tuple(self._bound.values())
@@ -82,10 +84,25 @@ class Law:
         return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
 
     def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> jets.Jet:
-        """Its value with derivatives; a law that is constant along them has none."""
-        value = self.value(t, x, parameters)
+        """Value with derivatives; zero derivatives of a law that is constant along them."""
+        x = tuple(x)
+        try:
+            value = self.value(t, x, parameters)
+        except (TypeError, AttributeError) as error:
+            if not self._has_value(t, x, parameters):
+                raise
+            raise TypeError(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
+                            "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none") from error
         value = value[()] if isinstance(value, np.ndarray) else value
         return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
+
+    def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
+        """Success of an evaluation with floats instead of jets."""
+        try:
+            self.value(jets.value(t), [jets.value(each) for each in x], parameters)
+        except Exception:
+            return False
+        return True
 
     @property
     def inner_expression(self) -> Any:

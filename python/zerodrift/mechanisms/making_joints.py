@@ -302,8 +302,9 @@ class JointVerbs(SpaceJointVerbs):
         along : array_like (2,) or (3,)
             The direction in the drawing in which it glides; it turns with the body.
         normal : array_like (3,), optional
-            In space: of the ice in the drawing, perpendicular to `along`; left out: against gravity, and where there is none, z,
-            made perpendicular. What is across both is held.
+            In space: a direction in the drawing, made perpendicular to `along`; left out: against gravity, and where there is no
+            gravity, z. The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a
+            body that leans takes it along. The joint does not keep the point on a plane.
 
         Returns
         -------

@@ -28,11 +28,14 @@ def forces(posed: Posed) -> Iterator[Shape]:
     for motor in drawing.of(Motor):
         yield _motor(motor, posed)
     for force in drawing.of(Force):
+        if force.law.constant == 0:
+            continue
         place, along = posed.at(force.point), posed.direction(force.frame, force.along)
         yield from _to_outside(place, force.point, posed)
         yield Shape("load", np.array([place, _sign(force.law) * along]), force.name)
     for torque in drawing.of(Torque):
-        yield Shape("moment", posed.at(torque.body.center)[None], torque.name, _sign(torque.law))
+        if torque.law.constant != 0:
+            yield Shape("moment", posed.at(torque.body.center)[None], torque.name, _sign(torque.law))
 
 
 def _to_outside(place: np.ndarray, point: Point, posed: Posed) -> Iterator[Shape]:
@@ -86,7 +89,7 @@ def _motor(motor: Motor, posed: Posed) -> Shape:
 
 
 def _sign(law: Law) -> float:
-    """Of what it says, where that does not change."""
+    """Sign of a constant law; +1 for a law that varies."""
     return -1.0 if law.constant is not None and law.constant < 0 else 1.0
 
 

@@ -1,4 +1,4 @@
-"""What the paper says about Figures 5-9, and what we measure. Nothing here is tuned: a claim may come out or not."""
+"""Claims of the paper about Figures 5-9, and measured values. Nothing here is tuned: a claim may hold or not."""
 
 from __future__ import annotations
 

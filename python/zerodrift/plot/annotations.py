@@ -26,7 +26,8 @@ ASIDE = 0.42                # of a bar: where its name is, as in the middle ther
 BESIDE_PIN = 1.7            # sizes from a pin's middle to its name
 NAMED = {"pin": "pin", "mark": "pin", "particle": "pin", "blade": "pin", "weld": "pin", "bushing": "pin", "link": "bar",
          "rod": "bar", "spring": "bar", "damper": "bar", "cylinder": "bar", "disc": "below", "wheel": "below", "slider": "below",
-         "motor": "left", "drive": "left", "load": "tip", "moment": "left"}
+         "motor": "left", "drive": "left", "load": "tip",
+         "load_symbol": "tip", "moment": "left"}
 
 
 class Arrow(NamedTuple):
@@ -50,7 +51,7 @@ def hold(ax: Axes, *places: Any) -> None:
 
 
 def draw_path(ax: Axes, places: np.ndarray, width: float, **style: Any) -> Any:
-    """The path (n, 2) of a point, dashed, so that it is one without colour, too."""
+    """Path (n, 2) or (n, 3) of a point, dashed, so that it is recognised without colour."""
     look = {"color": PATH, "linewidth": max(1.4 * width, THINNEST), "linestyle": (0, (5, 1.6)), "zorder": 3.2, "label": "_path"}
     look |= style
     return ax.plot(*np.asarray(places).T, **look)[0]
@@ -133,7 +134,7 @@ def _anchor(shape: Shape, size: float) -> np.ndarray:
     if NAMED[shape.kind] == "bar":
         corners = hull(shape.points)
         return corners.mean(axis=0) if len(corners) > 2 else corners[0] + ASIDE * (corners[1] - corners[0])
-    if shape.kind == "load":
+    if shape.kind in ("load", "load_symbol"):
         return shape.points[0] + 9 * size * shape.points[1]
     return shape.points[0]
 

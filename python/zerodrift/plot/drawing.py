@@ -96,7 +96,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     if moments is None:
         return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
     if _is_in_space(moments):
-        extras = Extras(names, paths_of(sol, path, 3), _arrows(sol, forces, rows[:1]), force_scale)
+        extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
         picture = SpacePicture(drawing_axes(ax, 3), moments, extras)
     else:
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
@@ -107,7 +107,9 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
 
 
 def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """Draw the paths of points of a mechanism, to equal scales; `mechanism(sol, path=...)` draws the mechanism, too.
+    """Draw the paths of points of a mechanism in the plane or in space, to equal scales.
+
+    `mechanism(sol, path=...)` draws the mechanism, too.
 
     Parameters
     ----------
@@ -116,7 +118,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     points : str, point or measure, or a sequence of them
         Such as ``"F"``, ``"rod.end"``, ``rod.end`` or ``"F.position"``.
     ax : Axes, optional
-        Left out: a new figure.
+        Left out: a new figure, with 3D axes for a mechanism in space.
     **style
         For ``ax.plot``.
 
@@ -128,6 +130,8 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     ------
     KeyError
         If there is no such point.
+    ValueError
+        For a measure that is not a position, and for flat axes and a mechanism in space.
 
     Examples
     --------
@@ -137,7 +141,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     """
     _check.instance("sol", sol, Solution, A_SOLUTION)
     found = paths_of(sol, points)
-    ax = drawing_axes(ax, 2)
+    ax = drawing_axes(ax, 3 if any(places.shape[1] == 3 for places in found) else 2)
     for places in found:
         draw_path(ax, places, 1.0, **style)
     return with_equal_scales(ax)
@@ -190,7 +194,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     if moments is None:
         return _film(ax, moved_in_space(ax, points), times, fps)
     if _is_in_space(moments):
-        extras = Extras(names, paths_of(sol, path, 3), _arrows(sol, forces, rows), force_scale)
+        extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
         return _film(ax, SpacePicture(ax, moments, extras).show, times, fps)
     extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
@@ -237,8 +241,8 @@ def _is_in_space(moments: list[list[Shape]]) -> bool:
     return any(shape.points.shape[1] == 3 for shape in moments[0])
 
 
-def paths_of(sol: Solution | None, points: Any, dimension: int = 2) -> list[np.ndarray]:
-    """The places (k, dimension) of points at all rows."""
+def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
+    """Positions (k, 2) or (k, 3) in m of points at all samples."""
     several = points if isinstance(points, list | tuple) else [points]
     found = []
     for point in several:
@@ -246,8 +250,8 @@ def paths_of(sol: Solution | None, points: Any, dimension: int = 2) -> list[np.n
         if not isinstance(name, str):
             raise TypeError(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
-        if places.ndim != 2 or places.shape[1] != dimension:
-            raise ValueError(f"path {name!r} must be of a point of {'the plane' if dimension == 2 else 'space'}")
+        if places.ndim != 2:
+            raise ValueError(f"path {name!r} must be of a point, not of the scalar {name}.position")
         found.append(places)
     return found
 

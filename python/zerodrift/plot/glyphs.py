@@ -302,6 +302,12 @@ def load(shape: Shape, size: float) -> list[Mark]:
     return [arrow(place, place + 9 * size * direction, size, face=LOAD, edge=WHITE, width=0.6)]
 
 
+def load_symbol(shape: Shape, size: float) -> list[Mark]:
+    """Hollow arrow: direction of a force beside arrows that are drawn to a scale."""
+    place, direction = shape.points
+    return [arrow(place, place + 9 * size * direction, size, face=WHITE, edge=GREY, width=0.8)]
+
+
 def moment(shape: Shape, size: float) -> list[Mark]:
     """A moment about a place; clockwise where its number is negative."""
     start, angle = (-0.75 * np.pi, 1.5 * np.pi) if shape.number >= 0 else (-0.25 * np.pi, -1.5 * np.pi)
@@ -318,7 +324,7 @@ class Glyph(NamedTuple):
 
 BACK_TO_FRONT = (ring, gear, cam, ground, wall, rail, road, wheel, disc, coupled, guide, link, curve, groove, rod, cylinder,
                  damper, spring, slider, rack, block, bushing, weld, particle, roller, spiral, pin, blade, mark, motor, drive,
-                 load, moment)
+                 load, load_symbol, moment)
 DIRECTED = {"drive": 2, **dict.fromkeys(("rail", "road", "wall", "groove", "guide", "slider", "block", "disc", "wheel", "gear",
-                                         "ring", "rack", "blade", "weld", "load"), 1)}
+                                         "ring", "rack", "blade", "weld", "load", "load_symbol"), 1)}
 GLYPHS = {draw.__name__: Glyph(draw, 1.5 + 0.05 * i, DIRECTED.get(draw.__name__, 0)) for i, draw in enumerate(BACK_TO_FRONT)}

@@ -47,7 +47,7 @@ class Picture:
     def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING) -> None:
         shown = {arrow.name for arrow in extras.arrows}
         self.ax = ax
-        self._moments = [[each for each in shapes if each.kind != "load" or each.name not in shown] for shapes in moments]
+        self._moments = [_beside_arrows(shapes, shown) for shapes in moments] if shown else moments
         self._drawn: dict[str, PathCollection] = {}
         places = [_extent(shape) for shapes in self._moments for shape in shapes] or [np.zeros((1, 2))]
         places = np.vstack([*places, *extras.paths])
@@ -117,6 +117,12 @@ class Picture:
         collection.set_edgecolor([each.edge for each in marks])
         collection.set_linewidth([self.line * each.width for each in marks])
         collection.set_linestyle([each.dashes for each in marks])
+
+
+def _beside_arrows(shapes: list[Shape], shown: set[str]) -> list[Shape]:
+    """Shapes beside arrows that are drawn to a scale: loads among these arrows have no symbol, other loads a hollow one."""
+    kept = [each for each in shapes if each.kind != "load" or each.name not in shown]
+    return [each._replace(kind="load_symbol") if each.kind == "load" else each for each in kept]
 
 
 def points_of(ax: Axes) -> np.ndarray:

@@ -45,6 +45,7 @@ class Event:
 
     The crank and the rocker of a four-bar at right angles, compiled:
 
+    >>> import numpy as np
     >>> import sympy
     >>> bar = zd.systems.four_bar()
     >>> across = sympy.cos(sympy.Symbol("alpha1") - sympy.Symbol("alpha3"))
