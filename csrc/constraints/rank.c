@@ -38,6 +38,7 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
         .most_holonomic = system->mh,
         .is_large = is_large,
         .start_square = zd_take_doubles(arena, m),
+        .terms_square = zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -57,6 +58,7 @@ static void *take_selection(zd_arena *arena, const void *of)
         .Q = zd_take_doubles(arena, m * n),
         .G = zd_take_doubles(arena, m * m),
         .square = zd_take_doubles(arena, m),
+        .strength = zd_take_doubles(arena, m),
         .square_left = zd_take_doubles(arena, m),
         .weight = zd_take_doubles(arena, m),
         .K = zd_take_doubles(arena, m * m),
@@ -93,21 +95,24 @@ static void set_rows(const zd_point *point, const double *L)
         for (int i = 0; L && i < n; i++) q[i] *= sqrt(L[i * n + i]);
         self->square[k] = self->square_left[k] = zd_dot(n, q, q);
         double length = zd_dot(row.count, row.x, row.x);
+        self->strength[k] = fmin(1, length / self->rank->terms_square[k]);
         if (!(length > self->tolerance * self->rank->start_square[k])) self->square_left[k] = 0;
     }
 }
 
-/* The row among these of which the largest share is left, or -1. A later row is only preferred to an earlier one if twice as much of it
- * is left, so that rounding does not change the choice from point to point. */
+/* The row among these of which the largest share is left, weighted by its strength, or -1. A later row is only preferred to an earlier one if
+ * twice as much of it is left, so that rounding does not change the choice from point to point. */
 static int choose_row(const zd_selection *self, int begin, int end)
 {
     int best = -1;
-    double most = self->tolerance;
-    for (int k = begin; k < end; k++)
-        if (self->square_left[k] > most * self->square[k]) {
-            best = k;
-            most = 4 * self->square_left[k] / self->square[k];
-        }
+    double most = 0;
+    for (int k = begin; k < end; k++) {
+        if (!(self->square_left[k] > self->tolerance * self->square[k])) continue;
+        const double share = self->strength[k] * self->square_left[k] / self->square[k];
+        if (best >= 0 && !(share > most)) continue;
+        best = k;
+        most = 4 * share;
+    }
     return best;
 }
 

@@ -28,6 +28,7 @@ struct zd_rank {
     int lost;               /* rows for which limits stand: the last of the holonomic ones in point->C */
     int is_aside;           /* whether the points are those of steps that are none of the run's: what is kept from step to step stays */
     double *start_square;   /* (m,): squared lengths of the rows at the start */
+    double *terms_square;   /* (m,): squared magnitudes of the terms that the entries of the rows are sums of; where not known, start_square */
     double *rhs;            /* (m,): for formulations that give the point its velocity; else NULL */
     zd_look *look;          /* NULL where there are few rows, or the formulation's factorization tells that they are independent */
     zd_store *store;        /* the run's, for what it takes once rows may be dependent: */
@@ -47,6 +48,7 @@ struct zd_selection {
     double *C;              /* (rows, n): those that count */
     double *Q;              /* (m, n): rows being orthogonalized */
     double *G;              /* (m, m): products of the rows with those chosen; then, of rows not chosen, T in C_d = T C_r */
+    double *strength;       /* (m,): squared lengths of the rows over those of the terms that they are sums of, at most 1 */
     double *square, *square_left;   /* (m,): squared lengths of the rows, and of what is left of them once others are taken out */
     double *weight;         /* (m,): 1 / |row|^2 */
     double *K;              /* (rows, rows): B^T W B, factored; see rank.c */

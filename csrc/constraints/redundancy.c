@@ -8,6 +8,7 @@
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
+#include "../point/units.h"
 #include "redundant.h"
 #include "rows.h"
 
@@ -15,7 +16,8 @@ static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
 static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6): a larger rest shows a row that is independent elsewhere */
 static const double NO_ROW = 0x1p-80;   /* of the largest row, squared: a row that is shorter at the start counts as zero there */
 
-/* The lengths that rows have where nothing is singular. A row that is zero at the start is taken to be as long as the longest. */
+/* The lengths that rows have where nothing is singular. A row that is the rounding of terms is as long as these; one that is zero at the
+ * start for another reason is taken to be as long as the longest. */
 static void measure(const zd_point *point)
 {
     const zd_rank *self = point->rank;
@@ -23,10 +25,16 @@ static void measure(const zd_point *point)
     for (int k = 0; k < m; k++) {
         zd_row_of_C row = zd_point_row(point, k);
         self->start_square[k] = zd_dot(row.count, row.x, row.x);
+        if (self->start_square[k] <= point->rounding[k] * point->rounding[k])
+            self->start_square[k] = point->rounding[k] * point->rounding[k] / NO_ROW;
     }
     double largest = zd_max_abs(m, self->start_square);
     for (int k = 0; k < m; k++)
         if (!(self->start_square[k] > NO_ROW * largest)) self->start_square[k] = largest;
+    for (int k = 0; k < m; k++) {
+        const double of_terms = point->rounding[k] * point->rounding[k] / NO_ROW;
+        self->terms_square[k] = of_terms > 0 ? of_terms : self->start_square[k] > 0 ? self->start_square[k] : 1;
+    }
 }
 
 /* v <- v0 and a random velocity that satisfies C v = 0 */
@@ -145,6 +153,7 @@ static int tell_redundant_rows(zd_point *point)
 int zd_redundancy_prepare(zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_M);
+    if (!status) status = zd_point_measure(point);
     if (status) return status;
     point->rank->may_be_deficient = 1;
     measure(point);

@@ -6,6 +6,7 @@
 #include "check.h"
 #include "evaluate.h"
 #include "length.h"
+#include "magnitudes.h"
 #include "measures.h"
 #include "products.h"
 #include "structure.h"
@@ -254,6 +255,8 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->pins.are_all ? &zd_mechanism_products : NULL,
         .pinned = self->packing && self->packing->pinned.pins ? &self->packing->pinned : NULL,
+        .magnitudes = has_tree(tables) ? zd_mechanism_magnitudes : NULL,
+        .magnitudes_scratch = zd_frame_divide(self, &self->frame_at),
     };
     self->measures = zd_mechanism_measures(self, from->uses.measure);
 }

@@ -39,6 +39,7 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .inverse_unit_p = zd_take_doubles(arena, nq),
         .size = zd_take_doubles(arena, m),
         .inverse_size = zd_take_doubles(arena, m),
+        .rounding = zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &point, sizeof point);
 }

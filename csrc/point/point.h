@@ -40,6 +40,7 @@ typedef struct zd_point {
     double *inverse_unit_p;         /* (nq,): 1 / the same of the coordinates */
     double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
     double *inverse_size;       /* (m,): 1 / size */
+    double *rounding;       /* (m,): lengths of rows of C at and below which they are the rounding of terms that cancel; 0: not known */
     int measured;           /* whether these are known */
     int failed_index, failed_column;    /* the coordinate or row that a failed factorization names; of an asymmetric M, the column, too */
     double residual_left;   /* what a failed iteration was left with */

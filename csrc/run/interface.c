@@ -216,6 +216,12 @@ static int check_residuals(const zd_system *system, text message)
     return refuse(message, "residuals: there is a function for their derivative, and a scratch that is a size, not %d", residuals->scratch);
 }
 
+static int check_magnitudes(const zd_system *system, text message)
+{
+    if (!system->magnitudes || !is_no_size(system->magnitudes_scratch)) return ZD_DONE;
+    return refuse(message, "magnitudes: their scratch must be a size, not %d", system->magnitudes_scratch);
+}
+
 static int check_inputs(const zd_system *system, text message)
 {
     if (is_no_count(system->inputs) || (system->inputs && !system->input))
@@ -279,8 +285,8 @@ static int check_followers(const zd_system *system, text message)
 int zd_check_interface(const zd_system *system, char *message, int size)
 {
     static int (*const checks[])(const zd_system *, text) = {
-        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_jacobian, check_residuals, check_inputs, check_switched_groups,
-        check_quaternions,
+        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_jacobian,
+        check_residuals, check_magnitudes, check_inputs, check_switched_groups, check_quaternions,
     };
     int status = ZD_DONE;
     for (size_t i = 0; i < sizeof checks / sizeof checks[0] && !status; i++) status = checks[i](system, (text){message, size});

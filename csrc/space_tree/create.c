@@ -7,6 +7,7 @@
 #include "../workspace.h"
 #include "evaluate.h"
 #include "inward.h"
+#include "magnitudes.h"
 #include "motion.h"
 #include "reactions.h"
 #include "turns.h"
@@ -175,6 +176,8 @@ static void carry_bodies(zd_space *self, const parts *from)
     system->quaternion = from->quaternion;
     system->followers = from->followers;
     system->follow = from->followers ? zd_tree3_follow : NULL;
+    system->magnitudes = zd_tree3_magnitudes;
+    system->magnitudes_scratch = system->scratch;
 }
 
 static zd_space *refuse(zd_space *space, void *memory, const char *why, char *message, int message_size)

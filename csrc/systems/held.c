@@ -180,6 +180,20 @@ static void follow(const void *data, double *p)
     inner->follow(inner->data, p);
 }
 
+/* Those of the inner system's rows that count here, and ones of the rows that hold something. */
+static int magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
+{
+    const zd_held *held = data;
+    const zd_system *inner = held->inner;
+    const int kept = held->of_positions ? inner->mh : zd_constraints(inner);
+    const int rows = kept + count(held->hold, held->of_positions ? inner->nq - inner->followers : inner->nv);
+    double *of_inner = scratch + inner->magnitudes_scratch;
+    const int status = inner->magnitudes(inner->data, t, p, v, of_inner, scratch);
+    copy(magnitude, of_inner, 2 * kept);
+    for (int i = 2 * kept; i < 2 * rows; i++) magnitude[i] = 1;
+    return status;
+}
+
 static void *take(zd_arena *arena, const void *of)
 {
     const holding *it = of;
@@ -192,6 +206,8 @@ static void *take(zd_arena *arena, const void *of)
     self->system.name_row = name_row;
     self->system.operations = NULL;         /* these two are of the inner system alone */
     self->system.follow = inner->follow ? follow : NULL;
+    self->system.magnitudes = inner->magnitudes ? magnitudes : NULL;
+    self->system.magnitudes_scratch += 2 * zd_constraints(inner);
     self->system.direct = NULL;
     self->system.directs = 0;
     if (!inner->structure) return here;

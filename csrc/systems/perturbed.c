@@ -43,6 +43,13 @@ static void follow(const void *data, double *p)
     inner->follow(inner->data, p);
 }
 
+/* Of the rows as they are: a rounding does not change them. */
+static int magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
+{
+    const zd_system *inner = ((const zd_perturbation *)data)->system;
+    return inner->magnitudes(inner->data, t, p, v, magnitude, scratch);
+}
+
 zd_system zd_perturbed(const zd_perturbation *perturbation)
 {
     zd_system system = *perturbation->system;
@@ -52,6 +59,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     /* The rates of followers may be nowhere else; the other operations are of the terms as they are. */
     system.operations = system.followers && system.operations && system.operations->times_A ? &rates : NULL;
     system.follow = system.follow ? follow : NULL;
+    system.magnitudes = system.magnitudes ? magnitudes : NULL;
     system.direct = NULL;
     system.directs = 0;
     system.series = perturbation->series;      /* of the terms as they are perturbed */

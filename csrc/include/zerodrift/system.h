@@ -318,6 +318,11 @@ typedef struct zd_system {
     int followers;                  /* so many entries of p follow the others, as an angle that counts turns follows two attitudes: they are the last
                                      * ones, of no block, and no row of A is stored for them, so that times_A has to be there */
     void (*follow)(const void *data, double *p);    /* brings them to what they follow, with the turns that they have; no term differs by that */
+    /* magnitude (m, 2) <- of each row of C, the sum of the magnitudes of the terms of its entries before they cancel: the largest entry of a
+     * velocity that is a length per time, and of another velocity. A row that is much shorter is rounding. `scratch` holds as many doubles
+     * as the next member says. Returns ZD_DONE or ZD_CALLBACK. NULL: no entries cancel, and rows are as large as they are. */
+    int (*magnitudes)(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
+    int magnitudes_scratch;
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

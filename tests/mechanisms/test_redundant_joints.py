@@ -1,0 +1,133 @@
+"""Constraints that the tree of joint coordinates already satisfies: braces within welded bodies, second hinges, bearings and rails."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+FORMULATIONS = list(zd.formulations())
+FINE = {"integrator": "dop853", "rtol": 1e-10, "atol": 1e-10}
+AGREE = 1e-7        # of motions at these tolerances, over a second; forces are a hundred times as large as positions here
+
+
+def braced(kind, seed):
+    """A pendulum of two bodies that are welded together, and a brace between them at random places."""
+    random = np.random.default_rng(seed)
+    a, b, c, p, q = random.uniform(-1, 1, (5, 2))
+    m = zd.Mechanism("braced", gravity=(0, -9.81))
+    arm, leg = m.link("arm", a, b, mass=1.0), m.link("leg", b, c, mass=1.0)
+    m.revolute("hinge", m.ground, arm.start)
+    m.weld("corner", arm.end, leg.start)
+    ends = {"rod": (arm.point(at=p), leg.point(at=q)), "actuator": (arm.point(at=p), leg.point(at=q)), "slot": (arm, leg.point(at=p))}
+    told = {"rod": {}, "actuator": {"length": float(np.linalg.norm(p - q))}, "slot": {"axis": q}, "prismatic": {"axis": q, "at": p}}
+    getattr(m, kind)("brace", *ends.get(kind, (arm, leg)), **told.get(kind, {"at": p}))
+    return m
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("kind", ["rod", "actuator", "slot", "prismatic", "revolute", "weld"])
+def test_a_brace_within_welded_bodies_changes_nothing(kind, seed):
+    m = braced(kind, seed)
+    runs = [zd.simulate(m.system(each), 1.0, t_eval=np.linspace(0, 1, 11), **FINE) for each in ("absolute", "joint")]
+    assert runs[1].stats["rank"] == 0
+    np.testing.assert_allclose(runs[1]["leg.end.position"], runs[0]["leg.end.position"], atol=AGREE)
+    np.testing.assert_allclose(runs[1]["hinge.force"], runs[0]["hinge.force"], atol=1e3 * AGREE)
+
+
+def test_it_swings_as_without_the_brace(formulation):
+    swings = zd.simulate(braced("rod", 5), 1.0, step=0.01, formulation=formulation)
+    assert np.ptp(swings["arm.angle"]) > 0.5
+    assert abs(swings.energy_violation).max() < 1e-5
+
+
+def on_two(kind, axis, at, apart):
+    """A body that is held twice along one axis."""
+    m = zd.Mechanism(kind, dimension=3, gravity=(0, 0, -9.81))
+    body = m.body("b", 2.0, (0.3, 0.2, 0.1), at=(0.2, -0.3, 0.4))
+    first, second = {"shaft": ("revolute", "cylindrical"), "door": ("revolute",) * 2, "drawer": ("prismatic",) * 2}[kind]
+    getattr(m, first)("first", m.ground, body, at=at, axis=axis)
+    getattr(m, second)("second", m.ground, body, at=at + apart, axis=axis)
+    m.start({"first.speed": 2.0})
+    return m
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("kind", ["shaft", "door", "drawer"])
+def test_a_second_bearing_or_rail_at_any_place(kind, seed):
+    random = np.random.default_rng(seed)
+    axis, at = random.standard_normal(3), random.uniform(-0.8, 0.8, 3)
+    axis /= np.linalg.norm(axis)
+    m = on_two(kind, axis, at, np.array([0.1, 0.2, 0.3]) if kind == "drawer" else 0.5 * axis)
+    want = zd.simulate(m.system("absolute"), 0.3, t_eval=np.linspace(0, 0.3, 7), **FINE)
+    for formulation in FORMULATIONS:
+        sol = zd.simulate(m.system("joint"), 0.3, t_eval=np.linspace(0, 0.3, 7), formulation=formulation, **FINE)
+        np.testing.assert_allclose(sol["b.position"], want["b.position"], atol=AGREE)
+
+
+def bolted(turn, times):
+    """Two bodies that one hinge or two hinges join, drawn at an angle."""
+    m = zd.Mechanism("bolted", gravity=(0, -9.81))
+    c, s = np.cos(turn), np.sin(turn)
+    one, two, *hinges = [np.array([c * x - s * y, s * x + c * y]) for x, y in [(0, 0), (0.3, 0), (0.4, 0.1), (0.9, 0.0)]]
+    first = m.link("one", one, one + [c, s], mass=1.0)
+    second = m.link("two", two, two + [c - 0.2 * s, s + 0.2 * c], mass=1.0)
+    m.revolute("axle", m.ground, first.start)
+    if times == 1:
+        m.weld("bolt", first, second, at=hinges[0])
+    for name, at in zip(("left", "right"), hinges[:times if times > 1 else 0], strict=False):
+        m.revolute(name, first, second, at=at)
+    m.start({"one.angular_velocity": 3.0})
+    return m
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.1, 2.9])
+def test_the_constraint_that_is_left_out_follows_the_motion(turn, formulation):
+    """Each constraint of the second hinge vanishes at some angle, and the other one holds there."""
+    at = np.linspace(0, 5, 6)
+    want = zd.simulate(bolted(turn, 1), 5.0, t_eval=at, **FINE)
+    sol = zd.simulate(bolted(turn, 2).system("joint"), 5.0, t_eval=at, formulation=formulation, **FINE)
+    np.testing.assert_allclose(sol["one.angle"], want["one.angle"], atol=1e-6)
+    assert sol.stats["steps"] < 3 * want.stats["steps"]
+
+
+def on_balls(balls):
+    m = zd.Mechanism("balls", dimension=3, gravity=(0, 0, -9.81))
+    inner = m.body("inner", 1.0, (0.1, 0.2, 0.3), at=(0.3, 0, 0))
+    outer = m.body("outer", 1.5, (0.3, 0.2, 0.1), at=(0.6, 0.2, 0.1))
+    m.spherical("ball 0", m.ground, inner, at=(0, 0.1, 0))
+    m.revolute("hinge", inner, outer, at=(0.5, 0, 0), axis=(0, 0, 1))
+    for i in range(1, balls):
+        m.spherical(f"ball {i}", m.ground, inner, at=(0, 0.1, 0))
+    m.start({"inner.angular_velocity": (1.0, 2.0, 3.0)})
+    return m
+
+
+def test_reactions_read_after_a_run_are_those_that_were_recorded(formulation):
+    at = np.linspace(0, 0.5, 6)
+    want = zd.simulate(on_balls(1).system("joint"), 0.5, t_eval=at, **FINE)
+    how = {"t_eval": at, "formulation": formulation, **FINE}
+    sol = zd.simulate(on_balls(2).system("joint"), 0.5, **how)
+    recorded = zd.simulate(on_balls(2).system("joint"), 0.5, outputs=["hinge.force"], **how)
+    np.testing.assert_allclose(sol["hinge.force"], want["hinge.force"], atol=1e-6)
+    np.testing.assert_allclose(sol["hinge.force"], recorded["hinge.force"], atol=1e-9)
+    np.testing.assert_allclose(sol["ball 0.force"] + sol["ball 1.force"], want["ball 0.force"], atol=1e-6)
+    assert sol.unique("hinge.force").all()
+    assert not sol.unique("ball 0.force").any()
+
+
+def test_a_certificate_of_a_braced_pendulum_holds():
+    m = braced("rod", 5)
+    found = zd.reference(m, 1.0, error=1e-9, t_eval=[1.0])
+    want = zd.simulate(m.system("absolute"), 1.0, rtol=1e-12, atol=1e-12, integrator="dop853", t_eval=[1.0])
+    assert abs(found.solution["arm.angle"] - want["arm.angle"]).max() < found.error
+
+
+def test_contradictions_among_welded_bodies_are_refused():
+    """A cylinder cannot lengthen between bodies that are welded together."""
+    m = zd.Mechanism("pulled apart", gravity=(0, -9.81))
+    arm, leg = m.link("arm", (0, 0), (1, 0), mass=1.0), m.link("leg", (1, 0), (1, 1), mass=1.0)
+    m.revolute("hinge", m.ground, arm.start)
+    m.weld("corner", arm.end, leg.start)
+    m.actuator("jack", arm.start, leg.end, length=lambda t: np.sqrt(2) + 0.1 * t)
+    with pytest.raises((zd.ZerodriftError, ValueError), match="jack"):
+        zd.simulate(m.system("joint"), 1.0, step=0.01)
