@@ -217,6 +217,7 @@ typedef struct zd_saved {       /* the rows of a run in which every step was sav
     const double *p, *v;        /* (rows, nq), (rows, nv) */
     const double *input;        /* (rows,) J; NULL where there is none */
     int ends_in_event;          /* whether the last row is a terminal event */
+    int64_t stride;             /* numbers from a row to the next, the same in each array, as in a file of rows; 0: arrays are contiguous */
 } zd_saved;
 
 typedef struct zd_run zd_run;

@@ -10,12 +10,23 @@
 #include "../stepping/adaptive.h"
 #include "../stepping/spread.h"
 
+/* A row of one of the arrays, with `size` numbers in each row. */
+static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)
+{
+    return array + row * (saved->stride ? saved->stride : size);
+}
+
+static double time_of(const zd_saved *saved, int64_t row)
+{
+    return *row_of(saved, saved->t, 1, row);
+}
+
 static int64_t row_before(const zd_saved *saved, double t)
 {
     int64_t low = 0, high = saved->rows;      /* it is in low ... high - 1 */
     while (high - low > 1) {
         const int64_t middle = low + (high - low) / 2;
-        if (saved->t[middle] <= t) low = middle;
+        if (time_of(saved, middle) <= t) low = middle;
         else high = middle;
     }
     return low;
@@ -26,27 +37,28 @@ static int place(zd_revisit *self, int64_t row)
     zd_motion *motion = &self->run->motion;
     zd_stepper *stepper = &self->run->stepper;
     const zd_saved *saved = self->saved;
-    const double *p = saved->p + row * motion->system.nq, *v = saved->v + row * motion->system.nv;
-    if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = saved->input[row];
-    return zd_stepper_place(stepper, saved->t[row], p, v);
+    const double *p = row_of(saved, saved->p, motion->system.nq, row), *v = row_of(saved, saved->v, motion->system.nv, row);
+    if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *row_of(saved, saved->input, 1, row);
+    return zd_stepper_place(stepper, time_of(saved, row), p, v);
 }
 
 static int make_step(zd_revisit *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
-    const double *t = self->saved->t + row, step = self->run->settings.step;
+    const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1), step = self->run->settings.step;
     const int is_last = row + 2 == self->saved->rows;
     if (!(step > 0)) zd_adaptive_weigh(&self->run->course);
-    int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : t[1] - t[0]);
-    return status ? status : zd_stepper_land(stepper, t[1], row + 1, is_last);
+    int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : next - t);
+    return status ? status : zd_stepper_land(stepper, next, row + 1, is_last);
 }
 
 static int is_at(const zd_revisit *self, int64_t row)
 {
     const zd_point *point = self->run->motion.point;
-    const size_t nq = (size_t)point->system->nq, nv = (size_t)point->system->nv;
-    return !memcmp(point->p, self->saved->p + (size_t)row * nq, nq * sizeof(double))
-        && !memcmp(point->v, self->saved->v + (size_t)row * nv, nv * sizeof(double));
+    const zd_saved *saved = self->saved;
+    const int nq = point->system->nq, nv = point->system->nv;
+    return !memcmp(point->p, row_of(saved, saved->p, nq, row), (size_t)nq * sizeof(double))
+        && !memcmp(point->v, row_of(saved, saved->v, nv, row), (size_t)nv * sizeof(double));
 }
 
 /* To the row, and onto the road that a step takes from there */
@@ -120,7 +132,7 @@ static int find_road(zd_revisit *self, int64_t row)
 int zd_revisit_move(zd_revisit *self, double t)
 {
     const int64_t row = row_before(self->saved, t);
-    if (t == self->saved->t[row]) return place(self, row);
+    if (t == time_of(self->saved, row)) return place(self, row);
     int status = row == self->row ? ZD_DONE : find_road(self, row);
     if (status) return status;
     if (self->has_polynomial) {

@@ -367,7 +367,7 @@ static int states_between(const zd_system *system, const zd_settings *settings, 
     double rows_p[2 * LARGEST], rows_v[2 * LARGEST], energies[] = {0, 1};
     const int nq = system->nq > 0 && system->nq < LARGEST ? system->nq : 0, nv = system->nv > 0 && system->nv < LARGEST ? system->nv : 0;
     for (int i = 0; i < LARGEST; i++) rows_p[i] = rows_p[nq + i] = p[i], rows_v[i] = rows_v[nv + i] = v[i];
-    const zd_saved saved = {2, t, rows_p, rows_v, energies, at > 1};
+    const zd_saved saved = {2, t, rows_p, rows_v, energies, at > 1, 0};
     const double within = at > t[0] && at < t[1] ? at : t[0] + (t[1] - t[0]) / 2;
     return zd_states_between(system, settings, &saved, 1, &within, p, v, message, size);
 }

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import textwrap
+import tracemalloc
 from dataclasses import fields
 from types import SimpleNamespace
 
@@ -27,6 +28,13 @@ WAYS = {
     "events": {"rtol": 1e-8, "integrator": "dormand_prince", "t_eval": np.linspace(0, 2, 77),
                "events": lambda t, p, v: np.sin(p[0])},
 }
+
+
+def ends(t, p, v):
+    return t - 0.555
+
+
+ends.terminal = True
 
 
 def is_in_file(array):
@@ -60,6 +68,35 @@ def test_bits_are_those_of_a_run_in_memory(bar, tmp_path, monkeypatch, way, bloc
     for ours, theirs in zip(here.t_events or (), again.t_events or (), strict=True):
         assert ours.tobytes() == theirs.tobytes()
     assert repr(again).splitlines()[3:] == repr(here).splitlines()[3:]
+
+
+@pytest.mark.parametrize("way", ["steps", "chosen steps", "cut short"])
+@pytest.mark.parametrize("name", ["four_bar", "oscillator", "mechanism"])
+def test_values_between_rows_have_the_bits_of_a_run_in_memory(tmp_path, name, way):
+    """The core reads the columns in the file; a measure behind them widens its rows."""
+    system = zd.models.four_bar() if name == "mechanism" else getattr(zd.systems, name)()
+    options = {"steps": {"step": 0.01}, "cut short": {"step": 0.01, "events": [ends]},
+               "chosen steps": {"rtol": 1e-8, "integrator": "dop853", "energy": name != "mechanism"}}[way]
+    options |= {"outputs": ["C.position"]} if name == "mechanism" and way == "steps" else {}
+    here, there = (zd.simulate(system, 1.0, save_to=to, **options) for to in (None, tmp_path / "run"))
+    times = np.concatenate([np.linspace(0, here.t[-1], 23), here.t[:3], here.t[-1:]])
+    for sol in (there, zd.load(tmp_path / "run.zd")):
+        assert is_in_file(sol.p)
+        for one, other in zip(here(times), sol(times), strict=True):
+            assert one.tobytes() == other.tobytes()
+        assert sol(0.123)[0].tobytes() == here(0.123)[0].tobytes()
+
+
+def test_values_between_rows_read_no_more_of_the_file_than_they_need(bar, tmp_path):
+    """All of t is not copied: a quarter of a million times are the memory of no single value."""
+    sol = zd.simulate(bar, 2.5, step=1e-5, save_to=tmp_path / "run")
+    sol(1.0)
+    tracemalloc.start()
+    sol([0.1234567, 2.3456789])
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert sol.t.nbytes == 8 * 250001
+    assert most < sol.t.nbytes / 10
 
 
 def test_measures_are_recorded_and_read_from_it(tmp_path, monkeypatch):

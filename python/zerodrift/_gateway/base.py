@@ -109,6 +109,14 @@ def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
     return ffi.from_buffer("double[]", array, require_writable=writable)
 
 
+def strided_doubles(array: np.ndarray, size: int) -> Any:
+    """The address of a float64 array of `size` entries, each of whose rows is contiguous; the caller keeps the array."""
+    is_regular = array.strides[0] > 0 and array.strides[0] % 8 == 0 and (len(array) == 0 or array[0].flags.c_contiguous)
+    if array.dtype != np.float64 or not array.flags.aligned or not is_regular or array.size != size:
+        raise TypeError(f"expected {size} float64 values in contiguous rows, got {array.dtype} of shape {array.shape}")
+    return ffi.cast("double *", array.ctypes.data)
+
+
 def cards(table: str) -> tuple[Card, ...]:
     """The rows of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import ffi, lib
-from .base import MESSAGE_SIZE, doubles, error_of, row_named, text
+from .base import MESSAGE_SIZE, doubles, error_of, row_named, strided_doubles, text
 from .callbacks import Watcher
 from .measures import Outputs
 from .systems import CoreSystem
@@ -304,14 +304,23 @@ class Run:
                        self._redundant(statistics.rank), ffi.buffer(lib.zd_run_sizes(run), size)[:] if size else b"")
 
 
+def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any], int]:
+    """Pointers to columns with so many entries, and their stride: columns of a file of rows are read in place, others contiguous."""
+    strides = {array.strides[0] for array, _ in columns.values()}
+    if len(strides) == 1 and not all(array.flags.c_contiguous for array, _ in columns.values()):
+        return {name: strided_doubles(array, size) for name, (array, size) in columns.items()}, strides.pop() // 8
+    return {name: doubles(np.ascontiguousarray(array), size) for name, (array, size) in columns.items()}, 0
+
+
 def states_between(core: CoreSystem, options: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
                    ends_in_event: bool, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the rows t, p, v of a run."""
     core, message, rows, count = core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
-    columns = {"t": doubles(t, rows), "p": doubles(p, rows * core.nq), "v": doubles(v, rows * core.nv)}
+    columns = {"t": (t, rows), "p": (p, rows * core.nq), "v": (v, rows * core.nv)}
     if energy_input is not None:
-        columns["input"] = doubles(energy_input, rows)
-    saved = ffi.new("zd_saved *", {"rows": rows, "ends_in_event": ends_in_event, **columns})
+        columns["input"] = energy_input, rows
+    memory, stride = _columns(columns)
+    saved = ffi.new("zd_saved *", {"rows": rows, "ends_in_event": ends_in_event, "stride": stride, **memory})
     found_p, found_v = np.empty((count, core.nq)), np.empty((count, core.nv))
     found = doubles(found_p, count * core.nq, writable=True), doubles(found_v, count * core.nv, writable=True)
     status = lib.zd_states_between(core.c, options, saved, count, doubles(times, count), *found, message, MESSAGE_SIZE)

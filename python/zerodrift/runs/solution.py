@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
@@ -309,7 +310,7 @@ class Solution:
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """At times (k,) that increase."""
-        rows = np.searchsorted(self.t, times, side="right") - 1
+        rows = _rows_before(self.t, times)
         p, v = self.p[rows], self.v[rows]
         between = times > self.t[rows]
         if between.any():
@@ -344,6 +345,13 @@ class Solution:
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
         write(path, {name: getattr(self, name) for name in FIELDS})
         return path
+
+
+def _rows_before(t: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Rows at or before times; of t in a file only the entries that bisection compares are read."""
+    if t.flags.c_contiguous:
+        return np.searchsorted(t, times, side="right") - 1
+    return np.array([bisect.bisect_right(t, time) - 1 for time in times], dtype=np.intp)
 
 
 FIELDS = tuple(each.name for each in fields(Solution))
