@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +31,8 @@ def load(path: str | Path) -> Any:
     Raises
     ------
     ValueError
-        If the file is none of these, or if there is something in a mechanism that this version does not know; the key and its
-        place are named.
+        If the file is none of these, was not written to its end, or if there is something in a mechanism that this version does
+        not know; the key and its place are named.
 
     Examples
     --------
@@ -49,6 +50,7 @@ def load(path: str | Path) -> Any:
     read_from = row_file.read if row_file.is_one(path) else read
     values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
+        _check_whole(path, values)
         return Solution(**values)
     content = Path(path).read_bytes()
     if b"zerodrift" in content and content.lstrip()[:1] == b"{":
@@ -57,6 +59,15 @@ def load(path: str | Path) -> Any:
         if description is not None:
             return rebuilding.mechanism(description, str(path))
     raise ValueError(f"{path} is no solution saved by zerodrift, no ensemble, and no mechanism")
+
+
+def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
+    """Refuses a file in which fields of a solution are missing."""
+    lacking = [each.name for each in fields(Solution)
+               if each.name not in values and each.default is MISSING and each.default_factory is MISSING]
+    if lacking:
+        raise ValueError(f"{path} must contain a whole solution, and lacks {', '.join(lacking)}: it was not written to its end, "
+                         "or was changed")
 
 
 def _is_zip(path: str | Path) -> bool:

@@ -14,6 +14,7 @@ import tolerances as tol
 import zerodrift as zd
 from small_studies import lowest, pendulum, slow, waits
 from support import ROOT
+from zerodrift import _writing
 from zerodrift.ensembles import store as module
 from zerodrift.ensembles.identity import Identity
 
@@ -93,7 +94,7 @@ def test_a_part_is_there_as_a_whole_or_not_at_all(tmp_path, monkeypatch):
     study = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
     (tmp_path / "study" / "runs_000000005_000000010.npz").unlink()
     with monkeypatch.context() as patched:
-        patched.setattr(module.os, "replace", full)
+        patched.setattr(_writing.os, "replace", full)
         with pytest.raises(OSError, match="no space left"):
             zd.ensemble(pendulum, 1.0, store=tmp_path / "study", chunk=5, **STUDY)
     assert not [path for path in (tmp_path / "study").iterdir() if path.name.startswith(".")]
@@ -115,10 +116,10 @@ def test_what_others_look_at_is_renamed_a_moment_later_on_windows(tmp_path, monk
             raise PermissionError("in use")
         replace(source, target)
 
-    monkeypatch.setattr(module, "AS_WINDOWS", True)
-    monkeypatch.setattr(module, "PAUSES", (0.0, 0.0, 0.0))
-    monkeypatch.setattr(module.os, "replace", in_use)
-    if refusals > len(module.PAUSES):
+    monkeypatch.setattr(_writing, "AS_WINDOWS", True)
+    monkeypatch.setattr(_writing, "PAUSES", (0.0, 0.0, 0.0))
+    monkeypatch.setattr(_writing.os, "replace", in_use)
+    if refusals > len(_writing.PAUSES):
         with pytest.raises(PermissionError, match="in use"):
             zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
         return

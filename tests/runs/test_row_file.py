@@ -184,6 +184,15 @@ def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
     assert not sol.success
 
 
+@pytest.mark.parametrize("length", [20, 100])
+def test_a_header_that_is_cut_short_is_refused(bar, tmp_path, length):
+    zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
+    path = tmp_path / "run.zd"
+    path.write_bytes(path.read_bytes()[:length])
+    with pytest.raises(ValueError, match=r"run\.zd cannot be read: its header must be whole"):
+        zd.load(path)
+
+
 def test_ctrl_c_keeps_what_was_written(bar, tmp_path):
     with pytest.raises(zd.Interrupted) as caught:
         zd.simulate(bar, 100.0, step=1e-3, save_to=tmp_path / "run", progress=At(3, throw(KeyboardInterrupt())))

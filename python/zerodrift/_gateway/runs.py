@@ -305,7 +305,7 @@ class Run:
 
 
 def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any], int]:
-    """Pointers to columns with so many entries, and their stride: columns of a file of rows are read in place, others contiguous."""
+    """Pointers to columns with so many entries, and their stride; 0: contiguous. Columns of a file of rows are read in place."""
     strides = {array.strides[0] for array, _ in columns.values()}
     if len(strides) == 1 and not all(array.flags.c_contiguous for array, _ in columns.values()):
         return {name: strided_doubles(array, size) for name, (array, size) in columns.items()}, strides.pop() // 8

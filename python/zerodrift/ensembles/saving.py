@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from .._writing import write_whole
 from ..errors import ZerodriftError
 from ..runs import saving
 from ..systems.base import BaseSystem
@@ -187,30 +189,23 @@ def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, An
 def write(path: Path, plan: Plan | Kept, part: Part) -> None:
     """Writes an ensemble."""
     arrays = {f"runs.{name}": array for name, array in packed_part(part).items()}
-    np.savez_compressed(path, **packed_plan(plan), **arrays)
+    arrays |= packed_plan(plan)
+    write_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[Kept, Part] | None:
     """The ensemble in a file; None: there is another thing in it."""
     if not is_ensemble(path):
         return None
-    arrays = read_arrays(path)
+    arrays = saving.read_arrays(path)
     part = {name.removeprefix("runs."): array for name, array in arrays.items() if name.startswith("runs.")}
-    return unpacked_plan(arrays, rebuilt), unpacked_part(part)
+    return unpacked_plan(arrays, rebuilt), unpacked_part(saving.Arrays(path, part))
 
 
 def is_ensemble(path: str | Path) -> bool:
     """Whether an ensemble was saved in this file."""
-    if not zipfile.is_zipfile(path):
-        return False
-    with np.load(path, allow_pickle=False) as file:
-        return KEY in file.files and json.loads(str(file[KEY])).get("kind") == WHAT
-
-
-def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
-    """The arrays of an NPZ file."""
     try:
         with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
-            return dict(file)
-    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
-        raise ValueError(f"{path} cannot be read: {error}") from None
+            return KEY in file.files and json.loads(str(file[KEY])).get("kind") == WHAT
+    except (zipfile.BadZipFile, zlib.error, ValueError, EOFError):      # a file that is cut short, or of another kind
+        return False

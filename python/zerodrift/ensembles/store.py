@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import platform
-import time
-import uuid
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -14,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from .._writing import write_whole
+from ..runs.saving import read_arrays
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
 from . import saving
@@ -25,8 +24,6 @@ FORMAT = 1
 MANIFEST, STUDY = "manifest.json", "study.npz"      # what tells the study from others, and its numbers
 PATTERN = "runs_*_*.npz"                            # each has the runs from the first number on, up to the second
 WHAT = "store of an ensemble"
-AS_WINDOWS = os.name == "nt"        # nothing is renamed there while somebody reads it, or what it is to replace
-PAUSES = 0.01, 0.1, 1.0             # s, before it is tried again
 
 
 def is_one(path: str | Path) -> bool:
@@ -77,14 +74,14 @@ class Store:
         if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
             raise ValueError(f"store {str(folder)!r} must be a new or an empty folder, or that of an ensemble, and it is neither")
         self.folder.mkdir(parents=True, exist_ok=True)
-        _write(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(plan)))
-        _write(self.folder / MANIFEST, lambda file: file.write(json.dumps(now, indent=1).encode()))
+        write_whole(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(plan)))
+        write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(now, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
         """What is done, by the first run of each part; no run twice."""
         found, end = {}, 0
         for (first, last), path in sorted(_files(self.folder).items()):
-            part = saving.unpacked_part(saving.read_arrays(path))
+            part = saving.unpacked_part(read_arrays(path))
             if last > end:          # two processes may have worked at the same study
                 found[max(first, end)] = part if first >= end else part.behind(end - first)
                 end = last
@@ -94,14 +91,14 @@ class Store:
         """Keeps a part, which may have been cut short."""
         if count := len(part.rows):
             path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
-            _write(path, lambda file: np.savez(file, **saving.packed_part(part)))
+            write_whole(path, lambda file: np.savez(file, **saving.packed_part(part)))
 
 
 def load(folder: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[saving.Kept, dict[int, Part]]:
     """What a store has, without the call that began it."""
     store = object.__new__(Store)
     store.folder = Path(folder)
-    return saving.unpacked_plan(saving.read_arrays(store.folder / STUDY), rebuilt), store.parts()
+    return saving.unpacked_plan(read_arrays(store.folder / STUDY), rebuilt), store.parts()
 
 
 def missing(parts: dict[int, Part], count: int, length: int) -> Iterator[tuple[int, int]]:
@@ -158,7 +155,7 @@ def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
 
 def _other_runs(folder: Path, plan: Plan) -> list[str]:
     """Which runs have other numbers, and the first of these."""
-    then = saving.unpacked_plan(saving.read_arrays(folder / STUDY), lambda description: None).runs
+    then = saving.unpacked_plan(read_arrays(folder / STUDY), lambda description: None).runs
     found = []
     for what, old, new in (("parameters", then.parameters, plan.runs.parameters),
                            ("start", _arrays(then.start_values), _arrays(plan.runs.start_values)),
@@ -199,26 +196,3 @@ def _files(folder: Path) -> dict[tuple[int, int], Path]:
         first, last = path.stem.split("_")[1:]
         found[int(first), int(last)] = path
     return found
-
-
-def _write(path: Path, write: Callable[[Any], Any]) -> None:
-    """Writes a file that is there as a whole or not at all, whenever the process or the machine dies."""
-    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
-    try:
-        with temporary.open("wb") as file:
-            write(file)
-            file.flush()
-            os.fsync(file.fileno())
-        _replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def _replace(temporary: Path, path: Path) -> None:
-    """Renames a file; on Windows, where other processes and scanners for viruses may look at it, again after a while."""
-    for pause in PAUSES if AS_WINDOWS else ():
-        try:
-            return os.replace(temporary, path)
-        except PermissionError:
-            time.sleep(pause)
-    return os.replace(temporary, path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 from pathlib import Path
 
+from .._writing import write_whole
 from .exhibits import Exhibit, exhibits
 from .films import film
 
@@ -79,10 +80,14 @@ def write(folder: str | Path, *, frames: int | None = None, names: list[str] | N
     folder.mkdir(parents=True, exist_ok=True)
     shown = [each for each in exhibits() if names is None or each.name in names]
     for each in shown:
-        (folder / f"{each.name}.png").write_bytes(film(each, frames=frames or FRAMES, width=WIDTH, height=HEIGHT))
+        _write(folder / f"{each.name}.png", film(each, frames=frames or FRAMES, width=WIDTH, height=HEIGHT))
     page = folder / "index.html"
-    page.write_text(PAGE.format(count=len(shown), figures="\n".join(map(_figure, shown))), encoding="utf-8")
+    _write(page, PAGE.format(count=len(shown), figures="\n".join(map(_figure, shown))).encode())
     return page
+
+
+def _write(path: Path, content: bytes) -> None:
+    write_whole(path, lambda file: file.write(content))
 
 
 def _figure(exhibit: Exhibit) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from .._writing import write_whole
 from ..systems.base import Makes, Terms
 from .describing import described, text
 from .drawing import Drawing
@@ -258,7 +259,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         """
         path = Path(path)
         path = path if path.suffix == ".json" else path.with_name(path.name + ".json")
-        path.write_text(text(described(self._drawing())), encoding="utf-8")
+        content = text(described(self._drawing())).encode()
+        write_whole(path, lambda file: file.write(content))
         return path
 
     def __repr__(self) -> str:

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .._writing import write_whole
 from . import FOUR_BAR, OSCILLATOR
 
 SPACING = 0.025         # s between the stored states
@@ -162,7 +163,8 @@ def write(path: Path = FILE) -> None:
     """Integrate anew and write the file."""
     rows = (f"{t:.3f},{a:.17g},{rate:.17g}\n" for t, (a, rate) in zip(four_bar_times(), four_bar_states(), strict=True))
     head = "# Example 1 by SciPy's DOP853 on the equation in alpha_1; written by python -m zerodrift.paper.reference\n"
-    path.write_text(head + "# t [s], alpha_1 [rad], its rate [rad/s]\n" + "".join(rows), encoding="ascii")
+    content = (head + "# t [s], alpha_1 [rad], its rate [rad/s]\n" + "".join(rows)).encode("ascii")
+    write_whole(path, lambda file: file.write(content))
 
 
 if __name__ == "__main__":

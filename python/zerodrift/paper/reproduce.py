@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from .._writing import write_whole
 from ..runs.simulate import simulate
 from . import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, claims, figures, run
 
@@ -53,9 +55,9 @@ def reproduce(folder: Path) -> str:
     pictures, measured = compute()
     for name, figure in pictures.items():
         for suffix in FORMATS:
-            figure.savefig(folder / f"{name}.{suffix}", dpi=DPI)
+            write_whole(folder / f"{name}.{suffix}", functools.partial(figure.savefig, format=suffix, dpi=DPI))
             figure.set_layout_engine("none")    # the first file laid it out, which takes longer than all else here
     table = claims.as_text(measured)
-    (folder / "claims.txt").write_text(table, encoding="utf-8")
-    (folder / "claims.csv").write_text(claims.as_csv(measured), encoding="utf-8")
+    for name, content in ("claims.txt", table), ("claims.csv", claims.as_csv(measured)):
+        write_whole(folder / name, lambda file, content=content: file.write(content.encode()))
     return table

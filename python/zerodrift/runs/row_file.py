@@ -161,8 +161,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     """The fields of the solution in a file; its columns stay there. `rebuilt` makes the system of a mechanism."""
     path = Path(path)
     with path.open("rb") as file:
-        _, rows, length = HEADER.unpack(file.read(HEADER.size))
-        layout = json.loads(file.read(length))
+        rows, length, layout = _header(path, file.read)
         begin, row = HEADER.size + length, layout["row bytes"]
         if layout["byte order"] != sys.byteorder:
             raise ValueError(f"{path} was written by a machine of another byte order, {layout['byte order']}")
@@ -178,6 +177,15 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     energies = dict.fromkeys(("potential_energy", "energy_input", "energy_violation"))
     named = {NAMES.get(name, name): column for name, column in columns.items()}
     return unpacked(description, arrays, rebuilt) | energies | named | {"outputs": outputs}
+
+
+def _header(path: Path, take: Callable[[int], bytes]) -> tuple[int, int, dict[str, Any]]:
+    """How many rows a file has, the length of its text, and that."""
+    try:
+        _, rows, length = HEADER.unpack(take(HEADER.size))
+        return rows, length, json.loads(take(length))
+    except (struct.error, ValueError) as error:
+        raise ValueError(f"{path} cannot be read: its header must be whole ({error})") from None
 
 
 def _rest(content: bytes) -> dict[str, np.ndarray]:

@@ -21,7 +21,10 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
-    np.savez_compressed(path, **packed(values))
+    from .._writing import write_whole  # pathlib is slow to import
+
+    arrays = packed(values)
+    write_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
@@ -47,7 +50,7 @@ def described(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any] | None:
     """The fields of the solution in a file; None where there is none in it. `rebuilt` makes the system of a mechanism."""
-    arrays = _read_arrays(path)
+    arrays = read_arrays(path) if _is_zip(path) else {}
     if "zerodrift" not in arrays:
         return None
     import json
@@ -61,7 +64,9 @@ def unpacked(description: dict[str, Any], arrays: dict[str, np.ndarray],
     description["t_span"] = tuple(description["t_span"])
     for name in EVENTS:
         if (count := description.get(name)) is not None:
-            description[name] = tuple(arrays.pop(f"{name}.{i}") for i in range(count))
+            description[name] = tuple(arrays[f"{name}.{i}"] for i in range(count))
+            for i in range(count):
+                del arrays[f"{name}.{i}"]
     description["outputs"] = {name: arrays.pop(f"outputs.{i}") for i, name in enumerate(description.get("outputs", ()))
                               if f"outputs.{i}" in arrays}
     description["system"] = restored_system(description["system"], rebuilt)
@@ -69,13 +74,34 @@ def unpacked(description: dict[str, Any], arrays: dict[str, np.ndarray],
     return arrays | description
 
 
-def _read_arrays(path: str | Path) -> dict[str, np.ndarray]:
-    """The arrays of an NPZ file; none where it is another kind of file."""
+class Arrays(dict):
+    """Arrays of an NPZ file by name. A name that is not there is a ValueError with the path of the file."""
+
+    def __init__(self, path: str | Path, arrays: Mapping[str, np.ndarray]) -> None:
+        super().__init__(arrays)
+        self._path = path
+
+    def __missing__(self, name: str) -> np.ndarray:
+        raise ValueError(f"{self._path} must contain the array {name!r}, and does not: it was not written to its end, or was "
+                         "changed")
+
+
+def read_arrays(path: str | Path) -> Arrays:
+    """The arrays of an NPZ file."""
+    import zipfile  # slow to import
+    import zlib
+
+    try:
+        with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
+            return Arrays(path, file)
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise ValueError(f"{path} cannot be read: {error}") from None
+
+
+def _is_zip(path: str | Path) -> bool:
+    """NPZ files are ZIP files. NumPy would try to read other files in other ways."""
     with open(path, "rb") as file:
-        if file.read(2) != b"PK":       # of any ZIP file; NumPy would try to read other files in other ways
-            return {}
-    with np.load(path, allow_pickle=False) as file:
-        return dict(file)
+        return file.read(2) == b"PK"
 
 
 def to_json(value: Any) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import itertools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from .._writing import write_whole
 from ..errors import Interrupted, SingularSystem
 from ..runs import settings
 from ..runs.operations import acceleration
@@ -80,10 +82,11 @@ class WorkPrecision:
         Path
             Where it was written.
         """
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, [*Setting._fields, *Row._fields[1:]])
-            writer.writeheader()
-            writer.writerows(row.flat() for row in self.rows)
+        table = io.StringIO(newline="")
+        writer = csv.DictWriter(table, [*Setting._fields, *Row._fields[1:]])
+        writer.writeheader()
+        writer.writerows(row.flat() for row in self.rows)
+        write_whole(path, lambda file: file.write(table.getvalue().encode()))
         return Path(path)
 
     def to_dataframe(self) -> Any:

@@ -259,6 +259,8 @@ class Folder(NamedTuple):
         try:
             with os.fdopen(fresh, "wb") as file:
                 file.write(data)
+                file.flush()
+                os.fsync(fresh)
                 if self.descriptor is not None:
                     os.fchmod(fresh, 0o600 | os.fstat(self.descriptor).st_mode & 0o044)
             os.replace(self._at(temporary), self._at(name), src_dir_fd=self.descriptor, dst_dir_fd=self.descriptor)
