@@ -23,6 +23,7 @@ from .errors import (
     InconsistentStart,
     InconsistentSystem,
     Interrupted,
+    InUse,
     LockedWarning,
     NoCompilerWarning,
     SingularSystem,
@@ -45,13 +46,13 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InconsistentStart", "InconsistentSystem",
-    "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem", "Solution",
-    "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation",
-    "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check", "compare", "corrections",
-    "ensemble", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "linkage", "load",
-    "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate",
-    "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
+    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InUse", "InconsistentStart",
+    "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem",
+    "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance",
+    "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check",
+    "compare", "corrections", "ensemble", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
+    "linkage", "load", "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference",
+    "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism",

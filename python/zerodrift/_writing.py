@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import stat
 import time
 from collections.abc import Callable
@@ -42,7 +43,7 @@ def write_whole(path: str | Path, write: Callable[[Any], Any]) -> None:
         return
     target = Path(os.path.realpath(path))
     mode = _mode(target, path)
-    temporary = target.with_name(f".{os.urandom(8).hex()}{SUFFIX}")
+    temporary = temporary_beside(target)
     try:
         _write_new(temporary, write, path)
         if mode is not None:
@@ -79,6 +80,23 @@ def _write_new(temporary: Path, write: Callable[[Any], Any], path: Path) -> None
         write(file)
         file.flush()
         os.fsync(file.fileno())
+
+
+def is_temporary(path: Path) -> bool:
+    """Whether a file has the name of those that `write_whole` renames."""
+    return re.fullmatch(rf"\.[0-9a-f]{{16}}\{SUFFIX}", path.name) is not None
+
+
+def sweep(folder: Path) -> None:
+    """Remove what killed processes left of files that they wrote to a folder, to which no process writes now."""
+    for path in folder.iterdir():
+        if is_temporary(path):
+            path.unlink(missing_ok=True)
+
+
+def temporary_beside(path: Path) -> Path:
+    """A new name in the folder of a file."""
+    return path.with_name(f".{os.urandom(8).hex()}{SUFFIX}")
 
 
 def replace(temporary: Path, target: Path) -> None:

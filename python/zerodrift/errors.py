@@ -67,6 +67,10 @@ class WorkerLost(ZerodriftError):
     """An executor did not return some runs of an ensemble; `solution` is the Ensemble of what it did return."""
 
 
+class InUse(ZerodriftError, ValueError):
+    """Another run writes to the file of `save_to`, or another ensemble to the folder of `store`."""
+
+
 class StaleCore(ZerodriftError, ImportError):
     """The compiled core does not belong to the C sources beside it."""
 

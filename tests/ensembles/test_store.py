@@ -3,9 +3,12 @@
 import itertools
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -61,11 +64,13 @@ def test_a_killed_study_goes_on(tmp_path, monkeypatch):
     killed = subprocess.run([sys.executable, "-c", KILLED, folder], env=environment, timeout=tol.HUNG)
     assert killed.returncode == -signal.SIGKILL
     began, done = len(counted.read_text().splitlines()), int((~zd.load(folder).failed).sum())
+    assert (folder / module.LOCK).exists()      # of a process that is dead
     assert 12 <= done <= began <= done + 6      # two chunks of three may have been under way
     study = STUDY | {"parameters": {"gravity": np.linspace(5.0, 10.0, 60)}, "reduce": slow}
     whole = zd.ensemble(pendulum, 1.0, store=folder, chunk=7, threads=3, **study)
     assert len(counted.read_text().splitlines()) - began == 60 - done
     assert same(whole, zd.ensemble(pendulum, 1.0, **study | {"reduce": lowest}))
+    assert not (folder / module.LOCK).exists()
 
 
 def test_an_interrupted_study_goes_on(tmp_path):
@@ -136,6 +141,91 @@ def test_two_processes_may_work_at_one_study(tmp_path):
     for path in itertools.chain((tmp_path / "1").glob("runs*"), (tmp_path / "2").glob("runs*")):
         path.rename(tmp_path / "0" / path.name)
     assert same(alone, zd.load(tmp_path / "0"))
+
+
+IN_USE = "store '.*study' must be that of one ensemble at a time; it is in use by process "
+ANOTHER = """
+import sys
+import numpy as np
+import zerodrift as zd
+from small_studies import lowest, pendulum
+
+zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 12)}, step=0.01, outputs=["link.angle"], reduce=lowest,
+            store=sys.argv[1])
+"""
+
+
+def test_a_store_in_use_is_refused(tmp_path, monkeypatch):
+    """To a thread and to a process, for the same study; its own call goes on, and a finished study may be read by many."""
+    seen, environment = [], os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    write = module.Store.write
+
+    def again(self, first, part):
+        write(self, first, part)
+        if seen:
+            return
+        with pytest.raises(zd.InUse, match=IN_USE) as caught:
+            zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY)
+        seen.append(caught)
+        assert len(zd.load(tmp_path / "study")) == 12
+        there = subprocess.run([sys.executable, "-c", ANOTHER, tmp_path / "study"], env=environment, timeout=tol.HUNG,
+                               capture_output=True, text=True)
+        assert re.search("zerodrift.errors.InUse: " + IN_USE, there.stderr)
+
+    monkeypatch.setattr(module.Store, "write", again)
+    made = zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY | {"chunk": 2, "threads": 1})
+    assert seen
+    assert same(made, zd.ensemble(pendulum, 1.0, **STUDY))
+    with module.Lock(tmp_path / "study" / module.LOCK, "in use by"):
+        assert same(made, zd.ensemble(pendulum, 1.0, store=tmp_path / "study", **STUDY))
+
+
+@pytest.mark.parametrize("others", [{"step": 0.02}, {}], ids=["two studies", "one study"])
+def test_two_that_begin_at_one_moment(tmp_path, others):
+    """One of them is refused, or comes later: a store has the runs of its own parameters in every case."""
+    alone = [zd.ensemble(zd.systems.oscillator(), 0.2, parameters={"mass": np.linspace(1, 2, 8)}, **{"step": 0.01} | more)
+             for more in ({}, others)]
+    refusals = []
+    for i in range(25):
+        ready = threading.Barrier(2)
+
+        def made(more, store=tmp_path / str(i), ready=ready):
+            ready.wait()
+            try:
+                return zd.ensemble(zd.systems.oscillator(), 0.2, parameters={"mass": np.linspace(1, 2, 8)}, store=store, chunk=1,
+                                   threads=1, **{"step": 0.01} | more)
+            except ValueError as error:
+                return error
+
+        with ThreadPoolExecutor(2) as pool:
+            found = list(pool.map(made, ({}, others)))
+        for ens, expected in zip(found, alone, strict=True):
+            if isinstance(ens, Exception):
+                assert isinstance(ens, zd.InUse) or "belongs to another study" in str(ens)
+                refusals.append(ens)
+            else:
+                assert np.array_equal(ens["x"], expected["x"])
+        loaded = zd.load(tmp_path / str(i))
+        assert any(np.array_equal(loaded["x"], expected["x"]) for expected in alone)
+    assert refusals
+
+
+def test_a_study_that_was_killed_as_it_began_is_begun_anew(tmp_path):
+    """All that a process leaves before the manifest is written; what is not its own is not touched."""
+    folder, other = tmp_path / "study", tmp_path / "other"
+    for each in (folder, other):
+        zd.ensemble(pendulum, 1.0, store=each, **STUDY)
+        (each / module.MANIFEST).unlink()
+        for path in each.glob("runs*"):
+            path.unlink()
+        (each / module.LOCK).touch()
+        (each / ".0123456789abcdef.part").write_bytes(b"half of it")
+    made = zd.ensemble(pendulum, 1.0, store=folder, **STUDY)
+    assert same(made, zd.load(folder))
+    assert not [path for path in folder.iterdir() if path.name.startswith(".")]
+    np.savez(other / module.STUDY, mine=np.ones(3))
+    with pytest.raises(ValueError, match="must be a new or an empty folder"):
+        zd.ensemble(pendulum, 1.0, store=other, **STUDY)
 
 
 def made_by(factor, shift=1.0):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import textwrap
 import tracemalloc
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
 from types import SimpleNamespace
 
@@ -150,6 +151,7 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
             os.kill(os.getpid(), signal.SIGKILL)
     zd.simulate(zd.systems.four_bar(), 1000.0, step=1e-3, save_to=sys.argv[1], progress=look)
     """, tmp_path / "run.zd", expect=-9)
+    assert (tmp_path / ".run.zd.lock").exists()
     sol = zd.load(tmp_path / "run.zd")
     rows = len(sol.t)
     assert 1e3 < rows < 1e6
@@ -161,6 +163,8 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
     with (tmp_path / "run.zd").open("r+b") as file:
         file.truncate((tmp_path / "run.zd").stat().st_size - 5)
     assert len(zd.load(tmp_path / "run.zd").t) == rows - 1
+    zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")      # no lock stays behind
+    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
 
 
 def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
@@ -241,21 +245,86 @@ def test_an_older_run_keeps_its_rows_where_its_file_is_replaced(bar, tmp_path):
     assert len(zd.load(tmp_path / "run.zd").t) == len(second.t) == 11
 
 
-@pytest.mark.parametrize(("as_windows", "message"), [
-    (True, r"save_to cannot replace '.*run\.zd' while its rows are in use: a solution that reads them"),
-    pytest.param(False, "denied", marks=not_on_windows)])
-def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatch, as_windows, message):
-    """On Windows its rows are in use; elsewhere the refusal is made up, and is handed on as it is where it is not Windows'."""
+def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatch):
+    """On Windows its rows are in use; elsewhere the refusal is made up."""
     def refuse(path, missing_ok=False):
         raise PermissionError("denied")
 
     first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     if os.name != "nt":
-        monkeypatch.setattr(row_file, "AS_WINDOWS", as_windows)
-        monkeypatch.setattr(row_file.Path, "unlink", refuse)
-    with pytest.raises(PermissionError, match=message):
+        monkeypatch.setattr(row_file, "AS_WINDOWS", True)
+        monkeypatch.setattr(row_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
+    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.zd' while its rows are in use: a solution that"):
         zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert_same_bits(first, zd.load(tmp_path / "run.zd"))
+
+
+@not_on_windows
+def test_an_older_file_stays_where_no_header_can_be_written(bar, tmp_path, monkeypatch):
+    def full(self, content):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    with monkeypatch.context() as patched:
+        patched.setattr(row_file.RowFile, "_put", full)
+        with pytest.raises(OSError, match="No space left"):
+            zd.simulate(bar, 2.0, step=0.01, save_to=tmp_path / "run")
+    assert_same_bits(first, zd.load(tmp_path / "run.zd"))
+    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
+
+
+@not_on_windows
+def test_a_file_that_is_moved_while_a_run_goes_on_keeps_its_rows(bar, tmp_path):
+    """And so does the solution, which reads the file that was written and not another one of that name."""
+    def move(part):
+        if not (tmp_path / "other.zd").exists():
+            (tmp_path / "run.zd").rename(tmp_path / "other.zd")
+            (tmp_path / "run.zd").write_text("notes")
+
+    sol = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run", progress=move)
+    here = zd.simulate(bar, 1.0, step=0.01)
+    assert_same_bits(here, sol)
+    assert_same_bits(here, zd.load(tmp_path / "other.zd"))
+
+
+# ---- one writer ----
+
+
+@pytest.mark.parametrize("executed", ["in a thread", "in a process"])
+def test_a_second_run_that_saves_to_a_file_in_use_is_refused(bar, tmp_path, executed):
+    """Both orders end well: the first has its rows, and the name is free when it has ended."""
+    refusal = r"save_to must be a file that no other run writes to, and '.*run\.zd' is being written by process \d+, thread "
+    code = "import sys, zerodrift as zd; zd.simulate(zd.systems.pendulum(), 1.0, step=0.01, save_to=sys.argv[1])"
+    seen = []
+
+    def again(part):
+        if not seen and executed == "in a thread":
+            with ThreadPoolExecutor(1) as pool, pytest.raises(zd.InUse, match=refusal) as caught:
+                pool.submit(zd.simulate, zd.systems.pendulum(), 1.0, step=0.01, save_to=tmp_path / "run.zd").result()
+            seen.append(caught.value)
+        elif not seen:
+            done = subprocess.run([sys.executable, "-c", code, tmp_path / "run"], capture_output=True, text=True, check=False)
+            assert re.search("InUse: " + refusal, done.stderr)
+            seen.append(done)
+
+    sol = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run", progress=again)
+    assert seen
+    assert_same_bits(zd.simulate(bar, 1.0, step=0.01), sol)
+    assert_same_bits(sol, zd.load(tmp_path / "run.zd"))
+    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
+    if os.name != "nt":
+        assert zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run").success
+
+
+def test_a_run_that_fails_frees_its_file(bar, tmp_path):
+    for _ in range(2):
+        with pytest.raises(zd.ZerodriftError) as caught:
+            zd.simulate(bar, 8.0, step=0.5, stabilization=None, save_to=tmp_path / "run")
+        assert not isinstance(caught.value, zd.InUse)
+        with pytest.raises(zd.InconsistentStart):
+            zd.simulate(bar, 8.0, [1, 1, 1], step=0.1, save_to=tmp_path / "run")
+        if os.name == "nt":     # where the rows in use keep the file
+            del caught
 
 
 def test_what_is_refused_names_the_argument(bar, tmp_path):

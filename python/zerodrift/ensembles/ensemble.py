@@ -6,6 +6,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -82,8 +83,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     store : str or Path, optional
         A folder that runs are written to when they are done, in files of `chunk` runs that appear as a whole. The same call goes
         on where it stopped, after Ctrl-C, a crash or a lost worker, also with another chunk, executor or number of threads, and
-        makes no run twice. A folder that belongs to another study is refused; `zerodrift.load` opens it at any time. What
-        functions read from global variables is not compared.
+        makes no run twice. A folder that belongs to another study is refused, and one to which another ensemble writes;
+        `zerodrift.load` opens it at any time. What functions read from global variables is not compared.
     keep : {None, "solutions"}
         Whether all solutions stay in memory.
     progress : bool or callable
@@ -100,6 +101,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     ValueError, TypeError
         Before anything runs: for arrays of different lengths, parameters and outputs that nobody has, wrong options.
         Also for a function that cannot travel to other processes, which is named.
+    InUse
+        If another ensemble writes to the folder `store`.
     Interrupted
         After Ctrl-C; ``solution`` is the Ensemble of what was done.
     WorkerLost
@@ -134,7 +137,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
-    return _Work(plan, place, threads, chunk, None if store is None else stores.Store(store, plan)).done(progress)
+    with nullcontext() if store is None else stores.Store(store, plan) as kept:
+        return _Work(plan, place, threads, chunk, kept).done(progress)
 
 
 class _Work:
@@ -147,7 +151,7 @@ class _Work:
         runs = plan.runs.count
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
         least = SHORTEST if batch_of(plan) else 1
-        ranges = stores.missing(self._parts, runs, chunk or min(LONGEST, max(-(-runs // (SHARES * workers)), least)))
+        ranges = stores.missing(_ranges(self._parts), runs, chunk or min(LONGEST, max(-(-runs // (SHARES * workers)), least)))
         maker = Threads(self._made, ranges) if executor is None else (
             executors.Elsewhere(plan, ranges, self._finished, executor))
         self._make, self._where = maker.run, _where(executor, threads)
@@ -200,6 +204,11 @@ class _Work:
 
     def _ensemble(self) -> Ensemble:
         return Ensemble(self._plan, filled(self._parts, self._plan.runs.count), time.perf_counter() - self._begin, self._where)
+
+
+def _ranges(parts: dict[int, Part]) -> list[tuple[int, int]]:
+    """The runs of each part: the first, and the one after the last."""
+    return [(first, first + len(part.rows)) for first, part in parts.items()]
 
 
 def _where(executor: Any, threads: int) -> str:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
-from .._writing import write_whole
+from .._locking import Lock
+from .._writing import is_temporary, sweep, write_whole
 from ..runs.saving import read_arrays
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
@@ -22,6 +24,7 @@ from .plan import OPTIONS, Plan
 
 FORMAT = 1
 MANIFEST, STUDY = "manifest.json", "study.npz"      # what tells the study from others, and its numbers
+LOCK = ".lock"                                      # a file that is there while an ensemble writes to the folder
 PATTERN = "runs_*_*.npz"                            # each has the runs from the first number on, up to the second
 WHAT = "store of an ensemble"
 
@@ -50,7 +53,7 @@ def vector_of(folder: str | Path) -> str | None:
 
 
 class Store:
-    """Parts of one ensemble in a folder.
+    """Parts of one ensemble in a folder: a context manager, which holds a lock of the folder unless all runs are done.
 
     A part is written under a name of its own and then renamed, so that it is there as a whole or not at all. It does not matter
     which process wrote it, nor how many runs it has.
@@ -64,25 +67,52 @@ class Store:
     ------
     ValueError
         If what is there belongs to another study; all differences are named. Nothing is changed then.
+    InUse
+        If another ensemble writes to the folder.
     """
 
     def __init__(self, folder: str | Path, plan: Plan) -> None:
-        self.folder, now = Path(folder), manifest_of(plan)
-        if is_one(self.folder):
-            _check_same(self.folder, now, plan)
-            return
-        if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
-            raise ValueError(f"store {str(folder)!r} must be a new or an empty folder, or that of an ensemble, and it is neither")
+        self.folder, self._plan, self._manifest = Path(folder), plan, manifest_of(plan)
+        self._lock = Lock(self.folder / LOCK, f"store {str(folder)!r} must be that of one ensemble at a time; it is in use by")
+        self._held: AbstractContextManager = nullcontext()
+
+    def __enter__(self) -> Store:
+        if self._is_begun() and not any(missing(_files(self.folder), self._plan.runs.count, 1)):
+            return self
         self.folder.mkdir(parents=True, exist_ok=True)
-        write_whole(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(plan)))
-        write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(now, indent=1).encode()))
+        with ExitStack() as stack:
+            stack.enter_context(self._lock)
+            sweep(self.folder)
+            if not self._is_begun():        # as another process may have done meanwhile
+                self._begin()
+            self._held = stack.pop_all()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._held.__exit__(*error)
+
+    def _is_begun(self) -> bool:
+        """Whether the folder has this study; False: it is new, or empty."""
+        is_new = not self.folder.exists() or _is_empty(self.folder)     # before the manifest, which another process may write
+        if is_one(self.folder):
+            _check_same(self.folder, self._manifest, self._plan)
+            return True
+        if not is_new:
+            raise ValueError(f"store {str(self.folder)!r} must be a new or an empty folder, or that of an ensemble, and it is "
+                             "neither")
+        return False
+
+    def _begin(self) -> None:
+        """The manifest is written last: a folder without one is begun anew."""
+        write_whole(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(self._plan)))
+        write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
         """What is done, by the first run of each part; no run twice."""
         found, end = {}, 0
         for (first, last), path in sorted(_files(self.folder).items()):
             part = saving.unpacked_part(read_arrays(path))
-            if last > end:          # two processes may have worked at the same study
+            if last > end:          # parts that others have made may overlap
                 found[max(first, end)] = part if first >= end else part.behind(end - first)
                 end = last
         return found
@@ -101,13 +131,13 @@ def load(folder: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) ->
     return saving.unpacked_plan(read_arrays(store.folder / STUDY), rebuilt), store.parts()
 
 
-def missing(parts: dict[int, Part], count: int, length: int) -> Iterator[tuple[int, int]]:
-    """Ranges of at most so many runs that are in no part."""
+def missing(done: Iterable[tuple[int, int]], count: int, length: int) -> Iterator[tuple[int, int]]:
+    """Ranges of at most so many runs that are in none of the ranges which are done."""
     begin = 0
-    for first, last in [*((first, first + len(part.rows)) for first, part in sorted(parts.items())), (count, count)]:
+    for first, last in [*sorted(done), (count, count)]:
         for here in range(begin, first, length):
             yield here, min(first, here + length)
-        begin = last
+        begin = max(begin, last)
 
 
 def manifest_of(plan: Plan) -> dict[str, Any]:
@@ -187,6 +217,12 @@ def _manifest(folder: Path) -> dict[str, Any]:
     if not isinstance(found, dict) or found.get("what") != WHAT:
         raise ValueError(f"{folder / MANIFEST} is that of no {WHAT}")
     return found
+
+
+def _is_empty(folder: Path) -> bool:
+    """Whether there is nothing in a folder but what a process leaves that was killed before its study had begun."""
+    return folder.is_dir() and all(path.name == LOCK or is_temporary(path) or (path.name == STUDY and saving.is_ensemble(path))
+                                   for path in folder.iterdir())
 
 
 def _files(folder: Path) -> dict[tuple[int, int], Path]:

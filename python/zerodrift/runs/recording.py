@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from .. import _gateway
@@ -32,6 +33,11 @@ def check_memory(rows: int, row: int, stacklevel: int) -> None:
 def file_of_rows() -> Any:
     """The module of files that rows are written to; slow to import."""
     return importlib.import_module(".row_file", __package__)
+
+
+def locked(path: Any) -> AbstractContextManager:
+    """The lock of a file of rows, held while a run writes to it; None: rows are in memory."""
+    return nullcontext() if path is None else file_of_rows().locked(path)
 
 
 def begin_file(record: Any, run: _gateway.Run, system: BaseSystem, span: tuple[float, float],

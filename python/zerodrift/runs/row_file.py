@@ -8,20 +8,23 @@ rows that it had.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import itertools
 import json
 import os
 import struct
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 from zipfile import BadZipFile
 
 import numpy as np
 
 from .. import _check, _gateway
+from .._locking import Lock
+from .._writing import temporary_beside
 from ..systems.base import BaseSystem
 from . import room
 from .saving import EVENTS, described, packed, unpacked
@@ -74,8 +77,6 @@ class RowFile:
         most = max(1, BLOCK // row)
         self._record = _gateway.Record(core, most if rows is None else min(most, rows), outputs)
         self._path, self._row, self.rows = path, row, 0
-        _remove(path)
-        self._file = path.open("xb", buffering=0)
 
     def begin(self, known: dict[str, Any], position_size: np.ndarray, outputs: Mapping[str, int]) -> None:
         """Writes what is known of the solution beforehand; outputs are the names of what is recorded, with their sizes."""
@@ -87,7 +88,8 @@ class RowFile:
         content = json.dumps(layout).encode()
         content += b" " * (-(HEADER.size + len(content)) % ALIGNED)
         self._begin = HEADER.size + len(content)
-        self._put(HEADER.pack(MAGIC, UNKNOWN, len(content)) + content)
+        with _replacing(self._path) as self._file:
+            self._put(HEADER.pack(MAGIC, UNKNOWN, len(content)) + content)
 
     def _put(self, content: Any) -> None:
         """Writes all of it: a file that is not buffered takes as much as the system likes."""
@@ -119,7 +121,7 @@ class RowFile:
     def join(self) -> None:
         """Opens what has been written, without the part of a row that is there where the disk was full."""
         self._file.truncate(self._begin + self.rows * self._row)    # now, as Windows shortens no file that is mapped
-        self._opened = _columns(self._path, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
+        self._opened = _columns(self._file, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
 
     def take(self) -> dict[str, np.ndarray]:
         """The columns, which are in the file."""
@@ -130,28 +132,57 @@ class RowFile:
         rest = io.BytesIO()
         np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": {}}))
         with self._file:
+            self._sync()        # a machine that stops leaves no header that counts rows which are not on the disk
             self._file.seek(0)
             self._put(HEADER.pack(MAGIC, self.rows, self._begin - HEADER.size))
+            self._sync()
             self._file.seek(self._begin + self.rows * self._row)
             self._put(rest.getvalue())
+            self._sync()
+
+    def _sync(self) -> None:
+        os.fsync(self._file.fileno())
+
+
+def locked(path: Path) -> Lock:
+    """The lock of a file, held by the run that writes to it."""
+    return Lock(path.with_name(f".{path.name}.lock"), f"save_to must be a file that no other run writes to, and {str(path)!r} is "
+                "being written by")
+
+
+@contextlib.contextmanager
+def _replacing(path: Path) -> Iterator[Any]:
+    """A new file, which replaces an older one once its header is written; solutions that have that open keep its rows."""
+    if AS_WINDOWS:      # where no file is renamed that is open
+        _remove(path)
+        yield path.open("x+b", buffering=0)
+        return
+    temporary = temporary_beside(path)
+    file = temporary.open("x+b", buffering=0)
+    try:
+        yield file
+        os.fsync(file.fileno())
+        os.replace(temporary, path)
+    except BaseException:
+        file.close()
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def _remove(path: Path) -> None:
-    """Removes an earlier file; whoever has it open keeps its rows, or, on Windows, keeps the file from being removed."""
+    """Removes an earlier file; a solution that reads its rows keeps the file from being removed on Windows."""
     try:
         path.unlink(missing_ok=True)
     except PermissionError as error:
-        if not AS_WINDOWS:
-            raise
         raise PermissionError(f"save_to cannot replace {str(path)!r} while its rows are in use: a solution that reads them, here "
                               "or in another process, has to go first; or take another name") from error
 
 
-def _columns(path: Path, begin: int, rows: int, row: int, columns: Mapping[str, Any],
+def _columns(file: Path | BinaryIO, begin: int, rows: int, row: int, columns: Mapping[str, Any],
              integers: Any) -> dict[str, np.ndarray]:
     """The columns of a file, by name, as memory that is read where it is looked at."""
     shape = rows, row // 8
-    table = np.asarray(np.memmap(path, float, "r", begin, shape)) if rows else np.empty(shape)
+    table = np.asarray(np.memmap(file, float, "r", begin, shape)) if rows else np.empty(shape)
     found = {name: table[:, start:start + int(np.prod(shape))].reshape(rows, *shape) for name, (start, shape) in columns.items()}
     counts = table.view(np.intc)
     return found | {name: counts[:, i - len(integers)] for i, name in enumerate(integers)}

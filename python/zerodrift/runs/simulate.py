@@ -109,7 +109,8 @@ def simulate(
     save_to : str or Path, optional
         A file that rows are written to as they come, instead of into memory, which may then be smaller than the record. The
         arrays of the solution, and of what `load` makes of the file, are in it: what is looked at is read. The suffix ``.zd`` is
-        added where it is missing. A run that is killed leaves the rows that it had; an older file of the same name is replaced.
+        added where it is missing. A run that is killed leaves the rows that it had. An older file of the same name is replaced
+        when the run starts, unless another run is writing it.
     on_singular : {"stop", "continue"}
         What to do when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a
@@ -157,6 +158,8 @@ def simulate(
         If the record takes more than the memory that is free; how much, and what takes less, is in its message.
     OSError
         If rows cannot be written to the file.
+    InUse
+        If another run is writing to that file.
 
     Warns
     -----
@@ -217,7 +220,7 @@ def simulate(
     watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
     if told := system._what_it_costs(plan.steps):
         warnings.warn(told, CostWarning, stacklevel=2)
-    with Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
+    with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
         more = recorded.core if recorded else None
         run = _created(system, core, plan.options, p0, v0, watcher, more)
         record = recording.record_of(core, more, plan.rows, path)
