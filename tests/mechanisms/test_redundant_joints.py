@@ -1,4 +1,4 @@
-"""Constraints that the tree of joint coordinates already satisfies: braces within welded bodies, second hinges, bearings and rails."""
+"""Constraints that the tree of joint coordinates satisfies: braces within welded bodies, second hinges, bearings and rails."""
 
 import numpy as np
 import pytest
@@ -18,9 +18,10 @@ def braced(kind, seed):
     arm, leg = m.link("arm", a, b, mass=1.0), m.link("leg", b, c, mass=1.0)
     m.revolute("hinge", m.ground, arm.start)
     m.weld("corner", arm.end, leg.start)
-    ends = {"rod": (arm.point(at=p), leg.point(at=q)), "actuator": (arm.point(at=p), leg.point(at=q)), "slot": (arm, leg.point(at=p))}
-    told = {"rod": {}, "actuator": {"length": float(np.linalg.norm(p - q))}, "slot": {"axis": q}, "prismatic": {"axis": q, "at": p}}
-    getattr(m, kind)("brace", *ends.get(kind, (arm, leg)), **told.get(kind, {"at": p}))
+    between = arm.point(at=p), leg.point(at=q)
+    ends = {"rod": between, "actuator": between, "slot": (arm, leg.point(at=p))}
+    given = {"rod": {}, "actuator": {"length": float(np.linalg.norm(p - q))}, "slot": {"axis": q}, "prismatic": {"axis": q, "at": p}}
+    getattr(m, kind)("brace", *ends.get(kind, (arm, leg)), **given.get(kind, {"at": p}))
     return m
 
 
@@ -69,8 +70,8 @@ def bolted(turn, times):
     m = zd.Mechanism("bolted", gravity=(0, -9.81))
     c, s = np.cos(turn), np.sin(turn)
     one, two, *hinges = [np.array([c * x - s * y, s * x + c * y]) for x, y in [(0, 0), (0.3, 0), (0.4, 0.1), (0.9, 0.0)]]
-    first = m.link("one", one, one + [c, s], mass=1.0)
-    second = m.link("two", two, two + [c - 0.2 * s, s + 0.2 * c], mass=1.0)
+    first = m.link("one", one, one + np.array([c, s]), mass=1.0)
+    second = m.link("two", two, two + np.array([c - 0.2 * s, s + 0.2 * c]), mass=1.0)
     m.revolute("axle", m.ground, first.start)
     if times == 1:
         m.weld("bolt", first, second, at=hinges[0])

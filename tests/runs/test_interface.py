@@ -191,7 +191,7 @@ def in_structure(**changed):
     ({"measures": measures({"size": 0})}, "x has 0 components"),
     ({"measures": measures({"depends": 3})}, "x does not say what it depends on"),
     ({"residuals": lambda made: made.of("zd_residuals", {})}, "residuals: there is a function"),
-    ({"magnitudes": lambda made: ffi.cast("void *", 1), "magnitudes_scratch": -1}, "magnitudes: their scratch must be a size, not -1"),
+    ({"magnitudes": lambda made: ffi.cast("void *", 1), "magnitudes_scratch": -1}, "their scratch must be a size, not -1"),
     ({"inputs": 1}, "inputs: there are 1"),
     ({"inputs": -1}, "inputs: there are -1"),
     ({"inputs": 1, "input": inputs(0.0, name="")}, "input 0 has a name"),
