@@ -3,15 +3,7 @@
 #ifndef ZD_ASSEMBLY_H
 #define ZD_ASSEMBLY_H
 
-#include "mechanism.h"
-
-typedef struct zd_wanted {
-    double length;              /* m: how large the mechanism is */
-    int targets;
-    const zd_target *target;
-    int drives;                 /* relations that prescribe constant speeds, from wherever the start has their coordinates */
-    const int *drive;
-} zd_wanted;
+#include "assembly_rows.h"
 
 /* p and v (nv,) of a mechanism in absolute coordinates: p comes as drawn, at time 0; places (drives,) <- the coordinates that are driven,
  * where the constants of these relations are 0. Returns whether they are found; not where rows follow from others, or contradict each

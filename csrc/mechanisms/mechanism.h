@@ -75,6 +75,7 @@ void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const zd_comp
 typedef struct zd_target {
     int measure, component, is_rate;
     double value;
+    int stays;              /* 1: behind all others; of positions the value is that of the drawing with its joints closed, and `value` is not read */
 } zd_target;
 
 /* What all joints and elements come down to: links of a tree, rows of gauges, and efforts along gauges. Bodies have the tree's numbers

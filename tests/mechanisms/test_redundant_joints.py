@@ -20,7 +20,8 @@ def braced(kind, seed):
     m.weld("corner", arm.end, leg.start)
     between = arm.point(at=p), leg.point(at=q)
     ends = {"rod": between, "actuator": between, "slot": (arm, leg.point(at=p))}
-    given = {"rod": {}, "actuator": {"length": float(np.linalg.norm(p - q))}, "slot": {"axis": q}, "prismatic": {"axis": q, "at": p}}
+    length = float(np.linalg.norm(p - q))
+    given = {"rod": {}, "actuator": {"length": length}, "slot": {"axis": q}, "prismatic": {"axis": q, "at": p}}
     getattr(m, kind)("brace", *ends.get(kind, (arm, leg)), **given.get(kind, {"at": p}))
     return m
 

@@ -19,6 +19,7 @@ class Held(NamedTuple):
     component: int
     is_rate: bool
     value: float
+    stays: bool = False         # behind all others; of positions the value is that of the drawing with its joints closed
 
 
 class Varied:

@@ -7,8 +7,9 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from ..errors import CorrectionFailed, InconsistentStart
-from .assembly import NUDGE, RANK, Assembly, Target, nullspace
+from .assembly import NUDGE, Assembly, Target
 from .assembly_of_many import is_of_many
+from .least import RANK, nullspace
 
 NUDGED = "zd.assemble(m, nudge=True) starts beside it"
 OTHERWISE = "start a little aside, or drive another joint"

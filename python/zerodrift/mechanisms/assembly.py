@@ -6,6 +6,7 @@ Steps are least in the mass metric.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
@@ -13,7 +14,8 @@ import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
 from ..errors import CorrectionFailed, InconsistentStart
-from .contradictions import contradiction
+from .contradictions import contradiction, unit_of
+from .least import least_along, nullspace, shortest, units
 from .many_bodies import Target
 
 CLOSED = 1e-12          # of a row in units of its size: what counts as closed
@@ -24,9 +26,7 @@ TRACKED = 0.1           # how far a target moves at once, in rad or parts of the
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
 NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
 LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so much
-RANK = 1e-9             # of the largest singular value: what counts as dependent
 MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
-ANGLES = "angle", "angle1", "angle2"
 
 
 class Assembly:
@@ -42,12 +42,15 @@ class Assembly:
         Holonomic rows that are not looked at: of drives whose start value is not known yet.
     length : float
         The size of the mechanism in m.
+    couplings : collection of int
+        Rows of couplings without a law, as gears are: they belong to the drawing, as joints do.
     """
 
     def __init__(self, core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
-                 t: float) -> None:
+                 t: float, couplings: Collection[int] = ()) -> None:
         self.core, self.rows, self.length, self.t = core, rows, length, t
         self.kept = sorted(set(range(core.mh)) - set(left_out))
+        self.of_drawing = np.array([core.rows[row].owner == "joint" or row in couplings for row in self.kept], dtype=bool)
         self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
         angles = np.array([coordinate.kind == "angle" for coordinate in core.motions])
         self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are told in rad and parts of the length
@@ -75,11 +78,36 @@ class Assembly:
 
     # ---- positions ----
 
-    def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
-        """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible."""
+    def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
+                  staying: Sequence[Target] = ()) -> np.ndarray:
+        """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible.
+
+        Coordinates that stay are as in the drawing with its joints closed, whatever the values of these targets.
+        """
+        kept: list[Target] = []
         if not self.is_closed(p, held):
-            p = self._nearest(p, self._track(self._close(p), held), held)
-        return self._approach(p, held, wished) if wished else p
+            p, kept = self._met(p, held, staying)
+        elif wished:
+            kept = self._as_they_are(p, staying)
+        return self._approach(p, [*held, *kept], wished) if wished else p
+
+    def _met(self, drawn: np.ndarray, held: Sequence[Target],
+             staying: Sequence[Target]) -> tuple[np.ndarray, list[Target]]:
+        """Positions in which rows and held targets are met: the joints are closed, then the rest is led to where it shall be."""
+        closed = self._close(drawn)
+        as_drawn = self._newton(closed, self._drawing) if staying else None
+        if as_drawn is not None:
+            as_drawn = self._nearest(drawn, as_drawn, self._drawing)
+            kept = self._as_they_are(as_drawn, staying)
+            with contextlib.suppress(InconsistentStart, CorrectionFailed):
+                p = self._track(as_drawn, [*held, *kept])
+                return self._nearest(as_drawn, p, lambda p: self._residual(p, [*held, *kept])), kept
+        return self._nearest(drawn, self._track(closed, held), lambda p: self._residual(p, held)), []
+
+    def _as_they_are(self, p: np.ndarray, staying: Sequence[Target]) -> list[Target]:
+        """The targets with the values that they have."""
+        values = [self.core.measure_at(each.measure, self.t, p, np.zeros(self.core.nv))["value"] for each in staying]
+        return [each._replace(value=float(value[each.component])) for each, value in zip(staying, values, strict=True)]
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """Whether all rows and held targets are met."""
@@ -94,9 +122,9 @@ class Assembly:
         Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
         return bool(np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length)
 
-    def led_to(self, p: np.ndarray, held: Sequence[Target] = ()) -> np.ndarray:
+    def led_to(self, p: np.ndarray, held: Sequence[Target] = (), staying: Sequence[Target] = ()) -> np.ndarray:
         """From closed positions, as at another time, to those to which drives lead, and what is held."""
-        return self._track(p, held)
+        return self._track(p, [*held, *self._as_they_are(p, staying)])
 
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, Any]:
         """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
@@ -129,6 +157,11 @@ class Assembly:
         """The residual of the joints alone, and their rows."""
         residual, rows = self._residual(p, ())
         return residual[self.is_joint], rows[self.is_joint]
+
+    def _drawing(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
+        """The residual of joints and of couplings without a law, and their rows."""
+        residual, rows = self._residual(p, ())
+        return residual[self.of_drawing], rows[self.of_drawing]
 
     def scaled_rows(self, p: np.ndarray) -> np.ndarray:
         """All rows of C in scaled coordinates, each of length one."""
@@ -189,15 +222,15 @@ class Assembly:
             return residual
         return self._residual(self._approach(self._aside(p), (), held), held)[0]
 
-    def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+    def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
         """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
         distance = np.linalg.norm(self._apart(p, drawn) * self.weight)
         for _ in range(NEARER):
-            residual, rows = self._residual(p, held)
+            residual, rows = system(p)
             step = self._apart(drawn, p)
             step = step - self._least_step(rows, rows @ step + residual)
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
-            tried = self._newton(self._moved(p, step), lambda p: self._residual(p, held))
+            tried = self._newton(self._moved(p, step), system)
             if tried is None:
                 break
             nearer = np.linalg.norm(self._apart(tried, drawn) * self.weight)
@@ -236,7 +269,7 @@ class Assembly:
 
     def _least_step(self, rows: Any, right: np.ndarray) -> np.ndarray:
         """The least solution of rows @ step = right in the mass metric, in scaled coordinates."""
-        return np.linalg.lstsq(rows / self.weight, right, rcond=RANK)[0] / self.weight
+        return shortest(rows, self.weight, right)
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Levenberg's and Marquardt's method, then Newton's: positions, and the residual that remains."""
@@ -271,7 +304,7 @@ class Assembly:
         for _ in range(ATTEMPTS):
             residual, rows = self._residual(p, [*held, *wished])
             free = nullspace(rows[:count])
-            step = free @ _least_along(rows[count:], free, -residual[count:])
+            step = free @ least_along(rows[count:], free, -residual[count:])
             step *= min(1.0, TRACKED / max(np.abs(step).max(initial=0.0), 1e-300))
             nearer = self._nearer(p, step, held, wished)
             if nearer is None:
@@ -301,25 +334,25 @@ class Assembly:
             return CorrectionFailed("joints")
         worst = [int(i) for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
         apart = np.abs(residual) * self._size[len(held)]
-        told = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {self._unit_of(names[i])}".rstrip() for i in worst[:4])
-        turns = [target for target in held if self._unit_of(target.name) == "rad" and abs(target.value) > 2 * np.pi]
+        told = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {unit_of(names[i])}".rstrip() for i in worst[:4])
+        turns = [target for target in held if unit_of(target.name) == "rad" and abs(target.value) > 2 * np.pi]
         hint = f". Angles are in rad: {turns[0].value:g} degrees are {np.radians(turns[0].value):.4g}" if turns else ""
         return InconsistentStart(f"what the start holds and what is driven cannot be met together; nearest to it there are left: "
                                  f"{told}{hint}")
 
-    def _unit_of(self, name: str) -> str:
-        """The unit of a held measure; of drives and couplings, which are named without one, none is told."""
-        quantity = name.split(".")[1:]
-        if not quantity or quantity[-1].endswith("]"):      # a cosine has none either
-            return ""
-        return "rad" if quantity[-1] in ANGLES else "m"
-
     # ---- velocities ----
 
-    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
-        """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible."""
+    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
+                   staying: Sequence[Target] = ()) -> np.ndarray:
+        """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible.
+
+        Coordinates that stay are at rest.
+        """
         if self._may_rest(p) and not held and not wished:
             return np.zeros(self.core.nv)
+        if staying:
+            with contextlib.suppress(InconsistentStart):
+                return self.velocities(p, [*held, *staying], wished)
         rows, right, names = self._rates(p, held)
         if not right.any() and not wished:
             return np.zeros(self.core.nv)
@@ -329,11 +362,12 @@ class Assembly:
         scaled = self._least_step(rows, right)
         left = rows @ scaled - right
         if np.abs(left).max(initial=0.0) > MET * max(np.abs(right).max(initial=0.0), np.abs(scaled).max(initial=0.0)):
-            raise contradiction(left, size, names, self.rows)
+            unit = units(rows, self.weight)
+            raise contradiction(left * unit, size / unit, names, self.rows)
         if wished:
             wish, wanted, _ = self._rates(p, wished, only=True)
             free = nullspace(rows / self.weight) / self.weight[:, None]
-            scaled = scaled + free @ _least_along(wish, free, wanted - wish @ scaled)
+            scaled = scaled + free @ least_along(wish, free, wanted - wish @ scaled)
         return scaled * self.scale
 
     def _may_rest(self, p: np.ndarray) -> bool:
@@ -358,19 +392,3 @@ class Assembly:
         """What each row asks a velocity for, nothing where it is a joint's, and each target."""
         owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(self.core.m)]
         return [*owners, *(target.name for target in held)]
-
-
-def _least_along(rows: np.ndarray, free: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """The least y with which rows @ free @ y is nearest to the right side; what moves the rows by rounding only is zero."""
-    u, s, vt = np.linalg.svd(rows @ free, full_matrices=False)
-    counts = s > RANK * np.linalg.norm(rows) * np.linalg.norm(free)
-    return vt[counts].T @ ((u.T @ right)[counts] / s[counts])
-
-
-def nullspace(rows: np.ndarray) -> np.ndarray:
-    """An orthonormal basis (n, k) of what the rows leave free."""
-    if not len(rows):
-        return np.eye(rows.shape[1])
-    _, s, vt = np.linalg.svd(rows)
-    rank = int((s > RANK * s.max(initial=0.0)).sum())
-    return vt[rank:].T

@@ -7,15 +7,17 @@ Only the way to the drawing is measured by mass.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import contextlib
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
 from .._gateway.consistent import nearest_velocities
 from .._gateway.mechanisms import MechanismCore
+from ..errors import InconsistentStart
 from .assembly import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
 from .contradictions import contradiction
-from .many_bodies import SparseRows, Target, are_met, sparse_rows
+from .many_bodies import SparseRows, Target, are_met, read_targets, sparse_rows
 
 MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
 HALVINGS = 6            # of a step of Newton's method that gains nothing
@@ -25,9 +27,10 @@ LEAST_GAIN = 1e-6       # of the squares that are left: damped steps end where t
 WISHED = 1e-6           # a wish weighs as much as steps that are so many times smaller
 
 
-def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float) -> Assembly:
+def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float,
+                couplings: Collection[int] = ()) -> Assembly:
     """The assembly of a mechanism, as many bodies as it has."""
-    return (AssemblyOfMany if is_of_many(core) else Assembly)(core, rows, left_out, length, t)
+    return (AssemblyOfMany if is_of_many(core) else Assembly)(core, rows, left_out, length, t, couplings)
 
 
 def is_of_many(core: MechanismCore) -> bool:
@@ -118,16 +121,16 @@ class AssemblyOfMany(Assembly):
         is_wish = np.repeat([False, True], [len(self.kept) + len(held), len(wished)])
         return self._nearest_to_soft(p, lambda p: self._residual(p, [*held, *wished]), is_wish)
 
-    def _nearest(self, drawn: np.ndarray, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+    def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
         """As of few bodies, but with steps of Barzilai and Borwein's lengths: each is but little less than the one before."""
         distance, last, times = self._distance(p, drawn), None, 1.0
         for _ in range(NEARER):
-            residual, rows = self._residual(p, held)
+            residual, rows = system(p)
             way = self._apart(drawn, p)
             step = way - self._least_step(rows, rows @ way + residual)
             longest = self._times(step, last, times)
             for times in (longest, longest / 4, longest / 16, longest / 64):
-                tried = self._newton(self._moved(p, _at_most(TRACKED, times * step)), lambda p: self._residual(p, held))
+                tried = self._newton(self._moved(p, _at_most(TRACKED, times * step)), system)
                 if tried is not None and (nearer := self._distance(tried, drawn)) < distance * (1 - 1e-6):
                     break
             else:
@@ -181,7 +184,15 @@ class AssemblyOfMany(Assembly):
 
     # ---- velocities ----
 
-    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
+    def _as_they_are(self, p: np.ndarray, staying: Sequence[Target]) -> list[Target]:
+        values = read_targets(self.core, p, staying)[1] if staying else ()
+        return [each._replace(value=each.value + float(value)) for each, value in zip(staying, values, strict=True)]
+
+    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
+                   staying: Sequence[Target] = ()) -> np.ndarray:
+        if staying and (held or wished or not self._may_rest(p)):
+            with contextlib.suppress(InconsistentStart):
+                return self.velocities(p, [*held, *staying], wished)
         if not held and not wished:
             return nearest_velocities(self.core, self.t, p, np.zeros(self.core.nv))
         stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))

@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import InconsistentStart
 
 MOST_TOLD = 8           # names in a sentence
+ANGLES = "angle", "angle1", "angle2"
 
 
 def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows: Sequence[str]) -> Exception:
@@ -30,6 +31,14 @@ def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows
     blocking = f"the joints {joints} do" if joints else "the mechanism does"
     return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
                              "At a dead centre, start a little aside, or drive another joint")
+
+
+def unit_of(name: str) -> str:
+    """The unit of a held measure; none of drives and couplings, which are named without a quantity, and of cosines."""
+    quantity = name.split(".")[1:]
+    if not quantity or quantity[-1].endswith("]"):
+        return ""
+    return "rad" if quantity[-1] in ANGLES else "m"
 
 
 def _told(names: Sequence[str], between: str) -> str:

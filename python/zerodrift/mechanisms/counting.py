@@ -15,6 +15,7 @@ from .assembly import Assembly
 from .assembly_of_many import is_of_many
 from .drawing import Drawing
 from .forces import Actuator, Motor
+from .moved import differences
 from .numbers import AS_GIVEN
 from .space_tables import SpaceTables
 from .starting import Starting
@@ -41,7 +42,8 @@ class Count(NamedTuple):
         Whether there are so many rows that the core has decided which follow from others, and that it was not looked for which
         reactions are not determined.
     notes : tuple of str
-        What is to be said of the pose: universal joints at a right angle, what makes it singular, and what helps then.
+        Lines on the pose: joints that are drawn open, bodies that start elsewhere than drawn, universal joints
+        at a right angle, what makes it singular, and what helps then.
     """
 
     velocities: int
@@ -86,7 +88,7 @@ def count(drawing: Drawing) -> Count:
 def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, singular: tuple[str, ...]) -> tuple[str, ...]:
     """What is to be said of the pose; a singular one is told first."""
     in_space = isinstance(tables, SpaceTables)
-    notes = space_advice.at_right_angles(tables, assembly.core, p) if in_space else []
+    notes = [*differences(tables, assembly, p), *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
     if singular:
         why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
         told = f", as {' and '.join(why)}" if why else ""
@@ -103,7 +105,8 @@ def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
     v = nearest_velocities(core, assembly.t, p, np.zeros(core.nv))
     redundant = redundant_rows(core, assembly.t, p, v)
     names = [variable.name for variable in named.constraints]
-    return Count(core.nv, core.m, core.m - len(redundant), _named(names, set(redundant)), (), (), is_of_many=True)
+    return Count(core.nv, core.m, core.m - len(redundant), _named(names, set(redundant)), (), (), is_of_many=True,
+                 notes=tuple(differences(tables, assembly, p)))
 
 
 @dataclass(frozen=True)

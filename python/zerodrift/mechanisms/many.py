@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from .._gateway.mechanisms import MechanismCore
+from .._gateway.uses import Observed
 from .._gateway.varied import Held, Varied
 from .columns import Column, Varies, spread
 from .drawing import Drawing
@@ -16,6 +17,7 @@ from .plane import turned
 from .readings import reading
 from .starting import Starting, drives_of, size_of
 from .tables import Tables
+from .unforced import Coordinate, names_of, unforced
 
 
 def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
@@ -43,8 +45,11 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         drives = drives_of(drawing)
         if starts_are_known and drives:
             return None
-        gauges, observed = read(absolute, list(drawing.held))
-        held = _held(drawing, {row.name: i for i, row in enumerate(observed)})
+        places, rates = unforced(drawing, tables)
+        gauges, observed = read(absolute, [*drawing.held, *names_of([*places, *rates])])
+        index = {row.name: i for i, row in enumerate(observed)}
+        staying = [*_staying(places, observed, index, is_rate=False), *_staying(rates, observed, index, is_rate=True)]
+        held = [*_held(drawing, index), *staying]
         poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
         moving, drawn = tables.written(*read(tables)), absolute.written(gauges, observed)
     except Varies:
@@ -67,6 +72,15 @@ def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
         else:
             held.append(Held(index[base], "xy".index(axis), is_rate, float(value)))
     return held
+
+
+def _staying(coordinates: Sequence[Coordinate], observed: Sequence[Observed], index: Mapping[str, int], *,
+             is_rate: bool) -> Iterator[Held]:
+    """What keeps coordinates as drawn, or at rest."""
+    for each in coordinates:
+        measure = index[each.rate if is_rate else each.position]
+        components = range(observed[measure].size) if each.axis is None else ["xy".index(each.axis)]
+        yield from (Held(measure, i, is_rate, 0.0, stays=True) for i in components)
 
 
 def _drawn(tables: Tables, count: int) -> np.ndarray:

@@ -24,7 +24,7 @@ class Target(NamedTuple):
 
 def are_met(core: MechanismCore, p: np.ndarray, held: Sequence[Target], allowed: float) -> bool:
     """Whether positions that are held are met."""
-    return bool((np.abs(_read(core, p, held)[1]) <= allowed).all())
+    return bool((np.abs(read_targets(core, p, held)[1]) <= allowed).all())
 
 
 class SparseRows:
@@ -89,7 +89,7 @@ def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], p: np.nda
     starts, ends = np.cumsum([0, *sizes]), core.packing.offsets["C"]
     groups = [Rows(blocks, stored["C"][begin:end].reshape(count, -1))
               for (count, blocks), (begin, end) in zip(core.packing.groups, pairwise(ends), strict=True)]
-    found, off = _read(core, p, held)
+    found, off = read_targets(core, p, held)
     touched = np.searchsorted(starts, found.at, side="right") - 1
     for blocks, rows in zip(touched.tolist(), found.row, strict=True):
         parts: dict[int, np.ndarray] = {}
@@ -100,7 +100,7 @@ def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], p: np.nda
     return SparseRows(sizes, groups), off
 
 
-def _read(core: MechanismCore, p: np.ndarray, held: Sequence[Target]) -> tuple[Components, np.ndarray]:
+def read_targets(core: MechanismCore, p: np.ndarray, held: Sequence[Target]) -> tuple[Components, np.ndarray]:
     """What is held, at rest, and by how much each is off."""
     found = core.components(p, np.zeros(core.nv), [(target.measure, target.component) for target in held])
     return found, found.value - np.array([target.value for target in held])

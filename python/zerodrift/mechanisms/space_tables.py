@@ -51,9 +51,9 @@ class SpaceTables(Tables):
         """How many velocities the bodies have along the tree."""
         return len(self.velocities())
 
-    def _tree(self) -> list[int]:
+    def tree(self, *, with_cut: bool = False) -> list[int]:
         weights = [(float(body.turns), self.inertias.of[body.name].mass) for body in self.parts]
-        return carriers(len(self.parts), space_tree.edges(self.joints, self.number), weights)
+        return carriers(len(self.parts), space_tree.edges(self.joints, self.number, with_cut=with_cut), weights)
 
     def _carried(self) -> Iterator[tuple[Body, SpaceJoint | None]]:
         """The bodies, each with the joint that carries it."""

@@ -14,10 +14,10 @@ QUATERNION = ("e0", "e1", "e2", "e3")
 SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # velocities
 
 
-def edges(joints: Sequence[SpaceJoint], number: dict[str, int]) -> list[Edge]:
-    """The joints that may be in the tree."""
+def edges(joints: Sequence[SpaceJoint], number: dict[str, int], *, with_cut: bool = False) -> list[Edge]:
+    """The joints that may be in the tree; with those that the user has cut, too, or without."""
     return [Edge(i, *(number[body.name] for body in joint.bodies), freedoms(joint)) for i, joint in enumerate(joints)
-            if joint.row.freedoms is not None and not joint.cut]
+            if joint.row.freedoms is not None and (with_cut or not joint.cut)]
 
 
 def freedoms(joint: SpaceJoint) -> tuple[int, int]:

@@ -24,7 +24,13 @@ class StartVerbs(Elements):
         self._wished: dict[str, Any] = {}
 
     def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None) -> None:
-        """Say where and how fast the motion starts; what is not said starts as drawn and at rest, or as near as can be.
+        """Say where and how fast the motion starts; all else starts as drawn and at rest, unless a loop has to move with it.
+
+        Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
+        their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
+        coupling that contains a forced one move as little as possible in the mass metric. Where joint coordinates cannot stay,
+        as in a drawing that is singular, all bodies move as little as possible in the mass metric. The printed mechanism names
+        joints that are drawn open and bodies that start elsewhere than drawn.
 
         Parameters
         ----------

@@ -15,11 +15,10 @@ from . import columns
 from .aside import aside, way_out
 from .assembly import Assembly, Target
 from .assembly_of_many import assembly_of, is_of_many
-from .bodies import Body, Point
 from .drawing import Drawing
 from .forces import Motor
-from .joints import Joint
-from .measuring import measuring
+from .joints import Coupling
+from .measuring import read
 from .numbers import Numbers
 from .readings import Reading, checked_reading, reading_of_start
 from .space_advice import of_angles
@@ -27,6 +26,7 @@ from .space_tables import SpaceTables
 from .tables import Tables
 from .tabulated import tables_of
 from .tree import loop
+from .unforced import Coordinate, bodies_of, names_of, swings, unforced
 
 MASSLESS = 1e-13        # of the largest: how little a motion may weigh
 
@@ -37,6 +37,7 @@ class Starting:
     def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
         self.drawing, self.numbers, self._known = drawing, numbers, tables
         self.has_speeds = bool(drives_of(drawing))
+        self._stays: tuple[list[Coordinate], list[Coordinate]] | None = None
         self._check_held()
 
     def _check_held(self) -> None:
@@ -85,7 +86,7 @@ class Starting:
         tables = self._tables(self.drives)
         assembly = self._assembly(tables, t)
         if t and self.has_speeds:
-            return tables, assembly, assembly.led_to(self.closed(0.0)[2])
+            return tables, assembly, assembly.led_to(self.closed(0.0)[2], staying=self._staying(assembly.core, rates=False))
         return tables, assembly, self._positions(tables, assembly)
 
     def at(self, t: float, *, nudge: float = 0.0) -> tuple[np.ndarray, ...]:
@@ -97,7 +98,7 @@ class Starting:
         held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
         if nudge:
             p = aside(assembly, p, nudge, held)
-        poses = assembly.core.poses(p, assembly.velocities(p, held, wished))
+        poses = assembly.core.poses(p, assembly.velocities(p, held, wished, self._staying(assembly.core, rates=True)))
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
 
     def way_out(self) -> str:
@@ -113,22 +114,43 @@ class Starting:
 
     def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
         """The assembly at a time; without the drives of the coordinates that `speeds` names, which it measures, too."""
-        measured = [*self.drawing.held, *self.drawing.wished, *speeds]
-        core = measuring(tables, measured) if measured else tables.core()
+        staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
+        measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
+        gauges, observed = read(tables, measured)
+        more, of_swings = swings(tables, dict.fromkeys(staying), len(gauges))
+        core = tables.core([*gauges, *more], [*observed, *of_swings]) if measured else tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
         motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
-        return assembly_of(core, names, left_out, size_of(self.drawing, self.numbers), t)
+        linear = {each.name for each in self.drawing.of(Coupling) if each.law is None}
+        couplings = {i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in linear}
+        return assembly_of(core, names, left_out, size_of(self.drawing, self.numbers), t, couplings)
 
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
         p, _ = assembly.core.state(self._drawn(tables))
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
         try:
-            return assembly.positions(p, held, wished)
+            return assembly.positions(p, held, wished, self._staying(assembly.core, rates=False))
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
         except InconsistentStart as error:
             raise InconsistentStart(f"{error}{self._loop_in_words(tables, assembly, p)}") from None
+
+    def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
+        """The coordinates whose positions, and those whose rates, neither held values nor drives reach."""
+        if self._stays is None:
+            self._stays = unforced(self.drawing, tables)
+        return self._stays
+
+    def _staying(self, core: MechanismCore, *, rates: bool) -> list[Target]:
+        """What keeps such coordinates as drawn, their rates at zero; of positions the values are still to be read."""
+        index = {row.name: i for i, row in enumerate(core.measures)}
+        targets = []
+        for each in (self._stays or ((), ()))[rates]:
+            measure = index[each.rate if rates else each.position]
+            components = range(core.measures[measure].size) if each.axis is None else ["xyz".index(each.axis)]
+            targets += [Target(each.position, measure, i, 0.0) for i in components]
+        return targets
 
     def _drawn(self, tables: Tables) -> np.ndarray:
         """Poses of mass centres as drawn; of bodies whose rotation is held, with that: no small steps lead half a turn away."""
@@ -229,15 +251,6 @@ def _around(tables: Tables, bodies: Sequence[int], joints: Sequence[int]) -> tup
     parts = ["ground", *(body.name for body in tables.parts)]
     around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
     return f"the loop of {', '.join(around)}, through {', '.join(through)}", set(around)
-
-
-def bodies_of(element: Any) -> tuple[Body, ...]:
-    """The bodies that an element is, or belongs to, or joins."""
-    if isinstance(element, Body):
-        return (element,)
-    if isinstance(element, Point):
-        return (element.body,)
-    return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)
 
 
 def _component(name: str, i: int, shape: tuple[int, ...]) -> str:

@@ -39,6 +39,7 @@ from .start import targets
 from .starting import Starting
 from .tables import Tables
 from .tabulated import tables_of
+from .unforced import is_driven
 
 LAYOUTS = ("joint", "absolute")
 MANY = 32       # joint coordinates: of fewer, none is told what they cost
@@ -294,8 +295,10 @@ class MechanismSystem(BaseSystem):
         return advice.at_start(str(error), self._start, self.constraints)
 
     def _why_locked(self) -> str | None:
-        """Which axes are askew."""
-        return space_advice.locked(self._tables, self.name) if isinstance(self._tables, SpaceTables) else None
+        """Which axes are askew; None where drives move what the joints leave no freedom without them."""
+        if not isinstance(self._tables, SpaceTables) or is_driven(self._drawing):
+            return None
+        return space_advice.locked(self._tables, self.name)
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
         """Whether a motor has come to a dead centre; in space, whether a disc falls flat, or shafts are at a right angle."""

@@ -53,7 +53,7 @@ class Tables:
         self.effort_of: dict[str, int] = {}
         self.observed: list[Observed] = []
         self.laws = law_rows.Laws()
-        self.carrier = self._tree() if in_tree else [-1] * len(self.parts)
+        self.carrier = self.tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
         self._damp()
         for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling),
@@ -101,10 +101,10 @@ class Tables:
 
     # ---- bodies and joints ----
 
-    def _tree(self) -> list[int]:
-        """The joint that carries each part."""
+    def tree(self, *, with_cut: bool = False) -> list[int]:
+        """The joint that carries each part; with joints that the user has cut, too, or without."""
         edges = [Edge(i, *(self.number[body.name] for body in joint.bodies), _freedoms(joint))
-                 for i, joint in enumerate(self.joints) if joint.row.carrier and not joint.cut]
+                 for i, joint in enumerate(self.joints) if joint.row.carrier and (with_cut or not joint.cut)]
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
         return carriers(len(self.parts), edges, weights)
 

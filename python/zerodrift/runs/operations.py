@@ -30,7 +30,7 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         One of `zerodrift.systems`, or a `zerodrift.System`.
     p : array_like (nq,), or dict of measure to value
         Guess of the coordinates. Of a mechanism: what is held, positions and velocities, besides what its `start` holds; all
-        else is as near to the drawing and to rest as can be.
+        else is as `Mechanism.start` says: joint coordinates that nothing forces stay as drawn and at rest.
     v : array_like (nv,), optional
         Guess of the velocities; left out: zero.
     hold : sequence of str or Variable, or one of them
