@@ -49,19 +49,21 @@ __all__ = [
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InUse", "InconsistentStart",
     "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem",
     "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance",
-    "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "check",
+    "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "bias", "check",
     "compare", "corrections", "ensemble", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
-    "linkage", "load", "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference",
-    "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
+    "jacobian", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project", "reach",
+    "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune",
+    "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
-    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.rows", "System": "systems.callables", "check": "studies.check", "ensemble": "ensembles.ensemble",
+    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
+    "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check", "ensemble": "ensembles.ensemble",
     "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
-    "linkage": "mechanisms.linkage", "load": "files", "native": "systems.native", "numba_signature": "systems.native",
-    "reach": "kinematics.trace", "record_size": "runs.record_size", "reference": "studies.reference",
-    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "trace": "kinematics.trace",
-    "transmission_angle": "kinematics.transmission", "tune": "studies.tune", "work_precision": "studies.work_precision",
+    "jacobian": "analysis.matrices", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
+    "native": "systems.native", "numba_signature": "systems.native", "reach": "kinematics.trace",
+    "record_size": "runs.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
+    "symbolic": "symbolics.define", "trace": "kinematics.trace", "transmission_angle": "kinematics.transmission",
+    "tune": "studies.tune", "work_precision": "studies.work_precision",
 }
 
 

@@ -1,0 +1,49 @@
+"""Derivatives by central differences of eighth order, with an estimate of their error.
+
+The difference of eighth order is compared with that of sixth order, which uses the same points. Where they disagree, as they do
+near kinks and for functions that vary on a short scale, the step is reduced; below that, the fourth-order difference with a
+short step stands. For functions that are smooth on their characteristic scale the error is a few units of rounding divided by
+the first step, 1e-14.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+EIGHTH = np.array([4 / 5, -1 / 5, 4 / 105, -1 / 280])      # weights of f(k h) - f(-k h), k = 1 ... 4, over h
+SIXTH = np.array([3 / 4, -3 / 20, 1 / 60, 0.0])
+FOURTH = np.array([2 / 3, -1 / 12, 0.0, 0.0])
+STEPS = (2e-2, 2e-3, 5e-4)      # in characteristic scales
+AGREE = 1e-10                   # of the size: accepted without a shorter step
+
+
+def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
+    """The derivative of ``function(h)`` at h = 0.
+
+    Parameters
+    ----------
+    function : callable
+        Of a float; returns an array.
+    size : float
+        The size of the direction in characteristic scales: steps are so many times shorter.
+
+    Returns
+    -------
+    ndarray
+    """
+    if not size > 0:
+        return np.zeros_like(np.asarray(function(0.0), dtype=float))
+    best, least = None, np.inf
+    for step in STEPS:
+        h = step / size
+        ends = np.array([np.asarray(function(k * h), dtype=float) - np.asarray(function(-k * h), dtype=float)
+                         for k in (1, 2, 3, 4)])
+        derivative, lower = (np.tensordot(weights, ends, 1) / h for weights in (EIGHTH, SIXTH))
+        error = float(np.abs(derivative - lower).max(initial=0.0))
+        if error < least:
+            best, least = derivative, error
+        if error <= AGREE * np.abs(derivative).max(initial=1e-300):
+            return derivative
+    return np.tensordot(FOURTH, ends, 1) / h if best is None else best

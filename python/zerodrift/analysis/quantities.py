@@ -1,0 +1,154 @@
+"""Named quantities of a system at a state: measures, coordinates and velocities, their rows and the efforts conjugate to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check
+from ..systems.base import BaseSystem
+from . import differences
+from .state import State, scales, state
+
+AXES = "xyz"
+# Coordinates or speeds of a joint or motor that its efforts act along
+EFFORTS = {"torque": ("angle", "speed"), "force": ("displacement", "length", "speed")}
+
+
+class Found(NamedTuple):
+    """A quantity at a state.
+
+    value (size,); rate (size,); row (size, nv), the derivative of the rate, of velocities of the value, with respect to v; bias
+    (size,), so that the second rate, of velocities the first, is ``row @ vdot + bias``; `is_velocity`.
+    """
+
+    value: np.ndarray
+    rate: np.ndarray
+    row: np.ndarray
+    bias: np.ndarray
+    is_velocity: bool
+
+
+def name_of(given: Any, what: str) -> str:
+    """The name of a measure or variable that is given as such or by name."""
+    name = getattr(given, "name", given)
+    if not isinstance(name, str):
+        raise TypeError(f"{what} must be a measure, such as crank.angle, or its name, not {_check.shown(given)}")
+    return name
+
+
+def names_of(given: Any, what: str) -> list[str]:
+    """The names of one or several of them."""
+    single = isinstance(given, str) or hasattr(given, "name")
+    if not single and not isinstance(given, Iterable):
+        raise TypeError(f"{what} must be measures or their names, not {_check.shown(given)}")
+    return [name_of(each, f"an entry of {what}") for each in ((given,) if single else given)]
+
+
+def values_of(given: Any, what: str) -> dict[str, Any]:
+    """A dictionary of values by measure, by names."""
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+    return {name_of(key, f"a key of {what}"): value for key, value in given.items()}
+
+
+def known(system: BaseSystem) -> list[str]:
+    """The names of all quantities of a system."""
+    variables = [each.name for group in (system.coordinates, system.velocities, system.constraints) for each in group]
+    return [*system._names_of_measures(), *variables]
+
+
+def find(at: State, name: str, what: str) -> Found:
+    """A measure of positions or velocities, a coordinate or a velocity, at a state.
+
+    Raises
+    ------
+    ValueError
+        If nothing has that name, or it depends on accelerations or reactions.
+    """
+    system, watching = at.system, at.system._watching
+    place = watching.find(name)
+    if place is not None:
+        if watching.core.measure_depends(place.number) == "accelerations":
+            raise ValueError(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
+                             "reactions")
+        found = watching.core.measure_at(place.number, at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
+        part = slice(None) if place.component is None else slice(place.component, place.component + 1)
+        is_velocity = watching.core.measure_depends(place.number) == "velocities"
+        return Found(*(found[key][part] for key in ("value", "rate", "row", "bias")), is_velocity)
+    coordinates, velocities = ([each.name for each in group] for group in (system.coordinates, system.velocities))
+    if name in coordinates:
+        return _coordinate(at, coordinates.index(name))
+    if name in velocities:
+        row = np.eye(system.nv)[[velocities.index(name)]]
+        return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
+    raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; {_check.closest(name, known(system))}")
+
+
+def _coordinate(at: State, i: int) -> Found:
+    row, pdot = at.A[[i]], at.A @ at.v
+    bias = np.zeros(1)
+    if at.system.quaternions or at.system.nq != at.system.nv or not np.array_equal(at.A, np.eye(at.system.nv)):
+        size = float(np.abs(pdot / scales(at.system, at.p).p).max(initial=0.0))
+        bias = differences.along(lambda h: state(at.system, at.t, at.p + h * pdot, at.v).A[[i]] @ at.v, size)
+    return Found(at.p[[i]], pdot[[i]], row, bias, False)
+
+
+def effort(at: State, name: str, what: str) -> np.ndarray:
+    """Rows (size, nv) along which an effort acts: its generalized force is ``row.T @ effort``.
+
+    The name is that of a measure or variable, whose rate the effort multiplies to a power, or ``joint.torque``, ``joint.force``,
+    ``motor.torque``: the effort along the coordinate of that joint, or of the joint that the motor drives.
+    """
+    owner, _, quantity = name.rpartition(".")
+    for conjugate in EFFORTS.get(quantity, ()):
+        for base in (owner, _driven(at.system, owner)):
+            if at.system._watching.find(f"{base}.{conjugate}") is not None:
+                return find(at, f"{base}.{conjugate}", what).row
+    return find(at, name, what).row
+
+
+def _driven(system: BaseSystem, motor: str) -> str:
+    """The name of the joint that a motor of a mechanism drives; of anything else, its own."""
+    element = getattr(getattr(system, "_drawing", None), "elements", {}).get(motor)
+    return getattr(getattr(element, "joint", None), "name", motor)
+
+
+def components(name: str, size: int) -> list[str]:
+    """Names of the components of a quantity."""
+    if size == 1:
+        return [name]
+    return [f"{name}.{AXES[i]}" if size <= 3 else f"{name}[{i}]" for i in range(size)]
+
+
+class Reading:
+    """Any quantity by its name at one state, reactions included.
+
+    Parameters
+    ----------
+    system : BaseSystem
+    t, p, v, vdot, multipliers : float, ndarray
+    """
+
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
+                 multipliers: np.ndarray) -> None:
+        self.system, self.t, self.p, self.v, self.vdot, self.multipliers = system, t, p, v, vdot, multipliers
+
+    def __getitem__(self, given: Any) -> Any:
+        name = getattr(given, "name", given)
+        watching = self.system._watching
+        place = watching.find(name)
+        if place is not None:
+            states = [np.ascontiguousarray(each)[None] for each in (self.p, self.v, self.vdot, self.multipliers)]
+            values = watching.core.measure(place.number, np.array([float(self.t)]), *states)
+            value = place.pick(values)[0]
+            return float(value) if np.ndim(value) == 0 else value
+        of = self.system
+        groups = ((of.coordinates, self.p), (of.velocities, self.v), (of.constraints, self.multipliers))
+        for variables, values in groups:
+            for variable, value in zip(variables, values, strict=True):
+                if variable.name == name:
+                    return float(value)
+        raise KeyError(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, known(self.system))}")

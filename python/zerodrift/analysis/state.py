@@ -1,0 +1,72 @@
+"""The terms of a system at one (t, p, v), absent ones as zeros or identities, and the scales of its variables."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check
+from .._gateway import is_length
+from ..systems.base import BaseSystem, core_of, system_of
+
+
+class State(NamedTuple):
+    """Terms of (1)-(6) at (t, p, v).
+
+    A (nq, nv), M (nv, nv), force (nv,) = f - d, Phi (mh,), C (m, nv), Phi_t (m,), xi (m,).
+    """
+
+    system: BaseSystem
+    t: float
+    p: np.ndarray
+    v: np.ndarray
+    A: np.ndarray
+    M: np.ndarray
+    force: np.ndarray
+    Phi: np.ndarray
+    C: np.ndarray
+    Phi_t: np.ndarray
+    xi: np.ndarray
+
+    @property
+    def holonomic(self) -> np.ndarray:
+        """Holonomic rows of C, (mh, nv)."""
+        return self.C[:self.system.mh]
+
+
+def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
+    """Terms at (t, p, v)."""
+    core = core_of(system)
+    p, v = np.ascontiguousarray(p), np.ascontiguousarray(v)
+    terms, nv, m = core.evaluate(t, p, v), core.nv, core.m
+    zero = np.zeros(nv)
+    return State(system, t, p, v, terms.get("A", np.eye(core.nq, nv)), terms["M"], terms.get("f", zero) - terms.get("d", zero),
+                 terms.get("Phi", np.zeros(core.mh)), terms.get("C", np.zeros((m, nv))), terms.get("Phi_t", np.zeros(m)),
+                 terms.get("xi", np.zeros(m)))
+
+
+class Scales(NamedTuple):
+    """Characteristic scales: `length` in m, and those of the entries of p (nq,) and v (nv,), one for angles and pure numbers."""
+
+    length: float
+    p: np.ndarray
+    v: np.ndarray
+
+
+def scales(system: BaseSystem, p: np.ndarray) -> Scales:
+    """Characteristic scales of a system near a position."""
+    of_p, of_v = (np.array([is_length(each) for each in group], dtype=bool) for group in (system.coordinates, system.velocities))
+    length = core_of(system).c.length or float(np.abs(p[of_p]).max(initial=0.0)) or 1.0
+    return Scales(length, np.where(of_p, length, 1.0), np.where(of_v, length, 1.0))
+
+
+def arguments(given: Any, p: Any, v: Any, t: Any) -> tuple[BaseSystem, float, np.ndarray, np.ndarray]:
+    """The system of an argument and a checked state of it; what is left out is its start."""
+    system, t = system_of(given), _check.number("t", t)
+    core_of(system)
+    if p is None and v is None:
+        p, v = system._state_or_start(None, None, "p", "v", t)
+    else:
+        p, v = system._state_or_start(p, v, "p", "v", t)
+    return system, t, np.array(p), np.array(v)
