@@ -1,5 +1,6 @@
 """Ensembles in other processes: the same bits, functions that travel or are named, workers that die."""
 
+import functools
 import multiprocessing
 import os
 import signal
@@ -96,6 +97,84 @@ def test_functions_travel_by_value_with_cloudpickle(processes):
         cloudpickle.unregister_pickle_by_value(module)
 
 
+LOCK = threading.Lock()
+
+
+def refers(gravity=9.81):
+    """By a function within it."""
+    def is_free():
+        return not LOCK.locked()
+
+    return pendulum(gravity=gravity) if is_free() else None
+
+
+class Holder:
+    def __init__(self, held):
+        self.held = held
+
+    def __call__(self, sol):
+        return 1.0
+
+    def lowest(self, sol):
+        return 1.0
+
+
+def closing_over(held):
+    def closed(sol):
+        return sol.t[-1] if held else None
+    return closed
+
+
+def by_default(sol, held=LOCK):
+    return sol.t[-1]
+
+
+@pytest.mark.parametrize(("arguments", "named"), [
+    ({"reduce": closing_over(LOCK)}, r"closing_over.<locals>.closed of .* refers to <unlocked _thread.lock"),
+    ({"reduce": closing_over([{"a": LOCK}])}, r"closing_over.<locals>.closed of .* refers to <unlocked"),
+    ({"reduce": functools.partial(closing_over(LOCK), 3)}, r"closing_over.<locals>.closed of .* refers to"),
+    ({"reduce": Holder(LOCK).lowest}, r"Holder object at .* refers to <unlocked"),
+    ({"reduce": Holder(1.0).lowest, "events": [Holder(LOCK)]}, r"Holder object at .* refers to <unlocked"),
+    ({"reduce": by_default}, "by_default of .* refers to <unlocked"),
+    ({"system": refers}, "refers of .* refers to <unlocked"),
+])
+def test_functions_that_refer_to_what_cannot_travel_are_named(processes, arguments, named):
+    """Before anything runs; cloudpickle sends functions of modules, too, that it is told to."""
+    cloudpickle = pytest.importorskip("cloudpickle")
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])
+    try:
+        with pytest.raises(TypeError, match=f"the ensemble cannot travel to another process: .*{named}.*cannot pickle"):
+            zd.ensemble(**{"system": pendulum, "t_span": 1.0, "executor": processes} | PLAIN | arguments)
+    finally:
+        cloudpickle.unregister_pickle_by_value(sys.modules[__name__])
+
+
+class Cancels(ThreadPoolExecutor):
+    """An executor that drops all that has not begun, once so many tasks have ended."""
+
+    def __init__(self, count):
+        super().__init__(1)
+        self.left = count
+
+    def submit(self, function, *arguments):
+        def counted():
+            result = function(*arguments)
+            self.left -= 1
+            if not self.left:
+                self.shutdown(wait=False, cancel_futures=True)
+            return result
+        return super().submit(counted)
+
+
+def test_runs_that_an_executor_cancels_are_lost_with_an_error(tmp_path):
+    """With those that were done, from which the same call goes on."""
+    arguments = PLAIN | {"store": tmp_path / "study", "chunk": 2}
+    with pytest.raises(zd.WorkerLost, match=r"did not return the runs 4 ... 5, nor 3 other portions: Cancelled") as caught:
+        zd.ensemble(pendulum, 1.0, executor=Cancels(2), **arguments)
+    assert caught.value.solution.failed.tolist() == [False] * 4 + [True] * 8
+    assert same(zd.ensemble(pendulum, 1.0, **arguments), zd.ensemble(pendulum, 1.0, **PLAIN))
+
+
 def test_what_a_worker_lacks_is_said(monkeypatch):
     stamp = {"vector": "avx512", "version": executors.version()}
     monkeypatch.setattr(executors._gateway, "PROCESSOR_UNIT", 1)
@@ -118,12 +197,13 @@ class Elsewhere:
 
 def test_a_worker_of_another_version_is_refused(monkeypatch):
     checked = executors.check_stamp
+    executors._plan.cache_clear()       # of what other tests have sent to this process
     monkeypatch.setattr(executors, "check_stamp", lambda stamp: checked(stamp | {"version": "another"}))
     with pytest.raises(zd.WorkerLost, match=r"another zerodrift, .* than .* \(on ") as caught:
         zd.ensemble(pendulum, 1.0, executor=Elsewhere(), **PLAIN)
     assert caught.value.solution.failed.all()
     monkeypatch.undo()
-    with pytest.raises(TypeError, match="what is kept of a run cannot travel"):
+    with pytest.raises(TypeError, match="what locks returned of a run cannot travel"):
         zd.ensemble(pendulum, 1.0, executor=Elsewhere(), reduce=locks, **PLAIN)
 
 

@@ -129,7 +129,7 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
     if not count:
         return nothing(0), []
     doubtful = ~diagnosis.are_beyond_doubt(made.statistics, made.kinetic, made.energy_error)
-    left = np.flatnonzero(made.way[:count] == _gateway.UNUSUAL)
+    left = np.flatnonzero((made.way[:count] == _gateway.UNUSUAL) | plan.runs.are_not_finite(first, first + count))
     return _part(plan, batch, made, _messages(made, tables), doubtful[:count]), (left + first).tolist()
 
 

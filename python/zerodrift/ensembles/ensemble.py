@@ -99,15 +99,16 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     Raises
     ------
     ValueError, TypeError
-        Before anything runs: for arrays of different lengths, parameters and outputs that nobody has, wrong options.
-        Also for a function that cannot travel to other processes, which is named.
+        Before anything runs: for arrays of different lengths, unknown parameters and outputs, wrong options, and parameters or
+        starts that no run accepts. Also for a function that cannot travel to other processes; it is named with the object that
+        it refers to.
     InUse
         If another ensemble writes to the folder `store`.
     Interrupted
         After Ctrl-C; ``solution`` is the Ensemble of what was done.
     WorkerLost
-        If an executor does not return some runs, as its processes died, or are of a machine that gives other bits; ``solution``
-        is the Ensemble of what it did return.
+        If an executor does not return some runs, as it cancelled them, its processes died, or are of a machine that gives other
+        bits; ``solution`` is the Ensemble of what it did return.
 
     Examples
     --------

@@ -9,7 +9,7 @@ import platform
 import queue
 import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
@@ -21,6 +21,7 @@ from .identity import version
 from .part import Part
 from .plan import Plan
 from .run_range import never, run_range
+from .runs import named
 from .transport import packed, unpacked
 
 WINDOW = 256        # ranges that are submitted and not yet done, at most: more would only take memory
@@ -111,14 +112,12 @@ class Elsewhere:
         taken = self._pending.get(future)
         if taken is None:
             return
-        if not future.cancelled():
-            error = future.exception()
-            part = error if error is not None else unpacked(future.result())
-            if isinstance(part, BaseException):
-                self._lost[taken] = part
-            else:
-                self._has_received = True
-                self._finished(taken[0], part)
+        part = _result(future)
+        if isinstance(part, BaseException):
+            self._lost[taken] = part
+        else:
+            self._has_received = True
+            self._finished(taken[0], part)
         del self._pending[future]
 
     def _error(self) -> Exception:
@@ -135,8 +134,16 @@ class Elsewhere:
     def _cancel(self) -> None:
         """What has not begun will not; what has is waited for by whoever called."""
         for future in list(self._pending):
-            if future.cancel():
+            if not future.cancelled() and future.cancel():      # those that the executor has cancelled are lost
                 self._pending.pop(future, None)
+
+
+def _result(future: Any) -> Any:
+    """The part that a future has, or the error for which it has none; `_cancel` keeps no future that it has cancelled."""
+    if future.cancelled():
+        return CancelledError("cancelled by the executor")
+    error = future.exception()
+    return error if error is not None else unpacked(future.result())
 
 
 class _Processes(AbstractContextManager):
@@ -171,7 +178,8 @@ def _made(head: bytes, table: bytes) -> bytes:
     try:
         plan = _plan(head)
         plan = plan.over(plan.runs.with_table(unpacked(table)))
-        return packed(run_range(plan, 0, plan.runs.count, _is_cancelled), "what is kept of a run")
+        kept = "what is kept of a run" if plan.reduce is None else f"what {named(plan.reduce)} returned of a run"
+        return packed(run_range(plan, 0, plan.runs.count, _is_cancelled), kept)
     except (ImportError, WorkerLost) as error:
         return packed(WorkerLost(f"{error} (on {platform.node()})"))
     except TypeError as error:      # what reduce returned may be anything

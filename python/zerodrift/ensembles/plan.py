@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import copy
 import inspect
 from collections.abc import Callable
@@ -93,17 +92,17 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     if reduce is not None and not callable(reduce):
         raise TypeError(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
     names = _names(outputs)
-    system = _some_system(runs)
+    run, system = _first_system(runs)
     if system is not None:
         span = _check.span(t_span)
         _check_options(system, span, options)
         _check_names(system, names or [])
-        _check_starts(runs, system, span[0])
+        _check_starts(runs, run, system, span[0])
         if names is None:
             names = [] if reduce is not None else [variable.name for variable in system.coordinates]
     if options.get("t_eval") is not None:
         options["t_eval"] = np.array(options["t_eval"], dtype=float)
-    is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made)
+    is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made, run)
     units = {} if system is None else _units(system, names or [])
     return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular)
 
@@ -116,19 +115,23 @@ def _names(outputs: Any) -> list[str] | None:
     return [name_of(each, "each of outputs") for each in several]
 
 
-def _some_system(runs: Runs) -> BaseSystem | None:
-    """The first that can be made; None: none can. Of a system that is given, what its parameters lack is an error."""
-    if isinstance(runs.made, BaseSystem):
-        return runs.system(0)
-    _check_signature(runs)
+def _first_system(runs: Runs) -> tuple[int, BaseSystem | None]:
+    """The first run whose system can be built, and that system; None: there is none, as a function raises in every run.
+
+    A run that cannot be built is data. If none can, a given system has been given wrong parameters, or a function returns
+    something else: that is an error.
+    """
+    if not isinstance(runs.made, BaseSystem):
+        _check_signature(runs)
+    errors: list[Exception] = []
     for run in range(runs.count):
         try:
-            return runs.system(run)
-        except NoSystem:
-            raise
-        except Exception:       # a run that fails is data
-            continue
-    return None
+            return run, runs.system(run)
+        except Exception as error:
+            errors[1:] = [error]
+    if isinstance(runs.made, BaseSystem) or any(isinstance(error, NoSystem) for error in errors):
+        raise errors[0]
+    return 0, None
 
 
 def _check_signature(runs: Runs) -> None:
@@ -166,11 +169,20 @@ def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:
     return system._parameter_units() | {name: variables.get(name, system._watching.unit(name) or "") for name in names}
 
 
-def _check_starts(runs: Runs, system: BaseSystem, t0: float) -> None:
-    """Sizes and names, which each run would refuse."""
+def _check_starts(runs: Runs, first: int, system: BaseSystem, t0: float) -> None:
+    """Sizes and names, which each run would refuse; `first` is the run of this system."""
     for name, size in (("p0", system.nq), ("v0", system.nv)):
         array = runs.states.get(name)
         if array is not None and array.shape[-1] != size:
             raise ValueError(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
-    with contextlib.suppress(ZerodriftError):       # which is this run's own
-        runs.start(0, system, t0)
+    errors = []
+    for run in range(first, runs.count):
+        try:
+            runs.start(run, system if run == first else runs.system(run), t0)
+        except ZerodriftError:      # its arguments were accepted
+            return
+        except Exception as error:
+            errors.append(error)
+        else:
+            return
+    raise errors[0]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import ZerodriftError
 from ..mechanisms.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
@@ -155,22 +156,30 @@ class Runs:
             return system
         return self.made.with_parameters(parameters) if parameters else self.made
 
-    def is_tabular(self, system: BaseSystem) -> bool:
-        """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python."""
+    def is_tabular(self, system: BaseSystem, run: int) -> bool:
+        """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python.
+
+        `run` is one that can be built.
+        """
         sizes = {"p0": system.nq, "v0": system.nv}
         is_mechanism = isinstance(system, MechanismSystem)
         if self.start_values or (is_mechanism and set(self.states) != set(sizes) and not (self.parameters and not self.states)):
             return False        # it finds them in Python
-        fits = all(array.shape[-1] == sizes[name] and np.isfinite(array).all() for name, array in self.states.items())
+        fits = all(array.shape[-1] == sizes[name] for name, array in self.states.items())
         has_start = "p0" in self.states or is_mechanism or system.p0 is not None
-        return fits and has_start and self.tables(system, 0, 1) is not None
+        return fits and has_start and self.tables(system, run, run + 1) is not None
 
     def tables(self, system: BaseSystem, first: int, last: int, direct: tuple[str, bool] | None = None) -> NumberTables | None:
-        """The numbers of the runs first ... last - 1, of this system but for its parameters; None: there are no such tables."""
+        """The numbers of the runs first ... last - 1, of this system but for its parameters; None: there are no such tables.
+
+        Nor are there where numbers of one run contradict each other: each run is then built individually, and has its error.
+        """
         parameters = self.parameters_from(first, last)
-        if isinstance(system, MechanismSystem):
-            return system._number_tables(parameters, last - first, direct, starts_are_known=bool(self.states))
-        return system._number_tables(parameters, last - first, direct)
+        more = {"starts_are_known": bool(self.states)} if isinstance(system, MechanismSystem) else {}
+        try:
+            return system._number_tables(parameters, last - first, direct, **more)
+        except (ValueError, ZerodriftError):
+            return None
 
     def parameters_from(self, first: int, last: int) -> dict[str, np.ndarray]:
         """Of the runs first ... last - 1."""
@@ -197,6 +206,13 @@ class Runs:
         if tables.refused:
             found[0][list(tables.refused)] = np.nan
         return found[0], found[1]
+
+    def are_not_finite(self, first: int, last: int) -> np.ndarray:
+        """Which of the runs first ... last - 1 have a start p0 or v0 that `simulate` refuses."""
+        found = np.zeros(last - first, dtype=bool)
+        for array in self.states.values():
+            found |= ~np.isfinite(array[first:last] if array.ndim == 2 else array).all(axis=-1)
+        return found
 
     def start(self, run: int, system: BaseSystem, t: float) -> tuple[Any, Any]:
         """P and v at its start, which is at t; None: the system's own, which a mechanism assembles."""

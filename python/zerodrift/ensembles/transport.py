@@ -9,6 +9,7 @@ import sys
 from types import FunctionType, ModuleType
 from typing import Any
 
+from .holding import holding
 from .runs import named
 
 MAIN = ("__main__", "__mp_main__")      # modules that another process does not have, or has another one of
@@ -23,18 +24,33 @@ def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes
     Raises
     ------
     TypeError
-        If there is something in it that cannot travel. A function that no module has by its name needs cloudpickle.
+        If there is something in it that cannot travel; the function that refers to it is named. A function that no module has
+        by its name needs cloudpickle.
     """
-    buffer = io.BytesIO()
-    packer = _Packer(buffer, pickle.HIGHEST_PROTOCOL)
-    packer.shares_main = shares_main and hasattr(sys.modules["__main__"], "__file__")
+    shares_main = shares_main and hasattr(sys.modules["__main__"], "__file__")
     try:
-        packer.dump(what)
+        return _dumped(what, shares_main)
     except _Stuck as error:
         raise TypeError(f"{name} cannot travel to another process: {error}") from None
     except Exception as error:
-        raise TypeError(f"{name} cannot travel to another process: {type(error).__name__}: {error}") from error
+        holder = holding(what, lambda part: _fits(part, shares_main))
+        raise TypeError(f"{name} cannot travel to another process: {holder}{type(error).__name__}: {error}") from error
+
+
+def _dumped(what: Any, shares_main: bool) -> bytes:
+    buffer = io.BytesIO()
+    packer = _Packer(buffer, pickle.HIGHEST_PROTOCOL)
+    packer.shares_main = shares_main
+    packer.dump(what)
     return buffer.getvalue()
+
+
+def _fits(what: Any, shares_main: bool) -> bool:
+    try:
+        _dumped(what, shares_main)
+    except Exception:       # of any object
+        return False
+    return True
 
 
 def unpacked(data: bytes) -> Any:

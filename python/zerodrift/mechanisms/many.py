@@ -33,8 +33,6 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
 
     None where they differ in more than numbers. Those that are wrong (count,) are not assembled.
     """
-    if any(np.isnan(each).any() for each in parameters.values()):       # which decides nothing
-        return None
     count = len(wrong)
     numbers = Numbers({**changed, **{name: Column(np.asarray(each, dtype=float)) for name, each in parameters.items()}})
     try:

@@ -207,12 +207,13 @@ class MechanismSystem(BaseSystem):
                        starts_are_known: bool = True) -> NumberTables | None:
         if not parameters or self._is_written_out or not are_plain(self._drawing, self._tables, self._start):
             return super()._number_tables(parameters, count, direct) if starts_are_known else None
-        wrong = np.zeros(count, dtype=bool)
+        wrong, own = np.zeros(count, dtype=bool), self.parameters
         for name, each in parameters.items():
-            if each.ndim != 1 or name not in self._drawing.numbers(self._numbers):
+            if each.ndim != 1 or name not in own:
                 return None
             wrong |= [not _is_right(name, value) for value in each.tolist()]
-        family = varied(self._drawing, self._changed, parameters, self.layout, self._measuring, wrong=wrong,
+        right = {name: np.where(wrong, own[name], each) for name, each in parameters.items()}       # wrong runs are not built
+        family = varied(self._drawing, self._changed, right, self.layout, self._measuring, wrong=wrong,
                         starts_are_known=starts_are_known)
         if family is None:
             return None
