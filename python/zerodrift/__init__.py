@@ -20,6 +20,7 @@ from .errors import (
     CorrectionWarning,
     CostWarning,
     Diverged,
+    EquilibriumFailed,
     InconsistentStart,
     InconsistentSystem,
     Interrupted,
@@ -46,24 +47,24 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "Event", "InUse", "InconsistentStart",
-    "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning", "Projection", "SingularSystem",
-    "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System", "UnreachableTolerance",
-    "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration", "assemble", "bias", "check",
-    "compare", "corrections", "ensemble", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
-    "jacobian", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project", "reach",
-    "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "trace", "transmission_angle", "tune",
-    "work_precision",
+    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
+    "InconsistentStart", "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning",
+    "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System",
+    "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration",
+    "assemble", "bias", "check", "compare", "corrections", "ensemble", "equilibrium", "formulations", "from_mechanics",
+    "get_include", "grid", "inertia", "integrators", "jacobian", "linkage", "load", "mass_matrix", "models", "native",
+    "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map", "symbolic",
+    "systems", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
     "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check", "ensemble": "ensembles.ensemble",
-    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
-    "jacobian": "analysis.matrices", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
-    "native": "systems.native", "numba_signature": "systems.native", "reach": "kinematics.trace",
-    "record_size": "runs.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
-    "symbolic": "symbolics.define", "trace": "kinematics.trace", "transmission_angle": "kinematics.transmission",
-    "tune": "studies.tune", "work_precision": "studies.work_precision",
+    "equilibrium": "analysis.equilibrium", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
+    "grid": "ensembles.runs", "jacobian": "analysis.matrices", "linkage": "mechanisms.linkage", "load": "files",
+    "mass_matrix": "analysis.matrices", "native": "systems.native", "numba_signature": "systems.native",
+    "reach": "kinematics.trace", "record_size": "runs.record_size", "reference": "studies.reference",
+    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "trace": "kinematics.trace",
+    "transmission_angle": "kinematics.transmission", "tune": "studies.tune", "work_precision": "studies.work_precision",
 }
 
 

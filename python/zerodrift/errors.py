@@ -115,3 +115,7 @@ class NoCompilerWarning(UserWarning):
 
 class CacheWarning(UserWarning):
     """The folder for compiled systems cannot be written, or others can write it, too; they are compiled once in every process."""
+
+
+class EquilibriumFailed(ZerodriftError):
+    """No equilibrium or steady motion was found; the message has the best position and the direction of the remaining force."""

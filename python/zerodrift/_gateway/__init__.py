@@ -56,7 +56,7 @@ from .runs import (
     takes_jacobian,
     takes_series,
 )
-from .systems import CoreSystem, Kind, kinds
+from .systems import CoreSystem, Kind, follow, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
@@ -64,7 +64,7 @@ __all__ = [
     "CoreSystem", "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter",
     "PerturbedCore", "PythonCore", "Record", "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration",
     "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "disagreement", "doubles",
-    "error_of", "find", "hand_far_sines", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
+    "error_of", "find", "follow", "hand_far_sines", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
     "perturbed", "probe", "project", "required", "row_bytes", "row_takes_series", "settings", "states_between", "takes_direct",
     "takes_embeddings", "takes_jacobian", "takes_series", "terms_of",
 ]

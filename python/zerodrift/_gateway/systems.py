@@ -188,3 +188,9 @@ class CoreSystem(Measuring):
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")
         return arrays
+
+
+def follow(core: CoreSystem, p: np.ndarray) -> None:
+    """Brings the coordinates that follow others to these, in place, with the turns that they have."""
+    if core.c.followers:
+        core.c.follow(core.c.data, doubles(p, core.nq, writable=True))

@@ -1,0 +1,118 @@
+"""`equilibrium`: a position in which a system rests, or a steady motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..errors import EquilibriumFailed, ZerodriftError
+from ..runs.operations import assemble
+from ..systems.base import BaseSystem, core_of, system_of
+from .equilibrium_result import Equilibrium, at_rest
+from .quantities import names_of, values_of
+from .rest import Balance, Search
+from .retraction import onto, rows_of
+from .settling import settled
+from .state import state
+
+
+def equilibrium(system: Any, *, near: Any = None, hold: Any = (), stability: str = "stable", t: float = 0.0) -> Equilibrium:
+    """A position in which a system rests under its forces.
+
+    Newton's method solves the balance of forces on the tangent space of the constraints, with projection onto these as
+    retraction, in a trust region of 0.3 rad or characteristic lengths. Holonomic, nonholonomic and redundant constraints are
+    treated alike, and no coordinate is chosen as independent. The search goes downhill, so that the forces do work in each
+    step; where it does not converge, the motion is integrated, stopped at each maximum of its kinetic energy, and Newton's
+    method finishes. The stiffness is that of fourth-order or better differences of the residuals, 1e-12.
+
+    Parameters
+    ----------
+    system : system or Mechanism
+    near : array_like (nq,), or dict of measure to value, optional
+        Position from which the search starts; of a mechanism also values of measures, from which it is assembled. Left out:
+        the start.
+    hold : sequence of measures, optional
+        Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
+    stability : {"stable", "any"}
+        "stable" leaves an unstable equilibrium downhill; "any" takes Newton's method to one nearby, stable or not.
+    t : float
+        Time in s at which drives stand; they are at rest there.
+
+    Returns
+    -------
+    Equilibrium
+        Prints its position, stability, lowest frequency and reactions.
+
+    Raises
+    ------
+    EquilibriumFailed
+        If none was found; the message names the direction in which a force remains.
+    ValueError, TypeError
+        For a wrong argument.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    >>> link = m.link("link", (0, 0), (1, 0), mass=2.0)
+    >>> pin = m.revolute("pin", m.ground, link.start)
+    >>> eq = zd.equilibrium(m)
+    >>> round(eq["link.angle"], 9), round(eq["pin.force.y"], 9), eq.stable
+    (-1.570796327, 19.62, True)
+    """
+    system, t = system_of(system), _check.number("t", t)
+    core_of(system)
+    _check.choice("stability", stability, ("stable", "any"))
+    p = _first(system, near, t)
+    at = state(system, t, p, np.zeros(system.nv))
+    held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
+    balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
+    return at_rest(balance, iterations, how)
+
+
+def _first(system: BaseSystem, near: Any, t: float) -> np.ndarray:
+    """The position from which the search starts."""
+    if isinstance(near, Mapping):
+        return np.array(assemble(system, values_of(near, "near"), t=t)[0])
+    if near is None:
+        return np.array(system._state_or_start(None, None, "near", "v", t)[0])
+    return onto(system, t, _check.vector("near", near, system.nq))
+
+
+def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:
+    return p
+
+
+WAYS = {"Newton's method, downhill": _unmoved, "integration with stops, then Newton's method": settled}      # after the first
+
+
+def _found(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray], *,
+           is_downhill: bool) -> tuple[Balance, int, str]:
+    """The balance, the number of iterations and the way in which it was found."""
+    search = Search(system, t, held, is_downhill=is_downhill)
+    balance, is_found = search.run(p)
+    if is_found:
+        return balance, search.iterations, "Newton's method in a trust region"
+    other = Search(system, t, held, is_downhill=True)
+    for how, begin in WAYS.items():
+        if (is_downhill and begin is _unmoved) or (held and begin is settled):
+            continue
+        try:
+            found, is_found = other.run(begin(system, p))
+        except ZerodriftError:
+            continue
+        if is_found:
+            return found, search.iterations + other.iterations, how
+        balance = min(balance, found, key=lambda each: each.residual)
+    raise EquilibriumFailed(_nothing(balance))
+
+
+def _nothing(balance: Balance) -> str:
+    """The message of a search that found nothing."""
+    at, where = balance.at, np.array2string(balance.at.p, precision=4, threshold=12)
+    return (f"{at.system.name} must have a position in which its forces balance, and none was found: the best one leaves a "
+            f"force of {balance.residual:.3g} N/sqrt(kg) in the mass metric, which accelerates {balance.largest_force()!r}, at "
+            f"p = {where}; hold that motion with hold=, or start the search elsewhere with near=")

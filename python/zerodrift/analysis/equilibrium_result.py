@@ -1,0 +1,154 @@
+"""The result of `equilibrium`: its position, reactions, efforts, stiffness and stability."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import CorrectionFailed
+from ..systems.base import BaseSystem
+from .names import dominant
+from .quantities import Reading, components
+from .rest import Balance
+from .retraction import moved, onto, rows_of
+from .spectrum import Spectrum, of_matrix
+
+SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
+ASIDE = 0.05        # in characteristic scales: distance at which a free direction is verified
+SHOWN = 8
+REACTIONS = (".force", ".torque", ".tension")
+
+
+class Equilibrium:
+    """A position of rest, or a steady motion; ``eq["pin.force"]`` reads any measure there.
+
+    Attributes
+    ----------
+    system : system
+    t : float
+        Time in s at which drives stand.
+    p, v, vdot : ndarray (nq,), (nv,), (nv,)
+    multipliers : ndarray (m,)
+        With the sign of (7), ``C.T @ multipliers = f - d`` at rest.
+    effort : dict of str to float or ndarray
+        Efforts, conjugate to the rates of the quantities that are held, in N or N m.
+    stiffness : ndarray (k, k)
+        Reduced stiffness matrix, on a mass-orthonormal basis of the directions that nothing holds: its eigenvalues are squares
+        of angular frequencies, in 1/s^2.
+    damping : ndarray (k, k)
+        Reduced damping matrix on the same basis, in 1/s.
+    basis : ndarray (nv, k)
+        The basis, in velocities.
+    eigenvalues : ndarray
+        Of the motion nearby, in 1/s, those of free directions left out.
+    frequencies : ndarray
+        In Hz, of the modes, in the order of the eigenvalues.
+    stable : bool or None
+        True where all eigenvalues decay, or the stiffness is symmetric and positive definite and nothing feeds the motion;
+        False where one grows; None where they do not decide.
+    free : tuple of str
+        Directions without stiffness, in which the equilibrium may stand anywhere, each by the coordinate that moves most.
+    residual : float
+        Norm of the unbalanced force in the mass metric, in N/sqrt(kg).
+    iterations : int
+    how : str
+        Method that found it.
+    """
+
+    def __init__(self, system: BaseSystem, t: float, state: tuple[np.ndarray, ...], effort: dict[str, Any], **found: Any) -> None:
+        self.system, self.t, self.effort = system, t, effort
+        self.p, self.v, self.vdot, self.multipliers = state
+        self.stiffness, self.damping, self.basis = found["stiffness"], found["damping"], found["basis"]
+        self.stable, self.free, self.residual = found["stable"], found["free"], found["residual"]
+        self.iterations, self.how = found["iterations"], found["how"]
+        spectrum: Spectrum = found["spectrum"]
+        self.eigenvalues, self.frequencies = spectrum.eigenvalues, spectrum.frequencies
+        self._reading = Reading(system, t, *state)
+
+    def __getitem__(self, name: Any) -> Any:
+        return self._reading[name]
+
+    def __repr__(self) -> str:
+        word = {True: "stable", False: "unstable", None: "stability not decided by the linearization"}[self.stable]
+        what = "steady motion" if np.any(self.v) else "equilibrium"
+        word = word if self.basis.shape[1] else "nothing is free to move"
+        lines = [f"<{what} of {self.system.name}: {word}; {self.how}, {self.iterations} iterations>"]
+        oscillating = self.frequencies[np.abs(self.eigenvalues.imag) > 0]
+        if oscillating.size:
+            lines.append(f"  lowest frequency  {oscillating.min():.6g} Hz")
+        growing = self.eigenvalues[self.eigenvalues.real > 0]
+        if self.stable is False and growing.size:
+            lines.append(f"  fastest growth    {growing.real.max():.6g} 1/s")
+        if self.free:
+            lines.append(f"  free              {', '.join(self.free)}")
+        lines += [f"  effort            {name} = {_shown(value)}" for name, value in self.effort.items()]
+        return "\n".join(lines + self._positions() + self._reactions())
+
+    def _positions(self) -> list[str]:
+        named = [f"{variable.name} = {value:.6g} {variable.unit}".rstrip()
+                 for variable, value in zip(self.system.coordinates, self.p, strict=True)][:SHOWN]
+        return [f"  {'at' if not i else '':18}{each}" for i, each in enumerate(named)]
+
+    def _reactions(self) -> list[str]:
+        names = [name for name in self.system._names_of_measures() if name.endswith(REACTIONS)]
+        shown = [f"{name} = {_shown(self[name])} {self.system._watching.unit(name)}" for name in names[:2 * SHOWN]]
+        return [f"  {'reactions' if not i else '':18}{each}" for i, each in enumerate(shown)]
+
+
+def _shown(value: Any) -> str:
+    return np.array2string(np.asarray(value), precision=6, suppress_small=True) if np.ndim(value) else f"{float(value):.6g}"
+
+
+def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
+    """The result for a balance at rest."""
+    at, m, k = balance.at, balance.at.system.m, balance.V.shape[1]
+    K, D = balance.stiffness, balance.damping
+    spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]))
+    free = [dominant(at, at.A @ (balance.V @ axis)) for axis in _free(balance)]
+    state = (at.p, at.v, np.zeros_like(at.v), balance.multipliers[:m])
+    return Equilibrium(at.system, at.t, state, _efforts(balance), stiffness=K, damping=D, basis=balance.V, spectrum=spectrum,
+                       stable=_stable(balance, spectrum, len(free)), free=tuple(dict.fromkeys(free)), residual=balance.residual,
+                       iterations=iterations, how=how)
+
+
+def _efforts(balance: Balance) -> dict[str, Any]:
+    """Efforts that hold the quantities that are held: the opposites of their multipliers."""
+    effort, at = {}, balance.at.system.m
+    for name in balance.names:
+        size = len(rows_of(balance.at, {name: None})[0])
+        part = -balance.multipliers[at:at + size]
+        effort.update({each: float(value) for each, value in zip(components(name, size), part, strict=True)})
+        at += size
+    return effort
+
+
+def _free(balance: Balance) -> list[np.ndarray]:
+    """Directions z (k,) without stiffness, in which the forces balance at a distance, too."""
+    (curvature, axes), found, at = balance.curvature, [], balance.at
+    for axis in axes[:, np.abs(curvature) <= balance.flat].T:
+        step = axis * ASIDE / max(balance.size(axis), 1e-300)
+        try:
+            p = onto(at.system, at.t, moved(at, balance.V @ step), balance.names)
+        except CorrectionFailed:
+            continue
+        there = Balance(at.system, at.t, p, balance.names)
+        if there.residual <= 1e3 * there.rounding:
+            found.append(axis)
+    return found
+
+
+def _stable(balance: Balance, spectrum: Spectrum, free: int) -> bool | None:
+    """Stability by the theorems of Lyapunov and Lagrange, free directions left out; None where they do not decide."""
+    K, D = balance.stiffness, balance.damping
+    if spectrum.grows:
+        return False
+    flat = int((balance.curvature[0] <= balance.flat).sum())
+    if flat > free:
+        return None
+    if flat == len(K) or spectrum.decays:
+        return True
+    size = np.abs(K).max()
+    is_conservative = np.abs(K - K.T).max() <= SYMMETRIC * size
+    feeds = np.linalg.eigvalsh(D + D.T).min() < -SYMMETRIC * max(np.sqrt(size), np.abs(D).max())
+    return True if is_conservative and not feeds else None

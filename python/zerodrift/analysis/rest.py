@@ -1,0 +1,221 @@
+"""Search for a position of rest: Newton's method on V^T (f - d) = 0 within a trust region, turned downhill.
+
+The balance is that of the tangent space: V (nv, k) is a mass-orthonormal basis of the velocities that all constraints allow at
+(t, p, v = 0) with drives at rest, Phi_t = 0. Its derivative along V, the stiffness K, has the curvature of the constraints
+weighted by their multipliers. A step solves K z = V^T (f - d) where K is positive definite, and goes against the force and
+along negative curvature reversed where it is not, so that the forces do positive work. Projection onto the constraints is the
+retraction.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..errors import CorrectionFailed
+from ..systems.base import BaseSystem
+from . import differences
+from .retraction import moved, onto, rows_of
+from .state import Scales, scales, state
+from .tangent import Tangent, multipliers
+
+ITERATIONS = 300
+FIRST_RADIUS, LARGEST_RADIUS = 0.1, 0.3     # of the trust region, largest change of a coordinate in characteristic scales
+SMALLEST_RADIUS = 1e-14
+FLAT = 1e-9         # of the largest stiffness: zero but for rounding; differences leave 1e-12
+BALANCED = 1e-12    # of the sum of magnitudes of the forces: zero but for rounding
+UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
+DISTANT = 1e3       # characteristic lengths: a mechanism that went so far falls
+
+
+class Balance:
+    """The balance of forces at a position of rest, parts of which are computed when they are first read."""
+
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray]) -> None:
+        self.at, self.names = state(system, t, p, np.zeros(system.nv)), held
+        self.held = rows_of(self.at, held)[1]
+        self.rows = np.vstack([self.at.C, self.held])
+        self.tangent = Tangent(self.at, self.held)
+
+    @functools.cached_property
+    def V(self) -> np.ndarray:
+        """Basis (nv, k) of the free directions."""
+        return self.tangent.velocities
+
+    @functools.cached_property
+    def force(self) -> np.ndarray:
+        """V^T (f - d), (k,)."""
+        return self.V.T @ self.at.force
+
+    @functools.cached_property
+    def rounding(self) -> float:
+        """The size of the force that counts as zero: from its terms, and from the rounding of positions times the stiffness."""
+        terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
+        unit = max((self.size(z) for z in np.eye(self.V.shape[1])), default=1.0)
+        return BALANCED * float(np.linalg.norm(terms) + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
+
+    @functools.cached_property
+    def curvature(self) -> tuple[np.ndarray, np.ndarray]:
+        """Eigenvalues (k,) and eigenvectors (k, k) of the symmetric part of the stiffness."""
+        return np.linalg.eigh((self.stiffness + self.stiffness.T) / 2)
+
+    @functools.cached_property
+    def flat(self) -> float:
+        """The curvature that counts as zero: away from a balance the stiffness is symmetric up to the unbalanced force only."""
+        K = self.stiffness
+        return FLAT * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0))
+
+    @property
+    def is_stable(self) -> bool:
+        """No curvature is negative."""
+        return bool(self.curvature[0].min(initial=0.0) >= -self.flat)
+
+    @functools.cached_property
+    def multipliers(self) -> np.ndarray:
+        """Multipliers of the constraints and of what is held, (m + held,)."""
+        return multipliers(self.at, self.at.force, self.rows)
+
+    @functools.cached_property
+    def stiffness(self) -> np.ndarray:
+        """K (k, k): the derivative of V^T (d - f + C^T lambda) along V, multipliers frozen."""
+        at, lam, scale = self.at, self.multipliers, scales(self.at.system, self.at.p)
+        columns = []
+        for w in self.V.T:
+            dp = at.A @ w
+            columns.append(differences.along(lambda h, dp=dp: self._residual(at.p + h * dp, lam),
+                                             float(np.abs(dp / scale.p).max())))
+        return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
+
+    def _residual(self, p: np.ndarray, lam: np.ndarray) -> np.ndarray:
+        there, m = state(self.at.system, self.at.t, p, self.at.v), self.at.system.m
+        held = rows_of(there, self.names)[1].T @ lam[m:] if self.names else 0.0
+        return there.C.T @ lam[:m] + held - there.force
+
+    @functools.cached_property
+    def damping(self) -> np.ndarray:
+        """D (k, k): the derivative of V^T (d - f) with respect to the velocity along V."""
+        at = self.at
+        columns = [-differences.along(lambda h, w=w: state(at.system, at.t, at.p, h * w).force,
+                                      float(np.abs(w / self.tangent.scale).max())) for w in self.V.T]
+        return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
+
+    @property
+    def residual(self) -> float:
+        """Norm of the force in the mass metric."""
+        return float(np.linalg.norm(self.force))
+
+    def size(self, z: np.ndarray) -> float:
+        """Largest change of a coordinate by a step, in characteristic scales."""
+        scale: Scales = scales(self.at.system, self.at.p)
+        return float(np.abs(self.at.A @ (self.V @ z) / scale.p).max(initial=0.0))
+
+    def is_stationary(self) -> bool:
+        """The force is zero but for rounding."""
+        return self.residual <= self.rounding
+
+    def largest_force(self) -> str:
+        """The velocity that the unbalanced force accelerates most."""
+        share = np.abs(self.V @ self.force) / self.tangent.scale
+        return self.at.system.velocities[int(share.argmax())].name if share.size else ""
+
+
+def downhill(here: Balance) -> np.ndarray:
+    """A step z (k,) along which the forces do work, Newton's where no curvature is negative and it is short."""
+    (curvature, axes), flat = here.curvature, here.flat
+    if here.is_stable and here.size(step := nearest(here)) < FIRST_RADIUS and not _is_pushed(here, step):
+        return step
+    flat = min(flat, FLAT * np.abs(curvature).max(initial=0.0))
+    along = axes.T @ here.force
+    at_balance = np.abs(along) <= 10 * here.rounding
+    along = np.where((curvature < -here.flat) & at_balance, np.abs(curvature), along)       # unstable: left along its curvature
+    step = along / np.maximum(np.abs(curvature), max(flat, 1e-300))
+    return axes @ np.where((np.abs(curvature) <= here.flat) & at_balance, 0.0, step)
+
+
+def _is_pushed(here: Balance, step: np.ndarray) -> bool:
+    """A force remains in a direction without stiffness."""
+    return bool(np.linalg.norm(here.force - here.stiffness @ step) > 10 * here.rounding + 1e-3 * here.residual)
+
+
+def nearest(here: Balance) -> np.ndarray:
+    """Newton's step z (k,), flat directions left out."""
+    return np.linalg.lstsq(here.stiffness, here.force, rcond=FLAT)[0]
+
+
+class Search:
+    """Newton's method in a trust region.
+
+    Parameters
+    ----------
+    system, t, held
+        As of `Balance`.
+    is_downhill : bool
+        Whether to search for a stable position; otherwise for any.
+    """
+
+    def __init__(self, system: BaseSystem, t: float, held: Mapping[str, np.ndarray], *, is_downhill: bool) -> None:
+        self.system, self.t, self.held, self.is_downhill = system, t, held, is_downhill
+        self.iterations, self.radius = 0, FIRST_RADIUS
+
+    def run(self, p: np.ndarray) -> tuple[Balance, bool]:
+        """The last balance from a position on, and whether it is an equilibrium."""
+        here, is_found = self._search(p)
+        return (self._polished(here) if is_found else here), is_found
+
+    def _polished(self, here: Balance) -> Balance:
+        """The balance after one more step of Newton's method, where that is better."""
+        try:
+            there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held),
+                            self.held)
+        except (CorrectionFailed, ArithmeticError):
+            return here
+        return there if there.residual < here.residual else here
+
+    def _search(self, p: np.ndarray) -> tuple[Balance, bool]:
+        here = Balance(self.system, self.t, p, self.held)
+        start, self.radius = np.array(p), FIRST_RADIUS
+        scale = scales(self.system, p).p
+        for _ in range(ITERATIONS):
+            z = (downhill if self.is_downhill else nearest)(here)
+            if here.size(z) < 1e-13 or self._is_done(here, z):
+                return here, here.residual <= 10 * here.rounding
+            there = self._step(here, z)
+            if there is None or np.abs((there.at.p - start) / scale).max() > DISTANT:
+                return here, here.residual <= 10 * here.rounding
+            here = there
+            self.iterations += 1
+        return here, False
+
+    def _is_done(self, here: Balance, z: np.ndarray) -> bool:
+        """The balance holds to rounding; at a saddle the search for a stable position goes on."""
+        return here.is_stationary() and (here.is_stable or not self.is_downhill)
+
+    def _step(self, here: Balance, z: np.ndarray) -> Balance | None:
+        """The balance after a step that is accepted, as long as the trust region allows; None: no step is."""
+        size = here.size(z)
+        while self.radius > SMALLEST_RADIUS:
+            part = min(1.0, self.radius / size)
+            try:
+                there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ (part * z)), self.held),
+                                self.held)
+                quality = self._quality(here, there, part * z)
+            except (CorrectionFailed, ArithmeticError):
+                quality = -1.0
+            if quality > 0:
+                self.radius = min(LARGEST_RADIUS, self.radius * (2.0 if quality > 0.75 and part < 1 else 1.0))
+                return there
+            self.radius = min(self.radius, part * size) / 4
+        return None
+
+    def _quality(self, here: Balance, there: Balance, z: np.ndarray) -> float:
+        """One for a step as the stiffness foretells, not positive for one that is refused."""
+        if there.residual <= 0.5 * here.residual and (not self.is_downhill or here.is_stable):
+            return 1.0
+        if not self.is_downhill:
+            return 0.5 if there.residual < (UPHILL if self.iterations < WANDERING else 1.0) * here.residual else -1.0
+        step = here.V @ z
+        work = float(step @ (here.at.force + there.at.force)) / 2
+        foretold = float(z @ here.force - z @ here.stiffness @ z / 2)
+        return 1.0 if abs(work) <= here.rounding * float(np.linalg.norm(z)) else work / max(abs(foretold), 1e-300)

@@ -1,0 +1,85 @@
+"""Positions on the manifold: a guess projected onto the holonomic constraints and onto prescribed values of quantities."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from .. import _gateway
+from ..errors import CorrectionFailed
+from ..systems.base import BaseSystem, core_of
+from .quantities import find
+from .state import State, scales, state
+from .tangent import DEPENDENT
+
+ITERATIONS = 30
+CONVERGED = 1e-13       # of the characteristic scales: the last step of Newton's method
+STAGNATED = 1e-9        # a last step of this size counts where the next ones are not smaller
+
+
+def rows_of(at: State, names: Mapping[str, object]) -> tuple[np.ndarray, np.ndarray]:
+    """Values (k,) and rows (k, nv) of quantities of positions, stacked."""
+    found = [find(at, name, "hold") for name in names]
+    value = np.concatenate([each.value for each in found]) if found else np.zeros(0)
+    return value, np.vstack([each.row for each in found]) if found else np.zeros((0, at.system.nv))
+
+
+def moved(at: State, delta: np.ndarray) -> np.ndarray:
+    """The position after a displacement in quasi-coordinates, with unit quaternions and followers restored."""
+    return consistent(at.system, at.p + at.A @ delta)
+
+
+def consistent(system: BaseSystem, p: np.ndarray) -> np.ndarray:
+    """A position whose quaternions have length one, and whose counted angles follow them."""
+    p = np.array(p)
+    for first in system.quaternions:
+        p[first:first + 4] /= np.linalg.norm(p[first:first + 4])
+    _gateway.follow(core_of(system), p)
+    return p
+
+
+def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray] | None = None) -> np.ndarray:
+    """The position that Newton's method finds from a guess, with minimum-norm steps in characteristic scales.
+
+    Parameters
+    ----------
+    system : BaseSystem
+    t : float
+    p : ndarray (nq,)
+    held : dict of str to ndarray, optional
+        Values of quantities of positions, such as measures.
+
+    Raises
+    ------
+    CorrectionFailed
+        If it does not converge.
+    """
+    held, p = held or {}, consistent(system, p)
+    scale, rest = scales(system, p), np.zeros(system.nv)
+    target = np.concatenate([np.ravel(each) for each in held.values()]) if held else np.zeros(0)
+    last = np.inf
+    for _ in range(ITERATIONS):
+        at = state(system, t, p, rest)
+        value, rows = rows_of(at, held)
+        residual, rows = np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
+        if not residual.size:
+            return p
+        step = _least_step(rows, residual, scale.v)
+        size = float(np.abs(at.A @ step / scale.p).max())
+        if not np.isfinite(size) or size > 1e3:
+            break
+        p = moved(at, step)
+        if size < CONVERGED or (size < STAGNATED and size > last / 4):
+            return p
+        last = size
+    raise CorrectionFailed(f"no position satisfies the constraints{' and ' + ', '.join(held) if held else ''} near the guess: "
+                           f"the last step was {last:.3g} of the size")
+
+
+def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Minimum-norm solution of rows x = -residual in scaled velocities."""
+    rows = rows * scale
+    length = np.linalg.norm(rows, axis=1)
+    length = np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
+    return scale * np.linalg.lstsq(rows / length[:, None], -residual / length, rcond=DEPENDENT)[0]

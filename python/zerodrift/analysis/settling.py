@@ -1,0 +1,49 @@
+"""Motion towards rest: the system is integrated, and stopped at each maximum of its kinetic energy."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import ZerodriftError
+from ..runs.operations import acceleration
+from ..runs.simulate import simulate
+from ..systems.base import BaseSystem
+from .state import scales, state
+
+STOPS = 60
+HORIZON = 20.0      # of a run between two stops, in times that the acceleration takes for a characteristic length
+CLOSE = 1e-3        # of the first acceleration: a position from where Newton's method goes on
+
+
+def settled(system: BaseSystem, p: np.ndarray) -> np.ndarray:
+    """A position near a stable equilibrium: velocities are set to zero wherever the power of all forces turns negative.
+
+    The motion loses its kinetic energy at each stop, so that it settles also where nothing damps it.
+
+    Raises
+    ------
+    ZerodriftError
+        If a run fails.
+    """
+    scale, first = scales(system, p).p, 0.0
+    for _ in range(STOPS):
+        rest = np.zeros(system.nv)
+        at = state(system, 0.0, p, rest)
+        rate = float(np.abs(at.A @ acceleration(system, p, rest)[0] / scale).max(initial=0.0))
+        first = first or rate
+        if rate <= CLOSE * first:
+            break
+        p = _to_the_fastest(system, p, rest, HORIZON / np.sqrt(rate))
+    return p
+
+
+def _to_the_fastest(system: BaseSystem, p: np.ndarray, rest: np.ndarray, horizon: float) -> np.ndarray:
+    """The position of the next maximum of kinetic energy, or that after the horizon."""
+    def power(t: float, p: np.ndarray, v: np.ndarray) -> float:
+        return float(v @ state(system, t, p, v).force)
+
+    power.terminal, power.direction = True, -1
+    sol = simulate(system, horizon, p, rest, integrator="dormand_prince", rtol=1e-4, atol=1e-6, events=[power], max_steps=5000)
+    if not len(sol.t):
+        raise ZerodriftError("the motion towards rest did not begin")
+    return np.array(sol.p[-1])

@@ -1,0 +1,150 @@
+"""Equilibria against closed forms, SciPy, long damped runs, and the balance of forces of every model."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, minimize
+
+import zerodrift as zd
+
+G = 9.81
+
+
+def pendulum(length=1.0):
+    m = zd.Mechanism("pendulum", gravity=(0, -G))
+    link = m.link("link", (0, 0), (length, 0), mass=2.0)
+    m.revolute("pin", m.ground, link.start)
+    return m
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_pendulum_hangs(layout):
+    eq = zd.equilibrium(pendulum(0.7).system(layout))
+    assert eq["link.angle"] == pytest.approx(-np.pi / 2, abs=1e-12)
+    assert eq["pin.force"] == pytest.approx([0.0, 2.0 * G], abs=1e-11)
+    assert eq.frequencies == pytest.approx([np.sqrt(1.5 * G / 0.7) / (2 * np.pi)] * 2, rel=1e-12)
+    assert eq.stable is True
+    assert "stable" in repr(eq)
+    assert "lowest frequency" in repr(eq)
+    assert "pin.force = [ 0.   19.62] N" in repr(eq)
+
+
+def test_the_upper_position_is_unstable_and_found_where_any_is_wanted():
+    m = pendulum()
+    m.start({"link.angle": 1.4})
+    eq = zd.equilibrium(m, stability="any")
+    assert eq["link.angle"] == pytest.approx(np.pi / 2, abs=1e-12)
+    assert eq.stable is False
+    assert eq.eigenvalues.real.max() == pytest.approx(np.sqrt(1.5 * G), rel=1e-12)
+    m.start({"link.angle": np.pi / 2})      # exactly in balance: left downhill
+    assert zd.equilibrium(m)["link.angle"] % (2 * np.pi) == pytest.approx(1.5 * np.pi, abs=1e-10)
+
+
+def test_the_effort_that_holds_a_boom():
+    m = pendulum()
+    eq = zd.equilibrium(m, near={"link.angle": 0.4}, hold=["link.angle"])
+    assert eq["link.angle"] == pytest.approx(0.4, abs=1e-13)
+    assert eq.effort["link.angle"] == pytest.approx(2.0 * G / 2 * np.cos(0.4), rel=1e-12)
+    assert "effort" in repr(eq)
+
+
+def test_a_mass_between_springs_matches_scipy():
+    m = zd.Mechanism("two springs", gravity=(0, -G))
+    mass = m.particle("mass", 2.0, at=(0.3, -0.5))
+    m.spring("a", m.ground.point((-1.0, 0.0)), mass, stiffness=60.0, length=0.8)
+    m.spring("b", m.ground.point((1.0, 0.3)), mass, stiffness=40.0, length=0.9)
+
+    def energy(q):
+        return (30.0 * (np.hypot(q[0] + 1, q[1]) - 0.8)**2 + 20.0 * (np.hypot(q[0] - 1, q[1] - 0.3) - 0.9)**2 + 2.0 * G * q[1])
+
+    expected = minimize(energy, [0.3, -0.5], tol=1e-14, options={"gtol": 1e-10}).x
+    assert zd.equilibrium(m)["mass.position"] == pytest.approx(expected, abs=1e-7)      # SciPy's differences, 1e-8
+
+
+def test_every_crank_of_a_four_bar_finds_its_equilibrium():
+    """The lowest position of the mass centre: 100 random starts, against energy along the closed loop."""
+    bar = zd.models.four_bar().system("joint")
+    rest = zd.equilibrium(bar)
+    energy = bar.evaluate(rest.p, np.zeros(3)).V
+    for angle in np.random.default_rng(5).uniform(-np.pi, np.pi, 100):
+        p, _ = zd.assemble(bar, {"crank.angle": angle})
+        eq = zd.equilibrium(bar, near=p)
+        assert eq.stable is True
+        assert pytest.approx(energy, rel=1e-10) == bar.evaluate(eq.p, np.zeros(3)).V
+
+
+def test_a_von_mises_truss_rests_where_its_closed_form_says():
+    """Two springs of free length L over half a span b, a load at the apex: k (L / l - 1) 2 y = -load, both sides of the snap."""
+    b, L, k, mass = 1.0, np.hypot(1.0, 0.3), 1000.0, 1.0
+    m = zd.Mechanism("truss", gravity=(0, -G))
+    apex = m.body("apex", mass, 1e-2, at=(0.0, 0.3))
+    m.prismatic("rail", m.ground, apex, axis=(0, 1))
+    m.spring("left", m.ground.point((-b, 0)), apex.point((0, 0)), stiffness=k, length=L)
+    m.spring("right", m.ground.point((b, 0)), apex.point((0, 0)), stiffness=k, length=L)
+
+    def force(y):
+        return -2 * k * y * (1 - L / np.hypot(b, y)) - mass * G
+
+    crest = np.sqrt((L * b**2)**(2 / 3) - b**2)          # limit points: d force / d y = 0
+    upper, middle, lower = (brentq(force, *ends, xtol=1e-15) for ends in ((crest, 0.3), (-crest, crest), (-1, -crest)))
+    assert zd.equilibrium(m)["apex.position.y"] == pytest.approx(upper, abs=1e-12)
+    eq = zd.equilibrium(m, near={"apex.position.y": middle + 0.01}, stability="any")
+    assert eq["apex.position.y"] == pytest.approx(middle, abs=1e-12)
+    assert eq.stable is False
+    assert zd.equilibrium(m, near={"apex.position.y": middle - 0.01})["apex.position.y"] == pytest.approx(lower, abs=1e-12)
+    stiffness = 2 * k * (1 - L * b**2 / np.hypot(b, upper)**3)
+    assert zd.equilibrium(m).stiffness == pytest.approx(np.array([[stiffness / mass]]), rel=1e-10)
+
+
+MODELS = sorted(set(dir(zd.models)) - {"chain", "four_bars"})      # these two have too many bodies for dense matrices
+FALLS = {"coin": "falls flat", "rolling_disc": "falls flat"}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_each_model_balances(name):
+    m = getattr(zd.models, name)()
+    if name in FALLS:
+        with pytest.raises(zd.EquilibriumFailed, match="a force of"):
+            zd.equilibrium(m)
+        m_any = zd.equilibrium(m, stability="any")
+        assert m_any.stable is False
+        return
+    eq = zd.equilibrium(m)
+    terms = eq.system.evaluate(eq.p, eq.v, eq.t)
+    force = (0 if terms.f is None else terms.f) - (0 if terms.d is None else terms.d)
+    left = force - (0 if terms.C is None else terms.C.T @ eq.multipliers)
+    size = np.abs(force).max() + (0 if terms.C is None else np.abs(terms.C.T * eq.multipliers).max(initial=0.0))
+    assert np.abs(left).max() <= 1e-10 * max(size, 1.0)     # N: models weigh kilograms
+    if terms.Phi is not None:
+        assert np.abs(terms.Phi).max(initial=0.0) < 1e-12
+
+
+def test_free_directions_are_named():
+    assert zd.equilibrium(zd.models.double_wishbone()).free == ("axle.angle",)
+    assert zd.equilibrium(zd.models.flyball_governor()).free == ("bearing.angle",)
+
+
+def test_what_cannot_balance_is_named():
+    m = zd.Mechanism("stone", gravity=(0, -G))
+    m.particle("stone", 1.0, at=(0, 0))
+    with pytest.raises(zd.EquilibriumFailed, match=r"stone must have a position in which its forces balance.*'stone\.y_dot'"):
+        zd.equilibrium(m)
+    with pytest.raises(ValueError, match="stability must be one of 'stable', 'any'"):
+        zd.equilibrium(m, stability="maybe")
+    with pytest.raises(ValueError, match=r"hold names 'stone\.angle'"):
+        zd.equilibrium(m, hold=["stone.angle"])
+
+
+def test_a_damped_run_ends_in_the_equilibrium():
+    """A double pendulum with torsion springs and dampers, integrated until it rests."""
+    m = zd.Mechanism("double", gravity=(0, -G))
+    one = m.link("one", (0, 0), (1, 0.2), mass=1.0)
+    two = m.link("two", (1, 0.2), (1.8, 0.9), mass=0.5)
+    m.revolute("A", m.ground, one.start)
+    m.revolute("B", one.end, two.start)
+    m.torsion_spring("s", "A", stiffness=8.0, damping=3.0)
+    m.torsion_spring("r", "B", stiffness=2.0, damping=0.5)
+    eq = zd.equilibrium(m)
+    sol = zd.simulate(m, 60.0, integrator="radau", rtol=1e-8, atol=1e-10, save_every=1000)
+    assert eq["two.end.position"] == pytest.approx(sol["two.end.position"][-1], abs=1e-7)
+    assert eq.stable is True
+    assert (eq.eigenvalues.real < 0).all()
