@@ -7,6 +7,7 @@ import time
 import warnings
 from collections.abc import Callable
 from contextlib import nullcontext
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..errors import Interrupted, WorkerLost
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
 from ..runs.threads import Threads, processors
-from . import executors
+from . import executors, memory
 from . import store as stores
 from .batch import batch_of
 from .part import Part, filled
@@ -102,6 +103,12 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
         Before anything runs: for arrays of different lengths, unknown parameters and outputs, wrong options, and parameters or
         starts that no run accepts. Also for a function that cannot travel to other processes; it is named with the object that
         it refers to.
+    MemoryError
+        If the outputs take more than the memory that is free: before anything runs where steps are of fixed size or times are
+        given, else once they do; ``solution`` is then the Ensemble of what was done. With a store outputs that have no room in
+        memory stay in its files, and each is read when it is asked for.
+    OSError
+        If a store cannot be written to, or its disk has no room for the outputs.
     InUse
         If another ensemble writes to the folder `store`.
     Interrupted
@@ -138,6 +145,7 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
+    memory.check(plan.sizes, runs.count, None if store is None else Path(store), stacklevel=2)
     with nullcontext() if store is None else stores.Store(store, plan) as kept:
         return _Work(plan, place, threads, chunk, kept).done(progress)
 
@@ -149,6 +157,7 @@ class _Work:
         self._plan, self._store, self._threads = plan, store, threads
         self._lock, self._begin = threading.Lock(), time.perf_counter()
         self._parts = {} if store is None else store.parts()
+        self._size = sum(memory.size_of(part.arrays) for part in self._parts.values())      # bytes of outputs in memory
         runs = plan.runs.count
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
         least = SHORTEST if batch_of(plan) else 1
@@ -165,6 +174,9 @@ class _Work:
         except KeyboardInterrupt:
             done = self._ensemble()
             raise Interrupted(f"the ensemble was interrupted: {self._count()} of {len(done)} runs are done", done) from None
+        except MemoryError as error:
+            error.solution = self._ensemble()
+            raise
         except WorkerLost as error:
             error.solution = self._ensemble()
             if self._store:
@@ -193,10 +205,16 @@ class _Work:
         self._finished(taken[0], run_range(self._plan, *taken, stop))
 
     def _finished(self, first: int, part: Part) -> None:
-        if self._store:
-            self._store.write(first, part)
+        """Keeps a part: its outputs in memory, or in the store where memory gets short; without a store that is an error."""
+        path = self._store.write(first, part) if self._store else None
         with self._lock:
+            size = self._size + memory.size_of(part.arrays)
+            if path and memory.exceeds(size, memory.IN_STORE):
+                part = stores.in_file(part, path)
+            self._size += memory.size_of(part.arrays)
             self._parts[first] = part
+        if not path and self._plan.sizes is None and memory.exceeds(self._size, 1.0):      # no more than that can be joined
+            raise MemoryError(memory.shortage(self._size, self._count()))
 
     def _count(self) -> int:
         """How many runs are done."""

@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import memory
+
 ROADS = "by Python", "in vector lanes", "by the core alone"       # how a run was made, by the number that `Part.roads` has
 BY_PYTHON, IN_LANES, BY_CORE = range(len(ROADS))
 NOT_STARTED = "it was not started, as the ensemble was interrupted"
@@ -22,7 +24,7 @@ class Part(NamedTuple):
         How many rows each run has.
     t : ndarray (k,) or (sum of rows,)
         The times of the longest run, where all others have the first of them; else those of each run, one run behind another.
-    arrays : dict of str to ndarray (sum of rows, ...)
+    arrays : mapping of str to ndarray (sum of rows, ...)
         Of each output all rows of the first run, then all of the second, and so on.
     failed : ndarray (n,) of bool
     messages : list of str (n,)
@@ -61,7 +63,7 @@ class Part(NamedTuple):
         ends = np.cumsum([0, *self.rows])
         rows, first, last = self.rows[begin:end], int(ends[begin]), int(ends[end])
         t = self.t[:rows.max(initial=0)] if self.is_shared else self.t[first:last]
-        return Part(rows, t, {name: array[first:last] for name, array in self.arrays.items()}, self.failed[begin:end],
+        return Part(rows, t, memory.some(self.arrays, first, last), self.failed[begin:end],
                     self.messages[begin:end], self.roads[begin:end], self.doubtful[begin:end], self.values[begin:end],
                     self.t_events[begin:end], self.solutions[begin:end])
 
@@ -84,21 +86,22 @@ def nothing(count: int, message: str = NOT_STARTED) -> Part:
                 np.zeros(count, bool), none, none, none)
 
 
-def joined(parts: Sequence[Part]) -> Part:
-    """Parts that follow each other, as one."""
+def joined(parts: Sequence[Part], *, release: bool = False) -> Part:
+    """Parts that follow each other, as one. With `release` the parts lose their outputs, which memory then has once."""
     if len(parts) == 1:
         return parts[0]
     names = next((list(part.arrays) for part in parts if part.arrays), [])
+    arrays = [part.arrays for part in parts if part.arrays]
+    rows = _concatenated(part.rows for part in parts)
     lists = (_chained(each) for each in zip(*((part.values, part.t_events, part.solutions) for part in parts), strict=True))
     return Part(
-        _concatenated(part.rows for part in parts), _times(parts),
-        {name: np.concatenate([part.arrays[name] for part in parts if part.arrays]) for name in names},
+        rows, _times(parts), memory.together(names, arrays, int(rows.sum()), release=release),
         _concatenated(part.failed for part in parts), _chained(part.messages for part in parts),
         _concatenated(part.roads for part in parts), _concatenated(part.doubtful for part in parts), *lists)
 
 
 def filled(parts: dict[int, Part], count: int) -> Part:
-    """All runs, from parts by their first runs; what is missing was not started."""
+    """All runs, from parts by their first runs, which lose their outputs; what is missing was not started."""
     found, end = [], 0
     for first in sorted(parts):
         if first > end:
@@ -107,7 +110,7 @@ def filled(parts: dict[int, Part], count: int) -> Part:
         end = first + len(parts[first].rows)
     if end < count:
         found.append(nothing(count - end))
-    return joined(found)
+    return joined(found, release=True)
 
 
 def _times(parts: Sequence[Part]) -> np.ndarray:

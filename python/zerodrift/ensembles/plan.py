@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from ..errors import ZerodriftError
 from ..mechanisms.measures import name_of
 from ..runs import events as events_of
 from ..runs import settings
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
 OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")     # of `simulate`, what is not passed on
@@ -44,6 +44,8 @@ class Plan:
         Of outputs and parameters, as far as they are known.
     is_tabular : bool
         Whether the numbers of all runs stand in tables that the core reads; the same for parts of them.
+    sizes : tuple of int, or None
+        Bytes of each output of all runs, and of solutions that are kept; None: they are not known beforehand.
     remembered : dict
         What a road finds out once for all runs; it stays in this process.
     """
@@ -56,6 +58,7 @@ class Plan:
     keeps: bool = False
     units: dict[str, str] = field(default_factory=dict)
     is_tabular: bool = False
+    sizes: tuple[int, ...] | None = None
     remembered: dict[str, Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -95,7 +98,7 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     run, system = _first_system(runs)
     if system is not None:
         span = _check.span(t_span)
-        _check_options(system, span, options)
+        rows = _check_options(system, span, options)
         _check_names(system, names or [])
         _check_starts(runs, run, system, span[0])
         if names is None:
@@ -104,7 +107,9 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
         options["t_eval"] = np.array(options["t_eval"], dtype=float)
     is_tabular = isinstance(runs.made, BaseSystem) and runs.is_tabular(runs.made, run)
     units = {} if system is None else _units(system, names or [])
-    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular)
+    sizes = None if system is None or rows is None else tuple(
+        runs.count * rows * each for each in _row_bytes(system, names or [], keeps=keeps))
+    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular, sizes)
 
 
 def _names(outputs: Any) -> list[str] | None:
@@ -147,11 +152,21 @@ def _check_signature(runs: Runs) -> None:
                         f"{error}") from None
 
 
-def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> None:
-    """As `simulate` does at the door."""
+def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> int | None:
+    """Options are checked as `simulate` checks them. How many rows a run saves; None: it is not known beforehand."""
     given = OPTIONS | options
     events_of.events(given.pop("events"), system)
-    settings.plan(system, span, **given)
+    return settings.plan(system, span, **given).rows
+
+
+def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:
+    """Bytes in a row of each of these outputs, and of a solution that is kept."""
+    for name in names:
+        place = system._watching.find(name)
+        is_one = place is None or place.component is not None
+        yield 8 if is_one else 8 * system._watching.core.measure_size(place.number)
+    if keeps:
+        yield _gateway.row_bytes(core_of(system), None)
 
 
 def _check_names(system: BaseSystem, names: list[str]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import zipfile
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,12 +32,17 @@ def packed_part(part: Part) -> dict[str, np.ndarray]:
     """A part as arrays, one of which is a text."""
     arrays = {"rows": part.rows, "t": part.t, "failed": part.failed, "roads": part.roads,
               "doubtful": part.doubtful}
-    arrays |= {f"outputs.{i}": array for i, array in enumerate(part.arrays.values())}
+    arrays |= {place: part.arrays[name] for name, place in places_of(part.arrays).items()}
     values, stacked = _packed_values(part.values)
     return {KEY: np.array(json.dumps({
         "outputs": list(part.arrays), "messages": {i: each for i, each in enumerate(part.messages) if each != DONE},
         "values": values, "t_events": [None if each is None else [times.tolist() for times in each] for each in part.t_events],
     })), **arrays, **stacked}
+
+
+def places_of(names: Iterable[str]) -> dict[str, str]:
+    """The array of each output in a file."""
+    return {name: f"outputs.{i}" for i, name in enumerate(names)}
 
 
 def _packed_values(values: list[Any]) -> tuple[Any, dict[str, np.ndarray]]:
@@ -54,7 +59,7 @@ def unpacked_part(arrays: dict[str, np.ndarray]) -> Part:
     described = json.loads(str(arrays[KEY]))
     messages, count = described["messages"], len(arrays["rows"])
     events = [None if each is None else tuple(np.array(times, dtype=float) for times in each) for each in described["t_events"]]
-    return Part(arrays["rows"], arrays["t"], {name: arrays[f"outputs.{i}"] for i, name in enumerate(described["outputs"])},
+    return Part(arrays["rows"], arrays["t"], {name: arrays[place] for name, place in places_of(described["outputs"]).items()},
                 arrays["failed"], [messages.get(str(i), DONE) for i in range(count)], arrays["roads"],
                 arrays["doubtful"], _unpacked_values(described["values"], arrays), events, [None] * count)
 

@@ -17,7 +17,7 @@ from .._writing import is_temporary, sweep, write_whole
 from ..runs.saving import read_arrays
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
-from . import saving
+from . import memory, saving
 from .identity import Identity, differences, version
 from .part import Part
 from .plan import OPTIONS, Plan
@@ -108,20 +108,32 @@ class Store:
         write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
-        """What is done, by the first run of each part; no run twice."""
-        found, end = {}, 0
+        """What is done, by the first run of each part; no run twice. Outputs that take much memory stay in the files."""
+        found, end, size = {}, 0, 0
         for (first, last), path in sorted(_files(self.folder).items()):
+            if last <= end:
+                continue
             part = saving.unpacked_part(read_arrays(path))
-            if last > end:          # parts that others have made may overlap
-                found[max(first, end)] = part if first >= end else part.behind(end - first)
-                end = last
+            if memory.exceeds(size + memory.size_of(part.arrays), memory.IN_STORE):
+                part = in_file(part, path)
+            if first < end:         # parts that others have made may overlap
+                part = part.behind(end - first)
+            found[max(first, end)] = part
+            end, size = last, size + memory.size_of(part.arrays)
         return found
 
-    def write(self, first: int, part: Part) -> None:
-        """Keeps a part, which may have been cut short."""
-        if count := len(part.rows):
-            path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
+    def write(self, first: int, part: Part) -> Path:
+        """Keeps a part, which may have been cut short; its path."""
+        count = len(part.rows)
+        path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
+        if count:
             write_whole(path, lambda file: np.savez(file, **saving.packed_part(part)))
+        return path
+
+
+def in_file(part: Part, path: Path) -> Part:
+    """The part that is in a file, without its outputs in memory."""
+    return part._replace(arrays=memory.InFile(path, saving.places_of(part.arrays), slice(0, int(part.rows.sum()))))
 
 
 def load(folder: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[saving.Kept, dict[int, Part]]:

@@ -29,10 +29,17 @@ def check_memory(rows: int, row: int, stacklevel: int) -> None:
 
 def check_disk(rows: int | None, row: int, folder: Path) -> None:
     """Refuses a file of so many rows that a disk has no room for; None: it is not known how many they are."""
-    free = shutil.disk_usage(folder).free
+    free = free_disk(folder)
     if rows is not None and rows * row > free:
         raise OSError(f"{rows} saved rows take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
                       "with save_every or t_eval")
+
+
+def free_disk(folder: Path) -> int:
+    """Bytes that are free on the disk of a folder, or of the nearest one above it that is there."""
+    while not folder.exists() and folder != folder.parent:
+        folder = folder.parent
+    return shutil.disk_usage(folder).free
 
 
 def free_memory() -> int | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -86,14 +86,14 @@ class Arrays(dict):
                          "changed")
 
 
-def read_arrays(path: str | Path) -> Arrays:
-    """The arrays of an NPZ file."""
+def read_arrays(path: str | Path, names: Sequence[str] | None = None) -> Arrays:
+    """The arrays of an NPZ file; or some of them, without reading the others."""
     import zipfile  # slow to import
     import zlib
 
     try:
         with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
-            return Arrays(path, file)
+            return Arrays(path, file if names is None else {name: file[name] for name in names if name in file})
     except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"{path} cannot be read: {error}") from None
 

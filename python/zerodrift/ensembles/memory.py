@@ -1,0 +1,148 @@
+"""Memory that the outputs of an ensemble take, checked before anything runs and as parts arrive; outputs that stay in files."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import CostWarning
+from ..runs import room
+from ..runs.saving import read_arrays
+
+SMALL = 2**26       # bytes that are not checked
+IN_STORE = 0.5      # outputs that take more than this part of the free memory stay in the files of a store
+LESS = "keep fewer outputs or times (outputs, t_eval, save_every), or a value of each run (reduce)"
+
+
+def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel: int) -> None:
+    """Refuses outputs for which memory, or the disk of a store, has no room; None: their sizes in bytes are not known.
+
+    Outputs are joined one after the other when all runs are done: memory for the largest of them is needed besides.
+    """
+    size = sum(sizes or ())
+    if not sizes or size <= SMALL:
+        return
+    takes = f"the outputs of {runs} runs take {room.in_words(size)}"
+    if store is not None:
+        if size > (free := room.free_disk(store)):
+            raise OSError(f"{takes}, and {room.in_words(free)} are free in {store}: {LESS}")
+        return
+    if (free := room.free_memory()) is None:
+        return
+    most = size + max(sizes)
+    sentence = (f"{takes}, {room.in_words(most)} while they are joined, and {room.in_words(free)} of memory are free: {LESS}, or "
+                "write them to a folder (store)")
+    if most > free:
+        raise MemoryError(sentence)
+    if most > free / 2:
+        warnings.warn(sentence, CostWarning, stacklevel=stacklevel + 1)
+
+
+def size_of(arrays: Mapping[str, np.ndarray]) -> int:
+    """Bytes in memory."""
+    return 0 if isinstance(arrays, InFile) else sum(array.nbytes for array in arrays.values())
+
+
+def shortage(size: int, runs: int) -> str:
+    """The sentence of an error that stops an ensemble."""
+    free = room.in_words(room.free_memory() or 0)
+    return (f"the outputs of {runs} runs, which are done, take {room.in_words(size)}, and {free} of memory are free: {LESS}, or "
+            "write them to a folder (store)")
+
+
+def exceeds(size: int, part: float) -> bool:
+    """Whether outputs of so many bytes, which are in memory, are more than a part of what is free besides."""
+    return size > SMALL and (free := room.free_memory()) is not None and size > part * free
+
+
+class InFile(Mapping):
+    """Outputs of a part in its file, which are read when they are needed.
+
+    Parameters
+    ----------
+    path : Path
+    places : dict of str to str
+        The array of each output in the file.
+    rows : slice
+        Rows of the file that belong to the part.
+    """
+
+    def __init__(self, path: Path, places: Mapping[str, str], rows: slice) -> None:
+        self._path, self._places, self._rows = path, places, rows
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return read_arrays(self._path, (self._places[name],))[self._places[name]][self._rows]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def between(self, begin: int, end: int) -> InFile:
+        """The same outputs of some of the rows."""
+        return InFile(self._path, self._places, slice(self._rows.start + begin, self._rows.start + end))
+
+
+class Joined(Mapping):
+    """Outputs of parts some of which are in files: each is joined in memory when it is needed.
+
+    Parameters
+    ----------
+    names : sequence of str
+    parts : sequence of mappings of str to ndarray
+    rows : int
+        Of all parts together.
+    """
+
+    def __init__(self, names: Sequence[str], parts: Sequence[Mapping[str, np.ndarray]], rows: int) -> None:
+        self._names, self._parts, self._rows = tuple(names), parts, rows
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._names:
+            raise KeyError(name)
+        found, begin = None, 0
+        for part in self._parts:
+            array = part[name]
+            if found is None:
+                found = self._empty(name, array)
+            found[begin:begin + len(array)] = array
+            begin += len(array)
+        return found
+
+    def _empty(self, name: str, like: np.ndarray) -> np.ndarray:
+        """An array for all rows, if memory has room for it."""
+        size = self._rows * int(np.prod(like.shape[1:])) * like.itemsize
+        if size > SMALL and (free := room.free_memory()) is not None and size > free:
+            raise MemoryError(f"output {name!r} of all runs takes {room.in_words(size)}, and {room.in_words(free)} of memory are "
+                              "free: ens[i] makes a run again, and each file of the store has the outputs of some runs")
+        return np.empty((self._rows, *like.shape[1:]), like.dtype)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+def some(arrays: Any, begin: int, end: int) -> Any:
+    """Outputs of some of the rows of a part."""
+    if isinstance(arrays, InFile):
+        return arrays.between(begin, end)
+    return {name: array[begin:end] for name, array in arrays.items()}
+
+
+def together(names: Sequence[str], parts: Sequence[Any], rows: int, *, release: bool) -> Any:
+    """Outputs of all parts. With `release` each is taken from the parts once it is joined, so that memory has it once."""
+    if any(isinstance(part, InFile | Joined) for part in parts):
+        return Joined(names, parts, rows)
+    found = {}
+    for name in names:
+        found[name] = np.concatenate([part[name] for part in parts])
+        for part in parts if release else ():
+            del part[name]
+    return found
