@@ -96,6 +96,13 @@ def test_a_lock_file_that_the_user_removed_is_not_that_of_the_next(tmp_path):
     second.__exit__()
 
 
+def test_a_file_system_that_numbers_open_files_otherwise(tmp_path, monkeypatch):
+    """There a lock file is not recognized in its place, and is taken in the end: the second is refused all the same."""
+    monkeypatch.setattr(_locking, "_is_named", lambda descriptor, path: False)
+    with Lock(tmp_path / "lock", "held by"), pytest.raises(zd.InUse), Lock(tmp_path / "lock", "held by"):
+        pass
+
+
 def test_a_file_system_without_locks_is_reported(tmp_path, monkeypatch):
     def lacks(descriptor):
         raise OSError(errno.ENOLCK, "No locks available")

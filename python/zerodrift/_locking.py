@@ -23,6 +23,7 @@ except ImportError:
 
 BUSY = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 BEHIND = 2**40              # the byte that is locked on Windows, where locked bytes are not readable
+ATTEMPTS = 1000             # to find a lock file in its place: some network file systems number an open file otherwise
 MOST = 200                  # bytes of a lock file that are read
 
 
@@ -48,17 +49,18 @@ class Lock:
         InUse
             If another process, or another thread, holds it.
         """
-        while not self._acquired():
-            pass
+        attempt = 0
+        while not self._acquired(checks=attempt < ATTEMPTS):
+            attempt += 1
         _held.add(self)
         return self
 
-    def _acquired(self) -> bool:
+    def _acquired(self, *, checks: bool) -> bool:
         """False where the file was removed by the process that had held the lock: there is to be another file."""
         descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
         try:
             self._lock(descriptor)
-            is_there = _is_named(descriptor, self._path)
+            is_there = not checks or _is_named(descriptor, self._path)
             if is_there:
                 os.ftruncate(descriptor, 0)
                 os.write(descriptor, _owner().encode()[:MOST])
