@@ -138,6 +138,7 @@ typedef struct zd_settings {
     double step;                    /* s; the last step is shortened to end at t1. 0: chosen by the error estimate */
     double rtol, atol;              /* of the state, per step, where steps are chosen */
     double first_step, max_step;    /* s; 0: no bound, nothing given */
+    double max_move;                /* of an entry of p in a step, in its unit, where steps are chosen; 0: no bound */
     int64_t max_steps;                 /* where steps are chosen, the run fails after so many; 0: no bound */
     int64_t save_every;
     const double *t_eval;           /* (t_evals,) times to save at, instead of every so many steps; NULL: none */

@@ -30,7 +30,7 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
     if (!batch->lanes || batch->settings_differ || batch->family || system->quaternions || settings->outputs || !are_known(settings->events)
-        || settings->given_jacobian || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
+        || settings->given_jacobian || settings->max_move > 0 || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;
     if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;

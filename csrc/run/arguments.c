@@ -140,6 +140,7 @@ static const char *wrong_course(const zd_settings *settings)
         {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator needs a step: it estimates no error"},
         {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol are finite, atol not 0"},
         {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step are at least 0"},
+        {chosen && !(settings->max_move >= 0), "max_move is at least 0"},
         {settings->max_steps < 0, "max_steps is at least 0"},
     };
     const char *wrong = FIRST_BROKEN(times);

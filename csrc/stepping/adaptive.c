@@ -24,6 +24,7 @@ enum {
 };
 static const double AT_THE_LIMIT = 0.95;    /* of the largest |lambda h| that is stable */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
+static const double SHARE_OF_MOVE = 0.9;    /* of the largest move that is allowed: what steps aim at */
 
 zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
@@ -107,6 +108,18 @@ static int foresee(zd_course *course)
     return status;
 }
 
+/* The largest change of a coordinate in the step that was integrated, in units of max_move. The state begins with p, or with those of its
+ * entries that are independent. */
+static double find_move(const zd_course *course)
+{
+    const zd_motion *motion = course->motion;
+    const zd_stepper *stepper = course->stepper;
+    const int begins_with_p = motion->formulation->drifts_from & ZD_PHI, n = begins_with_p ? motion->system.nq : motion->formulation_size / 2;
+    double largest = 0;
+    for (int i = 0; i < n; i++) largest = fmax(largest, fabs(stepper->y[i] - stepper->last.y[i]));
+    return largest / course->settings->max_move;
+}
+
 /* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
 static int attempt(zd_course *course, double h, double t1, double *norm)
 {
@@ -120,7 +133,8 @@ static int attempt(zd_course *course, double h, double t1, double *norm)
     status = stepper->integrator->error(stepper->memory, &course->motion->rate, t1, h, stepper->y, course->control.scale, norm, &lambda_h);
     if (status) return status;
     if (isnan(*norm)) return ZD_NOT_FINITE;
-    if (!(*norm <= 1)) return ZD_DONE;
+    course->control.move = course->settings->max_move > 0 ? find_move(course) : 0;
+    if (!(*norm <= 1 && course->control.move <= 1)) return ZD_DONE;
     watch_stiffness(course, lambda_h);
     return is_short ? zd_short_land(course, t1) : zd_passage_land(course, t1);
 }
@@ -146,6 +160,13 @@ static double factor(const zd_course *course, double norm)
     return fmin(LARGEST, fmax(SMALLEST, wanted));
 }
 
+/* The size of the next step after one of size h, as far as the move of that one allows. */
+static double by_move(const zd_course *course, double h, double next)
+{
+    const double move = course->control.move;
+    return move > 0 ? fmin(next, h * SHARE_OF_MOVE / move) : next;
+}
+
 /* What a shorter step does not help against. */
 static int is_final(int status)
 {
@@ -169,8 +190,8 @@ int zd_adaptive_step(zd_course *course)
             status = zd_course_use_dependent(course);
             if (!status) status = attempt(course, t1 - t, t1, &norm);
         }
-        if (!status && norm <= 1) {
-            course->control.h = h * fmin(largest, factor(course, norm));
+        if (!status && norm <= 1 && course->control.move <= 1) {
+            course->control.h = by_move(course, h, h * fmin(largest, factor(course, norm)));
             if (course->stepper->integrator->fit)
                 course->control.h = course->stepper->integrator->fit(course->stepper->memory, course->control.h);
             zd_pace_step(&course->control.pace, t1);
@@ -178,7 +199,7 @@ int zd_adaptive_step(zd_course *course)
         }
         if (is_final(status)) return status;
         course->motion->statistics.rejected++;
-        course->control.h = h * (status ? AFTER_FAILURE : factor(course, norm));
+        course->control.h = status ? h * AFTER_FAILURE : by_move(course, h, h * fmin(1, factor(course, norm)));
         largest = 1;
         if (!(course->control.h > tiny)) return status ? status : ZD_TINY_STEP;
         status = zd_stepper_return(course->stepper);

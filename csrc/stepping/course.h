@@ -10,6 +10,7 @@ typedef struct zd_control { /* where steps are chosen */
     double h;               /* the next step */
     zd_pace pace;           /* where the steps have been */
     double *scale;          /* (size,): what the error is measured in */
+    double move;            /* of the step made last: its largest change of a coordinate, in units of max_move; 0: there is none */
     int at_limit;           /* steps that were as long as stability allows */
     int below_limit;        /* steps in succession that were shorter */
 } zd_control;

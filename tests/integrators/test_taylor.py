@@ -215,3 +215,24 @@ def test_an_ensemble_says_what_it_does_not_take(pendulum, bar):
     assert all("'independent' is part of them" in said for said in other.messages)
     with pytest.raises(zd.UnsuitedIntegrator, match=r"has no Taylor series: .*Abs"):
         made(swinging(force=[sympy.Abs(y), 0]))
+
+
+LAWS = {        # flat where a step begins, and steep further on: force, p0, v0, end
+    "friction": (lambda x, u, t: -sympy.tanh(1000 * u), 0.0, 1.0, 2.0),
+    "wall": (lambda x, u, t: sympy.exp(-1000 * (x + 1)), 0.0, -1.0, 3.0),
+    "soft wall": (lambda x, u, t: 5 * sympy.log(1 + sympy.exp(-2000 * (x + 1))), 0.0, -1.0, 3.0),
+    "gate": (lambda x, u, t: sympy.tanh(1000 * (t - 1)), 0.0, 0.0, 2.0),
+    "logistic gate": (lambda x, u, t: 5 / (1 + sympy.exp(-1000 * (t - 1))), 0.0, 0.0, 2.0),
+    "logistic gate of another size": (lambda x, u, t: 5 / (3 + sympy.exp(-1000 * (t - 1))), 0.0, 0.0, 2.0),
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_laws_that_are_flat_and_then_steep_are_not_leapt_over(law):
+    """Against dop853, whose stages lie within the step; both within some hundred tolerances of a step."""
+    force, p0, v0, end = LAWS[law]
+    x, u, t = sympy.symbols("x u t")
+    system = zd.symbolic([x], speeds=[u], kinetic=u**2 / 2, force=[force(x, u, t)], time=t, p0=[p0], v0=[v0])
+    series, stages = (zd.simulate(system, end, rtol=1e-9, atol=1e-9, integrator=method) for method in ("taylor", "dop853"))
+    assert_close(series.p[-1], stages.p[-1], 1e-6, scale=1.0)
+    assert_close(series.v[-1], stages.v[-1], 1e-6, scale=1.0)

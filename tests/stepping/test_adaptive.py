@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import zerodrift as zd
 from support import INTEGRATORS, SYSTEMS
@@ -125,6 +126,7 @@ BAR = SYSTEMS["four_bar"]
     ({"atol": 0.0}, "atol must be greater than 0"),
     ({"max_step": 0.0}, "max_step must be at least"),
     ({"first_step": -1.0}, "first_step must be at least"),
+    ({"max_move": 0.0}, "max_move must be greater than 0"),
     ({"t_eval": []}, "t_eval must increase"),
     ({"t_eval": [0.2, 0.1]}, "t_eval must increase"),
     ({"t_eval": [0.1, 0.1]}, "t_eval must increase"),
@@ -201,3 +203,36 @@ def test_steps_that_cannot_be_small_enough_end_the_run(size):
     system = zd.System(1, mass=[[1.0]], force=[size], p0=[0.0], v0=[1.0])
     with pytest.raises((zd.StepFailed, zd.Diverged)):
         zd.simulate(system, 1.0, rtol=1e-6, integrator="dop853", p0=[1.0])
+
+
+@pytest.mark.parametrize("formulation", ["augmented", "mixed", "independent"])
+@pytest.mark.parametrize("integrator", ["dop853", "dormand_prince", "radau"])
+def test_no_step_moves_a_coordinate_further_than_it_may(integrator, formulation):
+    bar = zd.systems.four_bar()
+    options = {"rtol": 1e-6, "atol": 1e-6, "integrator": integrator, "formulation": formulation}
+    free, held = (zd.simulate(bar, 2.0, **options, **more) for more in ({}, {"max_move": 0.02}))
+    moves = np.abs(np.diff(held.p, axis=0))
+    integrated = moves.max(axis=1) if formulation != "independent" else moves.min(axis=1)
+    assert integrated.max() <= 0.02 + 1e-6      # corrections move it by the error of a step besides
+    assert np.abs(np.diff(free.p, axis=0)).max() > 0.1
+    assert moves.max(axis=1).mean() > 0.01      # steps are not needlessly short
+    assert held.stats["rejected"] < held.stats["steps"]
+
+
+def test_a_thin_wall_is_leapt_over_until_moves_are_bounded():
+    """A push by 1 J where the body passes 5 m, 2 mm wide: from 1 m/s to sqrt(3) m/s."""
+    x, u = sp.symbols("x u")
+    push = 1 / (1e-3 * np.sqrt(np.pi)) * sp.exp(-((x - 5) / 1e-3)**2)
+    system = zd.symbolic([x], speeds=[u], kinetic=u**2 / 2, force=[push], p0=[0.0], v0=[1.0])
+    options = {"rtol": 1e-9, "atol": 1e-9, "integrator": "dop853"}
+    leapt, met = (zd.simulate(system, 8.0, **options, **more).v[-1, 0] for more in ({}, {"max_move": 1e-3}))
+    assert leapt == 1.0
+    assert abs(met - np.sqrt(3)) < 1e-7
+
+
+def test_ensembles_bound_moves_too():
+    bar = zd.systems.four_bar()
+    options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "dop853", "max_move": 0.05}
+    ens = zd.ensemble(bar, 1.0, parameters={"gravity": np.array([9.81, 9.0])}, **options)
+    sol = zd.simulate(bar.with_parameters(gravity=9.0), 1.0, **options)
+    assert np.abs(ens[1].p[-1] - sol.p[-1]).max() < 1e-12

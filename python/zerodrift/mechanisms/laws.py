@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..symbolics.plainness import is_plain_expression
 from ..systems import jets
 from ..systems.callables import arguments
 from .measures import name_of
@@ -108,6 +109,13 @@ class Law:
     def inner_expression(self) -> Any:
         """The one SymPy expression that it is, or is made with; None: there is none."""
         return getattr(self._function, "inner_expression", None) if self.expression is None else self.expression
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it depends on no measure, or is a polynomial of measures, and of sines and cosines of them."""
+        if not self.measures:
+            return True
+        return self.expression is not None and is_plain_expression(self.expression, set(self._bound))
 
     @property
     def names(self) -> tuple[str, ...]:

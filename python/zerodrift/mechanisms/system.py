@@ -126,6 +126,11 @@ class MechanismSystem(BaseSystem):
     # ---- written out ----
 
     @property
+    def _has_plain_laws(self) -> bool:
+        laws = (getattr(element, "law", None) for element in self._drawing.elements.values())
+        return all(law is None or law.is_plain for law in laws)
+
+    @property
     def compiled(self) -> bool:
         return self._is_written_out and self._written.is_compiled
 

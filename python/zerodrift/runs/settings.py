@@ -105,7 +105,7 @@ def on_singular_row(value: Any) -> int:
 # ---- all arguments of `simulate` ----
 
 MAX_STEPS = 1_000_000     # where steps are chosen
-TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None}     # where steps are chosen
+TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # where steps are chosen
 FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off
 RESOLVED = 16 * float(np.finfo(float).eps)      # of a time: no step is shorter
 
@@ -133,13 +133,13 @@ class _Known(NamedTuple):
 
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
-         first_step: Any, max_step: Any, max_steps: Any, formulation: Any, integrator: Any, stabilization: Any, energy: Any,
-         correction: Any, on_singular: Any, direct: Any, vector: Any) -> Plan:
+         first_step: Any, max_step: Any, max_move: Any, max_steps: Any, formulation: Any, integrator: Any,
+         stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any, vector: Any) -> Plan:
     """The arguments of `simulate`, checked."""
     if isinstance(correction, list):
         correction = tuple(correction)
-    given = (save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator, stabilization, energy,
-             correction, on_singular, direct, vector_unit(vector))
+    given = (save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
+             stabilization, energy, correction, on_singular, direct, vector_unit(vector))
     try:
         found = _plan(*given)
     except TypeError:       # as it comes from arguments that cannot be remembered, too: most of these are wrong
@@ -158,13 +158,13 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
 
 # What follows from arguments is found once: else it would take as long as a short run. 1 is not True here.
 @functools.lru_cache(typed=True)
-def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_steps: Any, formulation: Any,
-          integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any,
+def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_move: Any, max_steps: Any,
+          formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any,
           vector: str) -> _Known:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
         raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
-    tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step}
+    tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
     chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
               "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct,
@@ -229,6 +229,8 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
     found = {name: None if value is None else _check.number(name, value, least=least.get(name)) for name, value in values.items()}
+    if found["max_move"] is not None:
+        _check.number("max_move", found["max_move"], above=0)
     if found["atol"] == 0:
         raise ValueError("atol must be greater than 0: parts of the state pass through zero")
     return found
@@ -267,7 +269,7 @@ def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
 
 
 # Settings that the core takes under the same name and without any change.
-_PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_steps", "save_every", "t_eval")
+_PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "save_every", "t_eval")
 
 
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:

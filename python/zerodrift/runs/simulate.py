@@ -37,6 +37,7 @@ def simulate(
     atol: float | None = None,
     first_step: float | None = None,
     max_step: float | None = None,
+    max_move: float | None = None,
     max_steps: int | None = settings.MAX_STEPS,
     t_eval: Any = None,
     events: Any = None,
@@ -73,7 +74,12 @@ def simulate(
         many steps is larger: after half a second of any built-in system with ``rtol = atol``, tests find at most 3000 times
         these. `zerodrift.tune` finds settings for an error of the motion itself.
     first_step, max_step : float, optional
-        Where steps are chosen: the first, and the largest, in s.
+        Where steps are chosen: the first, and the largest, in s. Where something acts for a short time, steps may leap over
+        it: a `max_step` of that time, or shorter, lets them see it.
+    max_move : float, optional
+        Where steps are chosen: the largest change of any coordinate in a step, in m and rad alike; of formulation 'independent',
+        of the coordinates that it integrates. Where something acts in a narrow place, as a thin wall or a steep law, steps may
+        leap over it, in silence: a `max_move` of a third of its width, or less, lets them see it.
     max_steps : int or None
         Where steps are chosen: after so many the run fails, and says where most of them lie. None: there is no bound. Steps of
         fixed size have none.
@@ -205,7 +211,7 @@ def simulate(
     core_of(system)
     span = _check.span(t_span)
     plan = settings.plan(
-        system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_steps, formulation, integrator,
+        system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct, vector)
     core = direct_core_of(system, plan.chosen["vector"], plan.options)
     plan.chosen["vector"] = road.unit(core, plan.options)

@@ -71,6 +71,7 @@ class Motion:
         self.start = system._state_or_start(p0, v0, t=span[0])
         self._made_before: dict[tuple[Way, int], Solution | Exception | None] = {}
         self.bounded = bounds["max_step"] is not None
+        self.is_plain = system._has_plain_laws
         taken = settings.evaluating_integrators(system)
         cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
         self.method, self.other = cards[0].name, cards[1].name
@@ -78,7 +79,10 @@ class Motion:
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
                              stabilization=stabilization, direct=False, **bounds)
         self.size, self.probe, self.bounds = float(np.abs(probe.p).max()), probe, bounds
-        self.most = math.ceil((span[1] - span[0]) / bounds["max_step"]) if self.bounded else 1
+        self.speed = float(np.abs(np.diff(probe.p, axis=0) / np.diff(probe.t)[:, None]).max(initial=0.0))
+        most_move = bounds.get("max_move")
+        longest = min(bounds["max_step"] or math.inf, most_move / self.speed if most_move and self.speed else math.inf)
+        self.most = math.ceil((span[1] - span[0]) / longest) or 1
         self.steps = UNIT * math.ceil(max(probe.stats["steps"], self.most) / UNIT)
         self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
 

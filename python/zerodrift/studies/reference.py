@@ -11,7 +11,9 @@ another reason to disagree:
   constraints, rounded off in yet another way: for errors of a method, its coefficients, and of a formulation. Without constraints
   all formulations do the same arithmetic, and would only seem to agree;
 * one with five thirds of the steps, rounded off in a third way: it is finer than what it checks, and shares few of its instants.
-  In time, its points of evaluation are more than three times as dense as those of the first.
+  In time, its points of evaluation are more than three times as dense as those of the first;
+* where terms are not all polynomials, sines and cosines, so that something may act in a narrow place which no other run has
+  evaluated: one with many times the steps, whose points of evaluation lie as densely in the state as in time.
 
 Each is compared with the motion at all rows that both have. The differences cannot all be small by luck, as they are not
 rounded alike. Where a system has a Taylor series and that is not enough, the motion is computed once more by this, with some
@@ -47,13 +49,18 @@ MOST_STALLS = 2     # refinement ends after so many stalls that rounding does no
 EXPLAINED = 30      # a difference of at most so many times what rounding was seen to do is rounding
 RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
 REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
+CHECKS = 4          # runs with which any motion is compared
 FORGOTTEN = 3       # a motion has forgotten its start where rounding alone makes another one of it, so many refinements in a row
 GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
 LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
+DENSE = 9000        # steps of the run that looks for what acts in a narrow place, or more
 SPACING = 4 * ROUNDING      # part of the motion's size; doubles cannot express a smaller error
 
 TIME = ("terms depend on t, and no max_step was said: what acts for less than the time between the instants at which they were "
         "evaluated, some {apart:.2g} s, may have been missed")
+PLACE = ("not all terms are polynomials, sines and cosines, and neither max_move nor max_step was given: what acts in a place "
+         "narrower than the way between the points at which they were evaluated, some {apart:.2g} of a coordinate, may have been "
+         "missed")
 ROUNDED = ("the difference between runs stops falling at round-off and at the tolerance of corrections, which this motion "
            "multiplies")
 SLOWLY = "halving the steps divides the differences"
@@ -106,6 +113,7 @@ def reference(
     error: float | None = None,
     first_step: float | None = None,
     max_step: float | None = None,
+    max_move: float | None = None,
     t_eval: Any = None,
     formulations: tuple[str, str] | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
@@ -130,6 +138,9 @@ def reference(
     first_step, max_step : float, optional
         In s, as in `simulate`: the first step of the run that finds how many the motion needs, and the largest of any run. Where
         something acts for a short time, a `max_step` of that time is needed for it to be seen.
+    max_move : float, optional
+        As in `simulate`: the largest change of a coordinate in any step of any run, in m and rad. Where something acts in a
+        narrow place, a `max_move` of a third of its width is needed for it to be seen.
     t_eval : array_like (k,), optional
         Times to save. Left out: every step, and then values at any other time are there, too: `zerodrift.plot.error` and
         `zerodrift.compare.difference` take them by a shorter step of the same method.
@@ -167,7 +178,7 @@ def reference(
     wanted = None if error is None else _check.number("error", error, above=0)
     system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
-    bounds = {"first_step": first_step, "max_step": max_step}
+    bounds = {"first_step": first_step, "max_step": max_step, "max_move": max_move}
     motion = Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)
     if wanted is not None and wanted < SPACING * motion.size:
         raise UnreachableTolerance(f"error must be at least {SPACING * motion.size:.2g}, the spacing of doubles at the size of "
@@ -235,6 +246,8 @@ class _Search:
         motion.run_side_by_side(self._checks(steps), steps)
         differences = [halved, motion.difference(self._rounded(steps), fine, steps), self._by_other_method(fine, steps)]
         differences.append(motion.difference(self._finer(steps), fine, steps))
+        if self._looks_for_places:
+            differences.append(motion.difference(self._dense(steps), fine, steps))
         errors = [SAFETY * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
                   for name, shift in zip("pv", motion.shift, strict=True)]
         found = Reference(fine, *errors, tuple(differences))
@@ -255,7 +268,8 @@ class _Search:
 
     def _checks(self, steps: int) -> list[Way]:
         """Runs that a certificate takes, if the other formulation can follow the motion; the longest first."""
-        return [self._finer(steps), self._other(steps), self._rounded(steps)]
+        dense = [self._dense(steps)] if self._looks_for_places else []
+        return [*dense, self._finer(steps), self._other(steps), self._rounded(steps)]
 
     def _rounded(self, steps: int) -> Way:
         return Way(steps, self.pairs[0][0], self.motion.method, rounding=1)
@@ -266,13 +280,20 @@ class _Search:
     def _finer(self, steps: int) -> Way:
         return Way(5 * steps // UNIT, self._of_finer(), self.motion.method, rounding=3)
 
+    def _dense(self, steps: int) -> Way:
+        return Way(steps * max(2, math.ceil(DENSE / steps)), self._of_finer(), self.motion.method, rounding=4)
+
+    @property
+    def _looks_for_places(self) -> bool:
+        return not self.motion.is_plain
+
     def _of_finer(self) -> str:
-        """The formulation of the run with the shortest steps."""
+        """The formulation of the runs with the shortest steps."""
         return self.pairs[0][1]
 
     def _of_instants(self, found: Reference, steps: int) -> int:
         """In so many steps of the integrator of highest order were the terms evaluated."""
-        return steps
+        return found.differences[CHECKS].steps if self._looks_for_places else steps
 
     def _is_forgotten(self, fine: Solution, steps: int) -> bool:
         """Whether rounding alone makes another motion of it. With steps that are much too long, it may by chance."""
@@ -281,8 +302,16 @@ class _Search:
 
     def _is_final(self, found: Reference, stalls: int) -> bool:
         """Whether shorter steps are of no use, or help so little that only an error which is wanted is worth them."""
+        if self._is_missing_something(found):
+            return False
         enough = stalls >= MOST_STALLS and found.error <= RESOLVED * self.motion.size
         return self._is_rounding(found) or (enough and not self.wanted)
+
+    def _is_missing_something(self, found: Reference) -> bool:
+        """Whether the run with the densest points of evaluation differs from the motion by more than all others."""
+        *others, dense = found.differences
+        explained = max(each.p for each in others) + ROUNDING * self.motion.size
+        return len(others) == CHECKS and dense.p > EXPLAINED * explained
 
     def _is_rounding(self, found: Reference) -> bool:
         """Whether runs differ by what rounding was seen to do, or may do where each step rounds the same way."""
@@ -292,10 +321,12 @@ class _Search:
 
     def _caveats(self, found: Reference, steps: int, previous: float) -> Iterator[str]:
         motion = self.motion
-        halved, rounded, _, finer = (d.p for d in found.differences)
+        halved, rounded, _, finer, *_ = (d.p for d in found.differences)
+        apart = LARGEST_GAP * (motion.span[1] - motion.span[0]) / self._of_instants(found, steps)
         if not (core_of(motion.system).timeless or motion.bounded):
-            step = (motion.span[1] - motion.span[0]) / self._of_instants(found, steps)
-            yield TIME.format(apart=step * LARGEST_GAP)
+            yield TIME.format(apart=apart)
+        if not (motion.is_plain or motion.bounded or motion.bounds.get("max_move")):
+            yield PLACE.format(apart=apart * motion.speed)
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
         if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
             yield SMOOTH.format(ratio=min(ratios), most=2.0**settings.integrators()[motion.method].order)
@@ -331,7 +362,10 @@ class _SearchBySeries(_Search):
 
     def _of_instants(self, found: Reference, steps: int) -> int:
         """In those of the check: the terms of a series are evaluated once in a step."""
-        return found.differences[2].steps
+        return max(found.differences[i].steps for i in ((2, CHECKS) if self._looks_for_places else (2,)))
+
+    def _dense(self, steps: int) -> Way:
+        return dataclasses.replace(super()._dense(steps), integrator=self.motion.other)
 
     def _of_finer(self) -> str:
         """The formulation of the check, or the next of which there is a series."""

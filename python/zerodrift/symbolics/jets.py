@@ -6,11 +6,15 @@ from differential equations that have only products:
     c' = w u'       along:      c = exp u, w = c; sin u, cos u; tan u, 1 + c^2; sinh u, cosh u; tanh u, 1 - c^2
     q c' = u'       against:    c = log u, q = u; atan u, 1 + u^2; asin u, sqrt(1 - u^2); and so on
 
+Logistic functions are written by tanh, 1 / (c + exp u) = (1 - tanh((u - log c) / 2)) / (2 c): exp u overflows where they are long
+since zero.
+
 E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, 1993, section I.8.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from .elimination import Unwritten
@@ -72,6 +76,9 @@ class Jets:
             return self._call(arguments[0], *operands)
         if code in ("choice", "comparison", "logic"):
             raise Unwritten("a choice between cases has none")
+        if code == "/":
+            logistic = self._logistic(operands[1])
+            return self._emit("/", *operands) if logistic is None else self._emit("*", operands[0], logistic)
         return self._power(*operands) if code == "power" else self._emit(code, *operands)
 
     # ---- functions ----
@@ -126,7 +133,24 @@ class Jets:
             raise Unwritten(f"no Taylor series is known of {name}")
         return self._emit("against", u, slope, name=name)
 
+    def _logistic(self, below: int) -> int | None:
+        """1 / (c + exp u), if that is what is divided by, with a positive number c."""
+        jet = self.operations[below]
+        if jet.kind != "+":
+            return None
+        for c, power in (jet.arguments, jet.arguments[::-1]):
+            number, of = self.operations[c], self.operations[power]
+            if number.kind == "number" and number.arguments[0] > 0 and (of.kind, of.name) == ("along", "exp"):
+                half = self._emit("number", 0.5)
+                shifted = self._emit("-", of.arguments[0], self._emit("number", math.log(number.arguments[0])))
+                above = self._emit("-", self._emit("number", 1.0), self._along("tanh", self._emit("*", half, shifted)))
+                return self._emit("*", self._emit("number", 0.5 / number.arguments[0]), above)
+        return None
+
     def _power(self, base: int, exponent: int) -> int:
+        order = self.operations[exponent]
+        if order.kind == "number" and order.arguments[0] < 0 and (logistic := self._logistic(base)) is not None:
+            return self._power(logistic, self._emit("number", -order.arguments[0]))
         if self.operations[base].is_fixed and self.operations[exponent].is_fixed:
             return self._emit("fixed", base, exponent, name="pow")
         if self.operations[exponent].is_fixed:

@@ -21,6 +21,7 @@ from ..systems.tables import NumberTables, not_finite, refusals
 from ..systems.variables import quaternion_places, with_units
 from . import compilers, compiling, perturbing
 from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
+from .plainness import is_plain_program
 from .series_functions import JacobianFunctions, SeriesFunctions
 
 
@@ -145,6 +146,10 @@ class SymbolicSystem(BaseSystem):
     @property
     def _brings_series(self) -> bool:
         return self.compiled and not self._series.why_none
+
+    @property
+    def _has_plain_laws(self) -> bool:
+        return is_plain_program(self._code.program)
 
     def _functions(self, embeds: bool) -> DirectFunctions:
         return self._direct.embedding if embeds else self._direct

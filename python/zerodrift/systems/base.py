@@ -323,6 +323,11 @@ class BaseSystem:
         """Whether there is one."""
         return False
 
+    @property
+    def _has_plain_laws(self) -> bool:
+        """Whether its terms are known to be polynomials, sines and cosines, besides elements that are smooth."""
+        return False
+
     def _what_it_costs(self, steps: int | None) -> str | None:
         """What so many steps (None: nobody knows how many) cost, where they could cost far less; None: they could not."""
         return None

@@ -37,6 +37,10 @@ class SystemOfKind(BaseSystem):
         """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
         return self._kind.draw(self._core, _check.vector("p", p, self.nq))
 
+    @property
+    def _has_plain_laws(self) -> bool:
+        return True
+
     def _parameter_units(self) -> dict[str, str]:
         return {parameter.name: parameter.unit for parameter in self._kind.parameters}
 

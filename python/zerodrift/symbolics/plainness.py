@@ -1,0 +1,47 @@
+"""Laws in which nothing narrow can hide: polynomials, sines and cosines.
+
+Of other functions, an exponential or a quotient, values and derivatives in some places do not tell what they are in others.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+TURNS = ("sin", "cos")
+SUMS = ("leaf", "number", "+", "-", "*", "negative")
+
+
+def is_plain_program(program: dict[str, Any] | str) -> bool:
+    """Whether all operations on the state and on time are of that kind; False where they could not be kept."""
+    if isinstance(program, str):
+        return False
+    varies: list[bool] = []
+    for code, *arguments in program["operations"]:
+        operands = [] if code in ("leaf", "number") else arguments[1:] if code in ("call", "comparison", "logic") else arguments
+        varies.append((code == "leaf" and arguments[0] != "parameter") or any(varies[number] for number in operands))
+        if varies[-1] and not _is_plain(code, arguments, operands, varies, program["operations"]):
+            return False
+    return True
+
+
+def _is_plain(code: str, arguments: list[Any], operands: list[int], varies: list[bool], operations: list[Any]) -> bool:
+    if code in SUMS:
+        return True
+    if code == "/":
+        return not varies[operands[1]]
+    if code == "power" or (code == "call" and arguments[0] == "Pow"):
+        kind, *value = operations[operands[1]]
+        return kind == "number" and value[0] >= 0 and float(value[0]).is_integer()
+    return code == "call" and arguments[0] in TURNS
+
+
+def is_plain_expression(expression: Any, names: set[str]) -> bool:
+    """The same of a SymPy expression, as a function of these names."""
+    if not any(str(symbol) in names for symbol in expression.free_symbols):
+        return True
+    is_sum = expression.is_Symbol or expression.is_Add or expression.is_Mul or expression.is_Pow
+    if not is_sum and expression.func.__name__ not in TURNS:
+        return False
+    if expression.is_Pow and not (expression.exp.is_Integer and expression.exp.is_nonnegative):
+        return False
+    return all(is_plain_expression(each, names) for each in expression.args)
