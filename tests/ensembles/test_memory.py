@@ -54,7 +54,8 @@ def test_more_than_memory_is_refused_before_anything_runs(scarce, monkeypatch):
 def test_chosen_steps_stop_where_memory_gets_short(scarce):
     """With the runs that are done, as long as these can be joined."""
     whole = zd.ensemble(BAR, 1.0, **CHOSEN)
-    size = sum(each.nbytes for each in whole._part.arrays.values())
+    size = sum(each.nbytes for each in whole._part.arrays.values()) + whole._part.t.nbytes
+    assert size == memory.size_of(whole._part)
     scarce(size / 2)
     with pytest.raises(MemoryError, match=r"the outputs of \d+ runs, which are done, take .* are free: keep fewer") as caught:
         zd.ensemble(BAR, 1.0, **CHOSEN)
@@ -69,7 +70,7 @@ def test_chosen_steps_stop_where_memory_gets_short(scarce):
 def test_a_store_may_be_larger_than_memory(scarce, tmp_path, study):
     """Its outputs stay in its files, some or all of them, and each is read when it is needed."""
     here = zd.ensemble(BAR, 1.0, **study)
-    for i, free in enumerate((0, memory.size_of(here._part.arrays), 0)):     # none or half of it, and the finished study again
+    for i, free in enumerate((0, memory.size_of(here._part), 0)):     # none or half of it, and the finished study again
         scarce(free)
         there = zd.ensemble(BAR, 1.0, **study, store=tmp_path / str(i % 2))
         for ens in (there, zd.load(tmp_path / str(i % 2))):

@@ -25,3 +25,20 @@ def test_the_gateway_writes_to_writable_memory_only():
     assert len(_gateway.doubles(array, 3)) == 3
     with pytest.raises(TypeError, match="expected a writable array"):
         _gateway.doubles(array, 3, writable=True)
+
+
+TABLE = np.arange(12.0).reshape(4, 3)
+
+
+def test_columns_of_a_table_are_read_in_place():
+    """From the address of their first entry."""
+    pointer = _gateway.base.strided_doubles(TABLE[:, 1:], 8)
+    assert [pointer[3 * row + i] for row in range(4) for i in range(2)] == TABLE[:, 1:].ravel().tolist()
+
+
+@pytest.mark.parametrize("array", [TABLE[:, 1:].astype(np.float32), TABLE[:, ::2], TABLE[::-1, 1:], TABLE[:3, 1:], TABLE.T[:2],
+                                   np.zeros((4, 17), np.uint8)[:, 1:].view(float)])
+def test_columns_of_other_memory_are_refused(array):
+    """Of other numbers, rows that are not contiguous or run backwards, another size, and unaligned memory."""
+    with pytest.raises(TypeError, match="expected 8 float64 values in contiguous rows"):
+        _gateway.base.strided_doubles(array, 8)

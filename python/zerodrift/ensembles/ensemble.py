@@ -157,7 +157,7 @@ class _Work:
         self._plan, self._store, self._threads = plan, store, threads
         self._lock, self._begin = threading.Lock(), time.perf_counter()
         self._parts = {} if store is None else store.parts()
-        self._size = sum(memory.size_of(part.arrays) for part in self._parts.values())      # bytes of outputs in memory
+        self._size = sum(memory.size_of(part) for part in self._parts.values())      # bytes of outputs in memory
         runs = plan.runs.count
         workers = threads if executor is None or executor == "processes" else executors.workers_of(executor) or SHARES
         least = SHORTEST if batch_of(plan) else 1
@@ -208,10 +208,10 @@ class _Work:
         """Keeps a part: its outputs in memory, or in the store where memory gets short; without a store that is an error."""
         path = self._store.write(first, part) if self._store else None
         with self._lock:
-            size = self._size + memory.size_of(part.arrays)
+            size = self._size + memory.size_of(part)
             if path and memory.exceeds(size, memory.IN_STORE):
                 part = stores.in_file(part, path)
-            self._size += memory.size_of(part.arrays)
+            self._size += memory.size_of(part)
             self._parts[first] = part
         if not path and self._plan.sizes is None and memory.exceeds(self._size, 1.0):      # no more than that can be joined
             raise MemoryError(memory.shortage(self._size, self._count()))

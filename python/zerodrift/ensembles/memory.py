@@ -42,9 +42,10 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
         warnings.warn(sentence, CostWarning, stacklevel=stacklevel + 1)
 
 
-def size_of(arrays: Mapping[str, np.ndarray]) -> int:
-    """Bytes in memory."""
-    return 0 if isinstance(arrays, InFile) else sum(array.nbytes for array in arrays.values())
+def size_of(part: Any) -> int:
+    """Bytes of the outputs of a part that are in memory, and of its times where each run has its own."""
+    times = 0 if part.is_shared else part.t.nbytes
+    return times + (0 if isinstance(part.arrays, InFile) else sum(array.nbytes for array in part.arrays.values()))
 
 
 def shortage(size: int, runs: int) -> str:

@@ -114,12 +114,12 @@ class Store:
             if last <= end:
                 continue
             part = saving.unpacked_part(read_arrays(path))
-            if memory.exceeds(size + memory.size_of(part.arrays), memory.IN_STORE):
+            if memory.exceeds(size + memory.size_of(part), memory.IN_STORE):
                 part = in_file(part, path)
             if first < end:         # parts that others have made may overlap
                 part = part.behind(end - first)
             found[max(first, end)] = part
-            end, size = last, size + memory.size_of(part.arrays)
+            end, size = last, size + memory.size_of(part)
         return found
 
     def write(self, first: int, part: Part) -> Path:
