@@ -11,16 +11,18 @@ from .. import _check
 from ..errors import EquilibriumFailed, ZerodriftError
 from ..runs.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of
-from .equilibrium_result import Equilibrium, at_rest
+from .equilibrium_result import Equilibrium, at_rest, in_motion
 from .quantities import names_of, values_of
 from .rest import Balance, Search
 from .retraction import onto, rows_of
 from .settling import settled
 from .state import state
+from .steady import Steady
 
 
-def equilibrium(system: Any, *, near: Any = None, hold: Any = (), stability: str = "stable", t: float = 0.0) -> Equilibrium:
-    """A position in which a system rests under its forces.
+def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None, stability: str = "stable",
+                t: float = 0.0) -> Equilibrium:
+    """A position in which a system rests under its forces, or a steady motion with given speeds.
 
     Newton's method solves the balance of forces on the tangent space of the constraints, with projection onto these as
     retraction, in a trust region of 0.3 rad or characteristic lengths. Holonomic, nonholonomic and redundant constraints are
@@ -36,6 +38,10 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), stability: str
         the start.
     hold : sequence of measures, optional
         Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
+    v : dict of measure to value, optional
+        A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
+        their rates in a frame that turns about the direction of gravity; other velocities are the smallest in the mass metric.
+        The steady motion nearest to the start is found, stable or not.
     stability : {"stable", "any"}
         "stable" leaves an unstable equilibrium downhill; "any" takes Newton's method to one nearby, stable or not.
     t : float
@@ -67,6 +73,10 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), stability: str
     core_of(system)
     _check.choice("stability", stability, ("stable", "any"))
     p = _first(system, near, t)
+    if v is not None:
+        if hold != ():
+            raise ValueError("hold must be left out where v prescribes the speeds of a steady motion")
+        return _steady(system, t, p, values_of(v, "v"))
     at = state(system, t, p, np.zeros(system.nv))
     held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
@@ -80,6 +90,12 @@ def _first(system: BaseSystem, near: Any, t: float) -> np.ndarray:
     if near is None:
         return np.array(system._state_or_start(None, None, "near", "v", t)[0])
     return onto(system, t, _check.vector("near", near, system.nq))
+
+
+def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float]) -> Equilibrium:
+    """The steady motion with given speeds."""
+    search = Steady(system, t, speeds)
+    return in_motion(search.run(p), search.iterations)
 
 
 def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:

@@ -8,11 +8,13 @@ import numpy as np
 
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem
-from .names import dominant
+from .flow import Flow
+from .names import dominant, pivots
 from .quantities import Reading, components
 from .rest import Balance
 from .retraction import moved, onto, rows_of
 from .spectrum import Spectrum, of_matrix
+from .state import State
 
 SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
 ASIDE = 0.05        # in characteristic scales: distance at which a free direction is verified
@@ -35,7 +37,7 @@ class Equilibrium:
         Efforts, conjugate to the rates of the quantities that are held, in N or N m.
     stiffness : ndarray (k, k)
         Reduced stiffness matrix, on a mass-orthonormal basis of the directions that nothing holds: its eigenvalues are squares
-        of angular frequencies, in 1/s^2.
+        of angular frequencies, in 1/s^2. None in a steady motion, as damping.
     damping : ndarray (k, k)
         Reduced damping matrix on the same basis, in 1/s.
     basis : ndarray (nv, k)
@@ -110,6 +112,18 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
     return Equilibrium(at.system, at.t, state, _efforts(balance), stiffness=K, damping=D, basis=balance.V, spectrum=spectrum,
                        stable=_stable(balance, spectrum, len(free)), free=tuple(dict.fromkeys(free)), residual=balance.residual,
                        iterations=iterations, how=how)
+
+
+def in_motion(at: State, iterations: int) -> Equilibrium:
+    """The result for a steady motion, whose stability is that of its linearization."""
+    flow = Flow(at)
+    spectrum = of_matrix(flow.A)
+    stable = False if spectrum.grows else True if spectrum.decays else None
+    return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), {}, stiffness=None, damping=None,
+                       basis=flow.tangent.velocities, spectrum=spectrum, stable=stable,
+                       free=tuple(pivots(at, flow.tangent.basis @ spectrum.removed)),
+                       residual=float(np.linalg.norm(flow.unsteady)),
+                       iterations=iterations, how="Gauss-Newton method")
 
 
 def _efforts(balance: Balance) -> dict[str, Any]:

@@ -53,7 +53,7 @@ def of_matrix(A: np.ndarray) -> Spectrum:
     ignorable ones. Both span an invariant space, so that the other eigenvalues are those of A on the quotient.
     """
     removed = _ignorable(A)
-    Q = _complement(removed)
+    Q = complement(removed)
     values, vectors = np.linalg.eig(Q.T @ A @ Q) if Q.shape[1] else (np.zeros(0, complex), np.zeros((0, 0), complex))
     order = sorted(range(len(values)), key=lambda i: (round(float(np.abs(values[i])), 9), -values[i].imag, values[i].real))
     return Spectrum(values[order].astype(complex), _lifted(A, Q, removed, values[order], vectors[:, order]), removed)
@@ -64,7 +64,7 @@ def _ignorable(A: np.ndarray) -> np.ndarray:
     still = _null(A, ZERO * _size(A))
     if not still.shape[1]:
         return still
-    Q = _complement(still)
+    Q = complement(still)
     speeds = Q @ _null(Q.T @ A @ Q, ZERO * _size(A))
     return np.linalg.qr(np.hstack([still, speeds]))[0]
 
@@ -80,7 +80,7 @@ def _null(A: np.ndarray, below: float) -> np.ndarray:
     return vectors[values <= below].T
 
 
-def _complement(basis: np.ndarray) -> np.ndarray:
+def complement(basis: np.ndarray) -> np.ndarray:
     """Orthonormal basis of the orthogonal complement."""
     k, j = basis.shape
     return np.linalg.svd(basis, full_matrices=True)[0][:, j:] if j else np.eye(k)

@@ -1,0 +1,152 @@
+"""The linearized flow on the tangent space: A = N^+ (dF N - N'), with the basis carried along by the steady motion."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._gateway import acceleration
+from ..runs import settings
+from ..systems.base import core_of
+from . import differences
+from .derivatives import Derivatives, Direction
+from .frames import STEADY, frame_of
+from .quantities import find
+from .state import State, scales, state
+from .tangent import Tangent
+
+
+def accelerate(at: State) -> tuple[np.ndarray, np.ndarray]:
+    """Accelerations and multipliers, by the formulation that takes redundant constraints."""
+    return acceleration(core_of(at.system), settings.formulation_row("augmented"), settings.on_singular_row("stop"), at.t,
+                        np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
+
+
+class Rest(NamedTuple):
+    """Multipliers (m,) of a position of rest in which drives stand still, and constant efforts by what they hold."""
+
+    lam: np.ndarray
+    efforts: Mapping[str, float]
+
+
+class DerivativesAtRest(Derivatives):
+    """Derivatives of accelerations at rest, with drives that stand still: C vdot = 0."""
+
+    def __init__(self, tangent: Tangent, rest: Rest) -> None:
+        super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam)
+        self._jacobian, self._rest = None, rest
+
+    def both(self, dp: np.ndarray, dv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        at, direction = self.at, Direction(dp=dp, dv=dv)
+
+        def along(h: float) -> np.ndarray:
+            there = direction.step(at, h)
+            efforts = sum((find(there, name, "hold").row.T @ [u] for name, u in self._rest.efforts.items()), 0.0)
+            return there.C.T @ self.lam - there.force - efforts
+
+        r = differences.along(along, direction.size(scales(at.system, at.p), at))
+        return self.solve(r, np.zeros(at.system.m))
+
+
+class Flow:
+    """The linearized flow at a state, parts of which are computed when they are first read.
+
+    z are coordinates on the tangent space, (p, v) = (p0, v0) + N z. `rest` is given where drives stand still and efforts hold
+    the system, otherwise the state moves on by its own equations.
+    """
+
+    def __init__(self, at: State, rest: Rest | None = None) -> None:
+        self.at, self.tangent, self.frame = at, Tangent(at), frame_of(at.system)
+        if rest is None:
+            self.vdot, self.lam = accelerate(at)
+            self.derivatives = Derivatives(self.tangent, self.vdot, self.lam)
+        else:
+            self.vdot, self.lam = np.zeros(at.system.nv), rest.lam
+            self.tangent.followed = np.zeros_like(self.tangent.displacements)
+            self.derivatives = DerivativesAtRest(self.tangent, rest)
+        self.w = self.frame.rates(at)
+        self.acc = self.frame.rows(at) @ self.vdot + self.frame.bias(at)
+
+    @functools.cached_property
+    def Omega(self) -> np.ndarray:
+        """Angular velocity (3,) of the steady motion; zero where the motion is not steady."""
+        Omega = self.frame.steady_rotation(self.w, self.acc)
+        left = self.acc - self.frame.rotation(Omega, self.w.size) @ self.w
+        return Omega if np.abs(left).max(initial=0.0) <= STEADY * self._size() else np.zeros(3)
+
+    def _size(self) -> float:
+        """The size of accelerations here: those there are, and those of the forces before they cancel."""
+        largest = np.abs(self.acc).max(initial=0.0) + np.abs(self.w).max(initial=0.0)**2
+        mass = np.maximum(np.diag(self.at.M), 1e-300)
+        forces = (np.abs(self.at.force) + np.abs(self.at.C.T) @ np.abs(self.lam)) / mass
+        caused = np.abs(self.frame.rows(self.at)) @ np.where(mass > 1e-12 * mass.max(initial=0.0), forces, 0.0)
+        return float(largest + caused.max(initial=0.0))
+
+    @functools.cached_property
+    def unsteady(self) -> np.ndarray:
+        """Acceleration (n,) in the frame that a steady motion does not have; zero where it is rounding."""
+        left = self.acc - self.frame.rotation(self.Omega, self.w.size) @ self.w
+        return left if np.abs(left).max(initial=0.0) > STEADY * self._size() else np.zeros_like(left)
+
+    @functools.cached_property
+    def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Basis E (2 n, k) in the frame, its rate (2 n, k), and the changes of vdot (nv, k) and lambda (m, k) along it."""
+        at, nv, parts = self.at, self.at.system.nv, []
+        for quasi in self.tangent.quasi.T:
+            dp, dv = at.A @ quasi[:nv], quasi[nv:]
+            dvdot, dlam = self.derivatives.both(dp, dv)
+            if self.derivatives.is_exact:
+                dvdot = self.derivatives.of_accelerations(dp, dv)
+            parts.append((*self._changes(quasi[:nv], dp, dv, dvdot), dvdot, dlam))
+        return tuple(np.array(each).reshape(len(parts), -1).T for each in zip(*parts, strict=True)) if parts else (
+            np.zeros((2 * self.w.size, 0)), np.zeros((2 * self.w.size, 0)), np.zeros((nv, 0)), np.zeros((at.system.m, 0)))
+
+    def _changes(self, delta: np.ndarray, dp: np.ndarray, dv: np.ndarray, dvdot: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A direction (eta, nu), and its rate, in the frame."""
+        at, frame = self.at, self.frame
+        J = frame.rows(at)
+
+        def along(h: float) -> np.ndarray:
+            there = Direction(dp=dp, dv=dv).step(at, h)
+            rows = frame.rows(there)
+            return np.concatenate([rows @ there.v, rows @ self.vdot + frame.bias(there)])
+
+        nu, dacc = np.split(differences.along(along, Direction(dp=dp, dv=dv).size(scales(at.system, at.p), at)), 2)
+        eta = J @ delta
+        return np.concatenate([eta, nu]), np.concatenate([nu + frame.commutator(self.w) @ eta, dacc + J @ dvdot])
+
+    @functools.cached_property
+    def A(self) -> np.ndarray:
+        """A (k, k), z' = A z."""
+        E, rate, *_ = self.columns
+        turned = self.frame.rotation(self.Omega, self.w.size)
+        return self._in_basis(rate - np.vstack([turned @ part for part in np.split(E, 2)]))
+
+    def _in_basis(self, values: np.ndarray) -> np.ndarray:
+        """Coordinates z of vectors (2 n, ...) in the frame."""
+        E = self.columns[0]
+        return np.linalg.lstsq(E, values, rcond=1e-13)[0] if E.size else np.zeros((E.shape[1], *values.shape[1:]))
+
+    @property
+    def rate(self) -> np.ndarray:
+        """The affine term (k,): z' at the state itself, where the motion is not steady."""
+        return self._in_basis(np.concatenate([np.zeros_like(self.w), self.unsteady]))
+
+    def response(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""
+        V = self.tangent.velocities
+        vdot = V @ (V.T @ force)
+        nothing = np.zeros(self.at.system.m)
+        lam = [self.derivatives.solve(-each, nothing)[1] for each in force.T]
+        n = V.shape[1]
+        z = np.zeros((self.tangent.quasi.shape[1], force.shape[1]))
+        z[-n:] = V.T @ force if n else z[-n:]
+        return z, vdot, np.array(lam).reshape(force.shape[1], self.at.system.m).T
+
+
+def flow_at(system: Any, t: float, p: np.ndarray, v: np.ndarray) -> Flow:
+    """The linearized flow of a system at a state."""
+    return Flow(state(system, t, p, v))

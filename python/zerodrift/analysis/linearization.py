@@ -1,0 +1,146 @@
+"""The result of `linearize`: matrices, eigenvalues, modes, inputs and outputs."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from . import differences
+from .derivatives import Direction
+from .flow import Flow
+from .names import dominant, pivots
+from .quantities import find, names_of
+from .spectrum import complement, of_matrix
+from .state import scales, state
+
+
+class Linearization:
+    """A linear motion z' = A z + B u, y = C z + D u, (p, v) = (p0, v0) + basis z.
+
+    Attributes
+    ----------
+    system : system
+    t, p, v : float, ndarray (nq,), (nv,)
+        The state.
+    A, B, C, D : ndarray (k, k), (k, inputs), (outputs, k), (outputs, inputs)
+    basis : ndarray (nq + nv, k)
+        Orthonormal in the mass metric.
+    names : tuple of str
+        The coordinate or velocity that changes most along each column of the basis.
+    inputs, outputs : tuple of str
+        Names of the components.
+    eigenvalues : ndarray (n,), complex
+        In 1/s, sorted by magnitude, zeros of ignorable coordinates left out.
+    frequencies : ndarray (n,)
+        Natural frequencies in Hz, ``abs(eigenvalues) / (2 pi)``.
+    damping : ndarray (n,)
+        Damping ratios, ``-real / abs``.
+    modes : ndarray (nq + nv, n), complex
+        Eigenvectors in coordinates and velocities.
+    ignored : tuple of str
+        A name for each zero that was left out: coordinates on which nothing depends, and their speeds.
+    rate : ndarray (k,)
+        z' at the state itself; zero in an equilibrium or a steady motion.
+    rotation : ndarray (3,)
+        Angular velocity in rad/s of the frame in which the motion is steady.
+    is_exact : bool
+        Whether the derivatives of the accelerations are the system's own; otherwise they are differences.
+    """
+
+    def __init__(self, flow: Flow, B: np.ndarray, C: np.ndarray, D: np.ndarray, inputs: tuple[str, ...],
+                 outputs: tuple[str, ...]) -> None:
+        at = flow.at
+        self._at, self.system, self.t, self.p, self.v = at, at.system, at.t, at.p, at.v
+        self.A, self.B, self.C, self.D, self.inputs, self.outputs = flow.A, B, C, D, inputs, outputs
+        self.basis, self.rate, self.rotation = flow.tangent.basis, flow.rate, flow.Omega
+        self.is_exact = flow.derivatives.is_exact
+        self._spectrum = of_matrix(self.A)
+        self.eigenvalues, self.frequencies = self._spectrum.eigenvalues, self._spectrum.frequencies
+        self.damping, self.modes = self._spectrum.dampings, self.basis @ self._spectrum.vectors
+        self.ignored = tuple(pivots(at, self.basis @ self._spectrum.removed))
+
+    @property
+    def ABCD(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """The four matrices, as ``scipy.signal.StateSpace(*lin.ABCD)`` takes them."""
+        return self.A, self.B, self.C, self.D
+
+    @functools.cached_property
+    def names(self) -> tuple[str, ...]:
+        """The coordinate or velocity that changes most along each column of the basis."""
+        nq = self.system.nq
+        speeds = [each.name for each in self.system.velocities]
+        return tuple(dominant(self._at, column[:nq]) or speeds[int(np.abs(column[nq:]).argmax())] for column in self.basis.T)
+
+    def dominant(self, mode: int) -> str:
+        """The coordinate that moves most in a mode, ignored ones left out."""
+        nq = self.system.nq
+        name = dominant(self._at, self.modes[:nq, mode], self.ignored)
+        return name or self.system.velocities[int(np.abs(self.modes[nq:, mode]).argmax())].name
+
+    def frequency_response(self, omega: Any) -> np.ndarray:
+        """Responses ``C (i omega - A)^-1 B + D`` at angular frequencies omega (j,) in rad/s, (j, outputs, inputs), complex.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> lin = zd.linearize(zd.systems.oscillator(), (0.0, [0.0], [0.0]), inputs=["x"], outputs=["x"])
+        >>> bool(np.isclose(lin.frequency_response([0.5])[0, 0, 0], 1 / (10 - 0.25)))
+        True
+        """
+        unit = np.eye(len(self.A))
+        return np.array([self.C @ np.linalg.solve(1j * w * unit - self.A, self.B) + self.D for w in np.atleast_1d(omega)])
+
+    def in_coordinates(self, names: Any) -> np.ndarray:
+        """A (2 n, 2 n) in n quantities of positions and their rates, ignorable coordinates left out.
+
+        Parameters
+        ----------
+        names : sequence of str or measure
+            As many as half of the eigenvalues; they must not depend on ignorable coordinates.
+
+        Raises
+        ------
+        ValueError
+            If they do not determine the motion.
+        """
+        wanted = names_of(names, "names")
+        rows = [np.vstack([find(self._at, name, "names").row]) for name in wanted]
+        J, nv = np.vstack(rows), self.system.nv
+        Q = complement(self._spectrum.removed)
+        Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
+        if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
+            raise ValueError(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}")
+        return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
+
+    @property
+    def _quasi(self) -> np.ndarray:
+        """The basis in displacements and velocities, (2 nv, k)."""
+        nq = self.system.nq
+        return np.vstack([np.linalg.lstsq(self._at.A, self.basis[:nq], rcond=None)[0], self.basis[nq:]])
+
+    def _rates(self, names: list[str]) -> np.ndarray:
+        """Changes of the rows of these quantities along the basis, times v: zero at rest."""
+        at, columns = self._at, []
+        for dp in self.basis[:self.system.nq].T:
+            size = Direction(dp=dp).size(scales(at.system, at.p), at)
+            columns.append(differences.along(lambda h, dp=dp: np.concatenate([
+                find(state(at.system, at.t, at.p + h * dp, at.v), name, "names").row @ at.v for name in names]), size))
+        return np.array(columns).T
+
+    def __repr__(self) -> str:
+        lines = [f"<linearization of {self.system.name}: {len(self.A)} states, {len(self.eigenvalues)} eigenvalues>",
+                 "    frequency [Hz]   damping ratio   eigenvalue [1/s]            dominant coordinate"]
+        for i, value in enumerate(self.eigenvalues):
+            if value.imag < 0:
+                continue
+            number = f"{value.real:+.6g}" + (f" ± {value.imag:.6g}i" if value.imag else "")
+            lines.append(f"    {self.frequencies[i]:<16.6g} {self.damping[i]:<15.4g} {number:<27} {self.dominant(i)}")
+        if self.ignored:
+            lines.append(f"  ignored: {', '.join(self.ignored)}")
+        if np.any(self.rate):
+            lines.append("  not a steady motion: A is that of an instant")
+        return "\n".join(lines)

@@ -1,0 +1,118 @@
+"""Pictures of linearizations: shapes of modes, and eigenvalues in the complex plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from .. import _check
+from ..analysis.linearization import Linearization
+from ..analysis.retraction import onto
+from . import style as _style
+from .drawing import drawing_axes
+
+PHASES = (0.0, 0.25, 0.5, 0.75)     # of a period, drawn pale
+
+
+def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitude: float = 0.2, **style: Any) -> Axes:
+    """Draw the shape of a mode: the position of reference, and displaced ones at quarters of a period.
+
+    Parameters
+    ----------
+    lin : Linearization
+    index : int
+        Of the eigenvalue.
+    ax : Axes, optional
+        Left out: a new figure.
+    amplitude : float
+        The largest change of a coordinate, in rad or characteristic lengths.
+    **style
+        For ``ax.plot`` of the displaced positions.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If there is no such mode, or the system has no drawing.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> bar = zd.models.four_bar()
+    >>> lin = zd.linearize(bar, zd.equilibrium(bar))
+    >>> ax = zd.plot.mode(lin, 0)
+    """
+    _check.instance("lin", lin, Linearization, "what zd.linearize returns")
+    count = len(lin.eigenvalues)
+    if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index < count:
+        raise ValueError(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}")
+    reference = lin.system.points(lin.p)
+    if reference is None:
+        raise ValueError(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none")
+    ax = drawing_axes(ax, reference.shape[1])
+    for p in mode_positions(lin, int(index), _check.number("amplitude", amplitude, above=0), PHASES):
+        ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.45, "linewidth": 1.0} | style)
+    ax.plot(*reference.T, color=_style.COLOURS[0], linewidth=1.6)
+    value = lin.eigenvalues[index]
+    pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {lin.damping[index]:.3g}"
+    ax.set_title(pair if value.imag else f"{value.real:.4g} 1/s")
+    return ax
+
+
+def mode_positions(lin: Linearization, index: int, amplitude: float, phases: Sequence[float]) -> list[np.ndarray]:
+    """Positions (nq,) of a mode at phases of its period, on the constraints, without its decay or growth."""
+    direction = lin.modes[:lin.system.nq, index]
+    if not np.abs(direction).max(initial=0.0):
+        return [lin.p for _ in phases]
+    direction = direction / direction[np.abs(direction).argmax()]
+    moved = [np.real(direction * np.exp(2j * np.pi * phase)) for phase in phases]
+    return [onto(lin.system, lin.t, lin.p + amplitude * dp) for dp in moved]
+
+
+def root_locus(lins: Sequence[Linearization], values: Any, ax: Axes | None = None, *, label: str = "", **style: Any) -> Axes:
+    """Draw the eigenvalues of several linearizations in the complex plane, coloured by a parameter.
+
+    Parameters
+    ----------
+    lins : sequence of Linearization
+    values : array_like (k,)
+        The parameter, such as a speed.
+    ax : Axes, optional
+        Left out: a new figure.
+    label : str
+        Name and unit of the parameter, for the colour bar.
+    **style
+        For ``ax.scatter``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ValueError
+        If there are not as many values as linearizations.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> systems = [zd.systems.oscillator(stiffness=k) for k in (1.0, 2.0)]
+    >>> ax = zd.plot.root_locus([zd.linearize(each, (0.0, [0.0], [0.0])) for each in systems], [1.0, 2.0])
+    """
+    lins = [_check.instance("lins", each, Linearization, "a sequence of what zd.linearize returns") for each in lins]
+    values = _check.vector("values", values, len(lins))
+    ax = _style.axes(ax)
+    points = np.concatenate([each.eigenvalues for each in lins]) if lins else np.zeros(0)
+    colours = np.repeat(values, [len(each.eigenvalues) for each in lins])
+    drawn = ax.scatter(points.real, points.imag, c=colours, **{"s": 14.0, "cmap": "viridis"} | style)
+    ax.axvline(0.0, color="0.4", linewidth=0.8)
+    ax.set_xlabel("real part [1/s]")
+    ax.set_ylabel("imaginary part [rad/s]")
+    ax.figure.colorbar(drawn, ax=ax, label=label)
+    return ax

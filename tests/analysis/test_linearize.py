@@ -1,0 +1,231 @@
+"""Linearizations against published eigenvalues, closed forms, periods of runs, and each other in all coordinates."""
+
+import numpy as np
+import pytest
+import scipy.signal
+
+import zerodrift as zd
+
+G = 9.81
+
+# Eigenvalues in 1/s of the benchmark bicycle by speed in m/s: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab,
+# Linearized dynamics equations for the balance and steer of a bicycle, Proc. R. Soc. A 463 (2007), table 2; of pairs the upper.
+PUBLISHED = {
+    0.0: [-5.53094371765393, -3.13164324790656, 3.13164324790656, 5.53094371765393],
+    1.0: [-7.11008014637441, -3.13423125066578, complex(3.52696170990069, 0.80774027519931)],
+    2.0: [-8.67387984831737, -3.07158645641514, complex(2.68234517512745, 1.68066296590676)],
+    3.0: [-10.3510146724592, -2.63366137253665, complex(1.70675605663974, 2.31582447384324)],
+    4.0: [-12.1586142657644, -1.42944427361326, complex(0.413253315211241, 3.07910818603205)],
+    5.0: [-14.0783896927982, complex(-0.775341882195842, 4.46486771378823), -0.322866429004087],
+    6.0: [-16.0853712309803, complex(-1.52644486584142, 5.87673060598708), -0.00406690076970336],
+    7.0: [-18.157884661252, complex(-2.13875644258363, 7.19525913329804), 0.102681705747664],
+    8.0: [-20.2794089439457, complex(-2.69348683581095, 8.46037971396934), 0.143278797657129],
+    9.0: [-22.4378855904086, complex(-3.21675402252491, 9.69377351531782), 0.157901840309173],
+    10.0: [-24.624596350174, complex(-3.72016840437288, 10.9068113947629), 0.161053386531716],}
+WEAVE, CAPSIZE = 4.2923825363411, 6.0242620153884       # m/s, equations (30) and (31) there
+
+
+def bicycle(speed, layout="joint"):
+    return zd.models.whipple_bicycle(speed=speed, roll_rate=0.0).system(layout)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("speed", PUBLISHED)
+def test_published_eigenvalues_of_a_bicycle(speed, layout):
+    lin = zd.linearize(bicycle(speed, layout))
+    found = lin.eigenvalues[lin.eigenvalues.imag >= 0]
+    expected = np.array(PUBLISHED[speed], dtype=complex)
+    assert len(found) == len(expected)
+    assert len(lin.ignored) == 6        # places and headings of the frame, turns of the wheels, and the speed
+    assert max(np.abs(found - each).min() for each in expected) < 1e-12 * np.abs(expected).max()
+    assert not lin.rate.any()
+
+
+def test_weave_and_capsize_speeds_of_a_bicycle():
+    def real_part(speed):
+        values = zd.linearize(bicycle(speed)).eigenvalues
+        return values[values.imag > 0].real.max()
+
+    low, high = 4.29, 4.295     # the secant of a smooth function: three steps from 2.5e-3
+    for _ in range(4):
+        below, above = real_part(low), real_part(high)
+        low, high = high, high - above * (high - low) / (above - below)
+        if abs(high - low) < 1e-10:
+            break
+    assert high == pytest.approx(WEAVE, abs=1e-11)
+    squares = np.array([25.0, 49.0])        # the product of all four is linear in the square of the speed
+    products = np.array([np.prod(zd.linearize(bicycle(np.sqrt(each))).eigenvalues).real for each in squares])
+    assert np.sqrt(np.interp(0.0, -products, squares)) == pytest.approx(CAPSIZE, abs=1e-11)
+
+
+def test_table_of_a_bicycle():
+    lin = zd.linearize(zd.models.whipple_bicycle(), v={"frame.velocity.x": 4.6})
+    text = repr(lin)
+    assert "damping ratio" in text
+    assert "steer.angle" in text
+    assert "ignored: rear axle.angle" in text
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_nutation_of_a_precessing_top(layout):
+    """A top with its axis level: frequency from the second derivative of the effective potential of its nutation."""
+    mass, distance, axial, across, spin = 15.0, 1.0, 0.46875, 0.234375, 150.0
+    tip = across + mass * distance**2
+    slow = mass * G * distance / (axial * spin)       # steady precession with a level axis
+    top = zd.models.heavy_top(spin=spin, precession=slow)
+    lin = zd.linearize(top.system(layout))
+    import sympy
+
+    angle = sympy.Symbol("angle")
+    p_phi, p_psi = tip * slow, axial * spin
+    potential = (p_phi - p_psi * sympy.cos(angle))**2 / (2 * tip * sympy.sin(angle)**2) + mass * G * distance * sympy.cos(angle)
+    expected = np.sqrt(float(potential.diff(angle, 2).subs(angle, sympy.pi / 2)) / tip)
+    assert np.abs(lin.eigenvalues - 1j * expected).min() < 1e-9 * expected
+    assert lin.rotation == pytest.approx([0.0, 0.0, slow], rel=1e-9, abs=1e-9)
+    assert len(lin.eigenvalues) == 2
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_free_rotor_nutates_in_fixed_axes(layout):
+    """Rotation vectors that do not spin with the body: I3 / I1 times the spin."""
+    m = zd.Mechanism("rotor", dimension=3)
+    m.body("rotor", 1.0, inertia=(2.0, 2.0, 3.0))
+    m.start({"rotor.angular_velocity.z": 5.0})
+    lin = zd.linearize(m.system(layout))
+    assert sorted(lin.eigenvalues.imag) == pytest.approx([-7.5, 7.5], rel=1e-12)
+    assert len(lin.ignored) == 10
+
+
+def test_frequency_of_a_four_bar_is_that_of_small_oscillations():
+    bar = zd.models.four_bar().system("joint")
+    rest = zd.equilibrium(bar)
+    lin = zd.linearize(bar, rest)
+    periods = []
+    for amplitude in (0.02, 0.01):
+        p, v = zd.assemble(bar, {"crank.angle": rest["crank.angle"] + amplitude, "crank.angular_velocity": 0.0})
+
+        def speed(t, p, v):
+            return v[0]
+
+        speed.direction, speed.terminal = -1, 3
+        sol = zd.simulate(bar, 10.0, p, v, integrator="dop853", rtol=1e-12, atol=1e-14, events=[speed])
+        crossings = sol.t_events[0]
+        periods.append((crossings[-1] - crossings[0]) / (len(crossings) - 1))
+    small = periods[1] + (periods[1] - periods[0]) / 3        # the period grows with the square of the amplitude
+    assert 1 / lin.frequencies[0] == pytest.approx(small, rel=1e-7)       # the next term is amplitude^4, 1e-8
+
+
+@pytest.mark.parametrize("name", ["four_bar", "closed_pendulum", "double_wishbone", "quarter_car", "andrews", "heavy_top"])
+def test_spectra_are_the_same_in_all_coordinates(name):
+    m = getattr(zd.models, name)()
+    spectra = []
+    for layout in ("joint", "absolute"):
+        system = m.system(layout)
+        lin = zd.linearize(system, zd.equilibrium(system))
+        spectra.append((lin.eigenvalues, len(lin.ignored)))
+    (one, zeros), (other, zeros_too) = spectra
+    assert zeros == zeros_too
+    assert len(one) == len(other)
+    assert max((np.abs(other - each).min() for each in one), default=0.0) < 1e-9 * np.abs(one).max(initial=1.0)
+
+
+def test_redundant_constraints_change_nothing():
+    def lifted(extra):
+        m = zd.models.four_bar().lifted()       # loops of hinges in space have redundant constraints
+        if extra:
+            m.rod("brace", m["crank"].end, m.ground.point((0, 0, 0)))
+        return m
+
+    spectra = []
+    for extra in (False, True):
+        system = lifted(extra).system("absolute")
+        spectra.append(zd.linearize(system, zd.equilibrium(system)).eigenvalues)
+    plane = zd.models.four_bar()
+    spectra.append(zd.linearize(plane, zd.equilibrium(plane)).eigenvalues)
+    assert spectra[0] == pytest.approx(spectra[2], rel=1e-8)
+    assert spectra[1] == pytest.approx(spectra[2], rel=1e-8)
+
+
+def driven_pendulum():
+    m = zd.Mechanism("pendulum", gravity=(0, -G))
+    link = m.link("link", (0, 0), (0, -2.0), mass=3.0)
+    m.revolute("pin", m.ground, link.start, damping=0.7)
+    return m
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_inputs_outputs_and_responses_in_closed_form(layout):
+    mass, length, damping = 3.0, 2.0, 0.7
+    inertia, weight = mass * length**2 / 3, mass * G * length / 2
+    system = driven_pendulum().system(layout)
+    lin = zd.linearize(system, zd.equilibrium(system), inputs=["pin.torque"], outputs=["link.angle", "pin.force.x"])
+    assert lin.inputs == ("pin.torque",)
+    assert pytest.approx(np.array([[0.0], [mass * length / 2 / inertia]]), abs=1e-10) == lin.D
+    omega = np.array([0.3, 2.0, 5.0])
+    angle = 1 / (weight + 1j * omega * damping - inertia * omega**2)
+    expected = np.column_stack([angle, -mass * length / 2 * omega**2 * angle])
+    assert lin.frequency_response(omega)[:, :, 0] == pytest.approx(expected, rel=1e-10)
+    _, step = scipy.signal.step(scipy.signal.StateSpace(lin.A, lin.B, lin.C[:1], lin.D[:1]), T=np.linspace(0, 60, 400))
+    assert step[-1] == pytest.approx(1 / weight, rel=1e-2)
+    assert lin.in_coordinates(["link.angle"]) == pytest.approx(
+        np.array([[0, 1], [-weight / inertia, -damping / inertia]]), abs=1e-10)
+    assert lin.damping == pytest.approx([damping / 2 / np.sqrt(inertia * weight)] * 2, rel=1e-10)
+
+
+def test_the_governor_turns_at_the_angle_of_its_closed_form():
+    for layout in ("joint", "absolute"):
+        system = zd.models.flyball_governor().system(layout)
+        for speed in (12.5, 20.0):
+            eq = zd.equilibrium(system, v={"bearing.speed": speed})
+            hang = np.arccos((2.0 + 5.0) * G / (2.0 * 0.25 * speed**2))
+            drawn = np.arccos((2.0 + 5.0) * G / (2.0 * 0.25 * 14.0**2))
+            assert eq["hinge 0.angle"] == pytest.approx(hang - drawn, abs=1e-10)
+            assert eq["hinge 1.angle"] == pytest.approx(hang - drawn, abs=1e-10)
+            assert eq["bearing.speed"] == pytest.approx(speed, rel=1e-12)
+            assert eq.stable is None        # undamped: eigenvalues on the imaginary axis
+
+
+def test_an_instant_of_a_motion_is_flagged():
+    with pytest.warns(zd.AccuracyWarning, match="not in an equilibrium or a steady motion"):
+        lin = zd.linearize(zd.models.four_bar())
+    assert lin.rate.any()
+
+
+def test_what_is_wrong_is_refused():
+    bar = zd.models.four_bar()
+    rest = zd.equilibrium(bar)
+    with pytest.raises(ValueError, match=r"outputs names 'A\.fource'"):
+        zd.linearize(bar, rest, outputs=["A.fource"])
+    with pytest.raises(zd.InconsistentStart, match="must satisfy the constraints"):
+        zd.linearize(bar, (0.0, rest.p + 0.1, rest.v))
+    with pytest.raises(TypeError, match="at must be an equilibrium or a state"):
+        zd.linearize(bar, 3)
+    with pytest.raises(ValueError, match="names must be 1 quantities"):
+        zd.linearize(bar, rest).in_coordinates(["crank.angle", "rocker.angle"])
+
+
+def test_pictures_of_modes_and_root_loci():
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    speeds = [2.0, 4.0, 6.5]
+    lins = [zd.linearize(bicycle(speed)) for speed in speeds]
+    ax = zd.plot.root_locus(lins, speeds, label="speed [m/s]")
+    assert len(ax.collections[0].get_offsets()) == 12
+    assert ax.get_xlabel() == "real part [1/s]"
+    bar = zd.models.four_bar()
+    ax = zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 0, amplitude=0.1)
+    assert len(ax.lines) == 5
+    with pytest.raises(ValueError, match="index must be that of one of 2 eigenvalues"):
+        zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 2)
+    assert zd.plot.mode(lins[1], 1).lines
+
+
+def test_a_boom_that_an_effort_holds():
+    """A link at the angle a under a constant torque: inertia z'' = weight sin(a) z, unstable above the horizontal."""
+    m = zd.Mechanism("boom", gravity=(0, -G))
+    link = m.link("boom", (0, 0), (1.5, 0), mass=2.0)
+    m.revolute("foot", m.ground, link.start)
+    eq = zd.equilibrium(m, near={"boom.angle": 0.5}, hold=["boom.angle"])
+    lin = zd.linearize(m, eq)
+    assert (lin.eigenvalues**2).real == pytest.approx([1.5 * G / 1.5 * np.sin(0.5)] * 2, rel=1e-10)
