@@ -62,9 +62,9 @@ _LATER = {      # imported, or made, at first use
     "equilibrium": "analysis.equilibrium", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
     "grid": "ensembles.runs", "jacobian": "analysis.matrices", "linearize": "analysis.linearize",
     "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",
-    "numba_signature": "systems.native", "reach": "kinematics.trace", "record_size": "runs.record_size",
+    "numba_signature": "systems.native", "reach": "tracing.trace", "record_size": "runs.record_size",
     "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "trace": "kinematics.trace", "transmission_angle": "kinematics.transmission", "tune": "studies.tune",
+    "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
     "work_precision": "studies.work_precision",
 }
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from .. import _check
 from .._gateway import Variable
-from ..kinematics.traced import Trace
+from ..tracing.traced import Trace
 from ..mechanisms.measures import name_of
 from . import style as _style
 from .drawing import drawing_axes, paths_of

@@ -9,7 +9,7 @@ import sympy as sp
 import zerodrift as zd
 from tolerances import EPS
 from zerodrift.errors import InconsistentStart, SingularSystem
-from zerodrift.kinematics import walk
+from zerodrift.tracing import walk
 
 CLOSED = 1e-12      # SOLVED times the conditions of the mechanisms here, some ten; a thousandth from a dead point a hundred
 
