@@ -54,7 +54,7 @@ __all__ = [
     "assemble", "bias", "check", "compare", "corrections", "ensemble", "equilibrium", "formulations", "from_mechanics",
     "get_include", "grid", "inertia", "integrators", "jacobian", "linearize", "linkage", "load", "mass_matrix", "models",
     "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",
-    "symbolic", "systems", "trace", "transmission_angle", "tune", "work_precision",
+    "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
@@ -64,7 +64,7 @@ _LATER = {      # imported, or made, at first use
     "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",
     "numba_signature": "systems.native", "reach": "tracing.trace", "record_size": "runs.record_size",
     "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
+    "table": "mechanisms.data", "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
     "work_precision": "studies.work_precision",
 }
 

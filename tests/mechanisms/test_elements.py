@@ -308,7 +308,7 @@ def test_prescribed_motions_have_derivatives(motion):
 @pytest.mark.parametrize("given", [([0.0, 1.0], [0.0, 1.0]), np.zeros((2, 2)), {"t": 1.0}])
 def test_laws_are_numbers_functions_or_expressions(given):
     m, _, joints = wheels(1)
-    with pytest.raises(TypeError, match="angle of motor 'drive' must be a number, a function or an expression of SymPy"):
+    with pytest.raises(TypeError, match="angle of motor 'drive' must be a number, a function, an expression of SymPy"):
         m.motor("drive", joints[0], angle=given)
 
 

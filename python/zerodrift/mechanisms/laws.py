@@ -12,6 +12,7 @@ from .. import _check
 from ..symbolics.plainness import is_plain_expression
 from ..systems import jets
 from ..systems.callables import arguments
+from .data import recognised
 from .measures import name_of
 from .scalars import function_of
 
@@ -31,6 +32,7 @@ class Law:
 
     def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
         self.what, self.constant, self.expression, self._function = what, None, None, None
+        given = recognised(given)
         bound = {name: name_of(measure, f"of[{name!r}]") for name, measure in _of(what, of).items()}
         if callable(given):
             self._names = _wanted(what, given, ["t", *parameters, *bound])
@@ -38,7 +40,8 @@ class Law:
         elif hasattr(given, "free_symbols"):
             self._read_expression(given, bound, list(parameters))
         elif isinstance(given, tuple | list | dict) or np.ndim(given):
-            raise TypeError(f"{what} must be a number, a function or an expression of SymPy, not {_check.shown(given)}")
+            raise TypeError(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
+                            f"not {_check.shown(given)}")
         else:
             self.constant, self._names, self._bound = _check.number(what, given), [], {}
         self.measures = tuple(self._bound.values())
@@ -93,7 +96,8 @@ class Law:
             if not self._has_value(t, x, parameters):
                 raise
             raise TypeError(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
-                            "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none") from error
+                            "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
+                            "smooth function through data") from error
         value = value[()] if isinstance(value, np.ndarray) else value
         return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
 

@@ -226,6 +226,11 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         """
         return self.system().evaluate(p, v, t)
 
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of all measures, such as "pin.force": what ``sol[name]`` of its solutions reads."""
+        return self.system().measures
+
     def save(self, path: str | Path) -> Path:
         """Write the mechanism to a JSON file, which `zerodrift.load` reads; to the last bit the same, and no pickle.
 

@@ -7,12 +7,12 @@ and no global setting of matplotlib is touched.
 from .drawing import animate, mechanism, path
 from .linear import mode, root_locus
 from .many_runs import against, bands, heat_map
-from .plot import energy, energy_violation, error, motion, stability_map, violation, work_precision
+from .plot import energy, energy_violation, error, measures, motion, stability_map, violation, work_precision
 from .style import COLOURS, panels
 from .traces import positions, trace
 
-__all__ = ["COLOURS", "against", "animate", "bands", "energy", "energy_violation", "error", "heat_map", "mechanism", "mode",
-           "motion", "panels", "path", "positions", "root_locus", "stability_map", "trace", "violation", "work_precision"]
+__all__ = ["COLOURS", "against", "animate", "bands", "energy", "energy_violation", "error", "heat_map", "measures", "mechanism",
+           "mode", "motion", "panels", "path", "positions", "root_locus", "stability_map", "trace", "violation", "work_precision"]
 
 
 def __dir__() -> list[str]:

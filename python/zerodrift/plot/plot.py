@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from .. import _check
 from .._gateway import Variable
+from ..runs.columns import columns
 from ..runs.settings import Projection
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
@@ -58,6 +59,48 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     for column, variable in zip(values.T, variables, strict=True):
         ax.plot(sol.t, column, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
     if len(variables) == 1 and "label" not in style:
+        return _style.finished(ax, _style.labelled(variables[0]), legend=False)
+    return _style.finished(ax, ", ".join(units))
+
+
+def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) -> Axes:
+    """Draw measures, coordinates, velocities or multipliers over time, a line for each component; reactions, for example.
+
+    Parameters
+    ----------
+    sol : Solution
+        Data.
+    names : str, measure, or sequence of these
+        As in ``sol[name]``: ``["pin.force", crank.angle]``.
+    ax : Axes, optional
+        Left out: a new figure.
+    **style
+        For ``ax.plot``.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    KeyError
+        If nothing has a name.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> sol = zd.simulate(zd.models.slider_crank(), 1.0, step=0.01)
+    >>> ax = zd.plot.measures(sol, ["main.force", "crank.angle"])
+    >>> ax.get_ylabel()
+    'N, rad'
+    """
+    found = columns(_check.instance("sol", sol, Solution, A_SOLUTION), names)
+    ax = _style.axes(ax)
+    variables = [variable for variable, _ in found]
+    units = _style.units(variables)
+    for variable, values in found:
+        ax.plot(sol.t, values, **{"label": variable.name if len(units) == 1 else _style.labelled(variable)} | style)
+    if len(found) == 1 and "label" not in style:
         return _style.finished(ax, _style.labelled(variables[0]), legend=False)
     return _style.finished(ax, ", ".join(units))
 

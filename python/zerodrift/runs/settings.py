@@ -28,6 +28,7 @@ CORRECTIONS = TABLES["corrections"]
 STABILIZATIONS = tuple(name for name, argument in ARGUMENTS.items() if argument == "stabilization")
 Stabilization = RowSettings | None
 # What is taken where nothing else is asked for.
+CHOOSING = "dop853"     # the integrator, where neither it nor a step is given
 FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
 
 
@@ -138,6 +139,8 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
     """The arguments of `simulate`, checked."""
     if isinstance(correction, list):
         correction = tuple(correction)
+    if integrator is None:
+        integrator = CHOOSING if step is None else INTEGRATOR
     given = (save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
              stabilization, energy, correction, on_singular, direct, vector_unit(vector))
     try:

@@ -42,7 +42,7 @@ def simulate(
     t_eval: Any = None,
     events: Any = None,
     formulation: str = settings.FORMULATION,
-    integrator: str = settings.INTEGRATOR,
+    integrator: str | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
     energy: bool | settings.EnergyCorrection | None = None,
     correction: Any = None,
@@ -67,7 +67,7 @@ def simulate(
         Start; left out: the system's own. It must satisfy the constraints, see `assemble`.
     step : float, optional
         Step in s. If the span is no whole number of steps, a shorter one is added at the end. Left out: the integrator
-        chooses its steps by its error estimate, if it has one.
+        chooses its steps by its error estimate, with `rtol` and `atol`, if it has one.
     rtol, atol : float, optional
         Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
         at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y; no other tolerance depends on them. The error after
@@ -96,7 +96,8 @@ def simulate(
     formulation : str or settings
         One of `formulations()`: which equations of motion are solved. Its name, or ``formulations()[name].settings(...)``.
     integrator : str or settings
-        One of `integrators()`, in the same way.
+        One of `integrators()`, in the same way. Left out: "rk4" where `step` is given, and "dop853", which chooses its steps,
+        where it is not: ``zd.simulate(m, 10.0)``.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
         How constraint violations are kept down.
     energy : None, True or EnergyCorrection

@@ -13,6 +13,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, direct_core_of
 from ..systems.watching import AXES
+from .columns import to_csv, to_excel
 from .saving import write
 from .settings import core_settings
 from .summary import summary
@@ -186,6 +187,7 @@ class Solution:
         groups = [array for array, _ in self._named()]
         columns = [groups[group][:, column] for group, column in self.system._columns_of.get(name, ())]
         if len(columns) == 1:
+            self._check_sign(name)
             return columns[0]
         if columns:
             raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
@@ -194,6 +196,14 @@ class Solution:
             raise KeyError(why)
         known = self._ipython_key_completions_()
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
+
+    def _check_sign(self, name: str) -> None:
+        """Refuses the multiplier of a drive or a coupling by the name of that element: its effort has the opposite sign."""
+        for effort in ("force", "torque"):
+            measure = f"{name}.{effort}"
+            if self.system._is_scalar_measure(measure):
+                raise KeyError(f"{name!r} names an element, whose {effort} is sol[{measure!r}], and a constraint, whose "
+                               "multiplier is in sol.multipliers and has the opposite sign, by (7)")
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
         """A vector in the axes of a body."""
@@ -323,6 +333,65 @@ class Solution:
     @property
     def _last_time(self) -> float:
         return float(self.t[-1]) if len(self.t) else self.t_span[0]
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of all measures that `sol[name]` reads, such as "pin.force"; none of a system that is not a mechanism."""
+        return tuple(self.system._names_of_measures())
+
+    def to_csv(self, path: str | Path, names: Any = None) -> Path:
+        """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
+
+        Parameters
+        ----------
+        path : str or Path
+        names : str, measure, or sequence of these, optional
+            Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
+            multipliers.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        KeyError
+            If nothing has a name.
+
+        Examples
+        --------
+        >>> import tempfile, zerodrift as zd
+        >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = sol.to_csv(folder + "/crank.csv", ["crank.angle", "slide.force"])
+        ...     path.read_text().splitlines()[0]
+        't [s],crank.angle [rad],slide.force.x [N],slide.force.y [N]'
+        """
+        return to_csv(self, path, names)
+
+    def to_excel(self, path: str | Path, names: Any = None) -> Path:
+        """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
+
+        Parameters
+        ----------
+        path : str or Path
+        names : str, measure, or sequence of these, optional
+            As in `to_csv`.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        ImportError
+            If one of these packages is missing.
+        KeyError
+            If nothing has a name.
+        """
+        return to_excel(self, path, names)
 
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.

@@ -300,6 +300,14 @@ class BaseSystem:
         """What is measured by names of its own."""
         return list(self._watching.number)
 
+    def _unit_of_measure(self, name: str) -> str:
+        """The unit of a measure, or of a component of it; "" where it has none."""
+        place = self._watching.find(name)
+        return "" if place is None else self._measuring.measures[place.number].unit
+
+    def _is_scalar_measure(self, name: str) -> bool:
+        return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1
+
     def _unique(self, name: Any, solution: Any) -> Any:
         """Which components of a measure are the same whatever admissible multipliers there are."""
         if not self._watching.number:

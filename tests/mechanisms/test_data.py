@@ -1,0 +1,68 @@
+"""Laws from data: splines as SciPy's, prescribed motions with their speeds, and what is refused."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+import zerodrift as zd
+from support import assert_close
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5, 30])
+def test_a_table_is_the_spline_of_scipy(n):
+    random = np.random.default_rng(n)
+    x, y = np.cumsum(random.uniform(0.1, 1.0, n)), random.normal(size=n)
+    given, known = zd.table(x, y), CubicSpline(x, y)
+    at = np.linspace(x[0], x[-1], 101)
+    assert_close([given(each) for each in at], known(at), 1e-12, scale=np.abs(y).max())
+
+
+def driven(law):
+    m = zd.Mechanism("crank", gravity=(0, -9.81))
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.motor("drive", pin, angle=law)
+    return m
+
+
+@pytest.mark.parametrize("make", [zd.table, CubicSpline])
+def test_a_prescribed_motion_has_the_derivatives_of_the_spline(make):
+    t = np.linspace(0, 2, 21)
+    sol = zd.simulate(driven(make(t, np.sin(3 * t))), 2.0, step=0.01, integrator="dop853")
+    known = CubicSpline(t, np.sin(3 * t))
+    assert_close(sol["pin.angle"], known(sol.t), 1e-12, scale=1.0)
+    assert_close(sol["pin.speed"], known(sol.t, 1), 1e-11, scale=1.0)
+    assert_close(sol["link.angular_acceleration"], known(sol.t, 2), 1e-10, scale=1.0)
+
+
+def test_a_force_from_measured_data():
+    """A spring of measured stiffness, F = -20 x exactly: the oscillator of 20 rad^2/s^2."""
+    m = zd.Mechanism("spring")
+    body = m.body("body", 1.0, at=(0.1, 0))
+    guide = m.prismatic("guide", m.ground, body, axis=(1, 0), at=(0, 0))
+    x = np.linspace(-1, 1, 41)
+    m.force("spring", body, along=(1, 0), value=zd.table(x, -20 * x, argument="x"), of={"x": guide.displacement})
+    m.start({"guide.displacement": 0.1})
+    sol = zd.simulate(m, 2.0, rtol=1e-10, atol=1e-10)
+    assert_close(sol["guide.displacement"], 0.1 * np.cos(np.sqrt(20) * sol.t), 1e-8, scale=1.0)
+
+
+def test_beyond_its_ends_a_table_is_an_error_that_says_where():
+    with pytest.raises(ValueError, match=r"the table goes from t = 0 to 1, and is asked for 1\.\d+"):
+        zd.simulate(driven(zd.table([0, 1], [0, 1])), 2.0, step=0.3)
+
+
+@pytest.mark.parametrize(("x", "y", "message"), [
+    ([0, 1, 1], [0, 1, 2], "x of a table must increase, and x\\[2\\] = 1 follows"),
+    ([0], [1], "must have shape"),
+    ([0, 1], [1, 2, 3], "y of a table"),
+    ([0, np.nan], [1, 2], "x of a table"),
+])
+def test_tables_that_are_refused(x, y, message):
+    with pytest.raises(ValueError, match=message):
+        zd.table(x, y)
+
+
+def test_functions_without_derivatives_name_the_table():
+    with pytest.raises(TypeError, match=r"zd\.table\(t, y\)"):
+        zd.simulate(driven(lambda t: np.interp(t, [0, 1], [0, 1])), 0.5, step=0.1)

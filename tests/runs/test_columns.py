@@ -1,0 +1,73 @@
+"""Columns of a solution: files for other programs, plots of measures, names, and signs that are not mixed up."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+
+@pytest.fixture(scope="module")
+def sol():
+    return zd.simulate(zd.models.slider_crank(), 0.2, step=0.01)
+
+
+def test_a_csv_file_has_all_digits(sol, tmp_path):
+    path = sol.to_csv(tmp_path / "crank.csv", ["crank.angle", "slide.force"])
+    with path.open(newline="") as file:
+        heading, *rows = csv.reader(file)
+    assert heading == ["t [s]", "crank.angle [rad]", "slide.force.x [N]", "slide.force.y [N]"]
+    assert np.array_equal(np.array(rows, dtype=float), np.column_stack([sol.t, sol["crank.angle"], sol["slide.force"]]))
+
+
+def test_without_names_a_file_has_coordinates_velocities_and_multipliers(sol, tmp_path):
+    with sol.to_csv(tmp_path / "all.csv").open(newline="") as file:
+        _, *rows = csv.reader(file)
+    assert np.array_equal(np.array(rows, dtype=float), np.column_stack([sol.t, sol.p, sol.v, sol.multipliers]))
+
+
+def test_an_excel_file(sol, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    found = pandas.read_excel(sol.to_excel(tmp_path / "crank.xlsx", "crank.angle"))
+    assert list(found.columns) == ["t [s]", "crank.angle [rad]"]
+    assert np.allclose(found["crank.angle [rad]"], sol["crank.angle"], rtol=1e-14, atol=0)      # Excel keeps 16 digits
+
+
+def test_a_name_that_nothing_has_leaves_an_older_file(sol, tmp_path):
+    path = sol.to_csv(tmp_path / "crank.csv", "crank.angle")
+    before = path.read_bytes()
+    with pytest.raises(KeyError, match="nothing in slider_crank is called"):
+        sol.to_csv(path, "crank.angel")
+    assert path.read_bytes() == before
+
+
+def test_measures_are_listed(sol):
+    m = zd.models.slider_crank()
+    assert m.measures == sol.measures
+    assert "slide.force" in sol.measures
+    assert set(sol.measures) <= set(sol._ipython_key_completions_())
+    assert zd.simulate(zd.systems.pendulum(), 0.1, step=0.1).measures == ()
+
+
+def test_lines_of_measures(sol):
+    ax = zd.plot.measures(sol, ["slide.force", "crank.angle"])
+    drawn = [line.get_ydata() for line in ax.get_lines()]
+    assert np.array_equal(drawn[1], sol["slide.force"][:, 1])
+    assert np.array_equal(drawn[2], sol["crank.angle"])
+
+
+def test_the_multiplier_of_a_drive_is_not_taken_for_its_torque():
+    sol = zd.simulate(zd.models.watt(), 0.1, step=0.01)
+    with pytest.raises(KeyError, match=r"sol\['drive.torque'\].*opposite sign"):
+        sol["drive"]
+    constraint = [variable.name for variable in sol.system.constraints].index("drive")
+    assert np.allclose(sol["drive.torque"], -sol.multipliers[:, constraint])
+
+
+def test_without_step_and_integrator_steps_are_chosen():
+    sol = zd.simulate(zd.systems.pendulum(), 2.0)
+    assert (sol.settings["integrator"], sol.settings["step"]) == ("dop853", None)
+    assert (sol.settings["rtol"], sol.settings["atol"]) == (1e-6, 1e-9)
+    assert zd.simulate(zd.systems.pendulum(), 2.0, step=0.1).settings["integrator"] == "rk4"
