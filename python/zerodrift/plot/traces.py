@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 
 from .. import _check
 from .._gateway import Variable
-from ..tracing.traced import Trace
 from ..mechanisms.measures import name_of
+from ..tracing.traced import Trace
 from . import style as _style
 from .drawing import drawing_axes, paths_of
 from .mechanism import Extras, Picture
