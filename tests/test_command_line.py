@@ -19,11 +19,18 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
     assert f"cannot write to {tmp_path / 'file'}" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("arguments", [[], ["draw"], ["reproduce", "here"]])
+@pytest.mark.parametrize("arguments", [["draw"], ["reproduce", "here"]])
 def test_the_command_explains_itself(arguments):
     run = subprocess.run([sys.executable, "-m", "zerodrift", *arguments], capture_output=True, text=True, check=False)
     assert run.returncode == 2
     assert "usage: python -m zerodrift" in run.stderr
+
+
+def test_without_a_command_all_are_listed(capsys):
+    assert main([]) == 0
+    printed = capsys.readouterr().out
+    assert "reproduce" in printed
+    assert "gallery" in printed
 
 
 @pytest.mark.parametrize("folder", ["", "  ", "a\0b"], ids=["empty", "blank", "null"])

@@ -33,7 +33,8 @@ def test_examples_of_docstrings(name):
 
 def texts():
     """Texts that users read, by where they stand: modules with their docstrings, the README and notebooks."""
-    files = [*(ROOT / "python" / "zerodrift").rglob("*.py"), README, *(ROOT / "notebooks").glob("*.ipynb")]
+    files = [*(ROOT / "python" / "zerodrift").rglob("*.py"), README, *(ROOT / "notebooks").glob("*.ipynb"),
+             *(ROOT / "notebooks").glob("*.md")]
     return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in files}
 
 
@@ -67,11 +68,21 @@ def test_every_public_name_is_documented(name):
 def test_the_code_of_the_readme_runs(capsys):
     matplotlib.use("Agg")
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
-    assert len(blocks) == 4
+    assert len(blocks) == 2
     for block in blocks:
         with warnings.catch_warnings():
             warnings.simplefilter("error")      # AccuracyWarning, too, which other tests ignore
             exec(compile(block, "README.md", "exec"), {})
     printed = capsys.readouterr().out
-    assert "left the range of doubles" in printed
-    assert "nothing wrong" in printed
+    assert "freedom 0" in printed
+    assert "Solution of" in printed
+
+
+def test_the_readme_is_short():
+    assert len(README.read_text().split()) < 900
+
+
+def test_links_of_the_readme_lead_to_files():
+    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README.read_text())
+    assert len(links) >= 5
+    assert not [link for link in links if not (ROOT / link).is_file()]

@@ -12,8 +12,12 @@ DEFAULT_GALLERY = Path("zerodrift-gallery")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Do what the arguments say; the exit code."""
-    options = _parser().parse_args(arguments)
+    """Do what the arguments say, or list the commands; the exit code."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.command is None:
+        parser.print_help()
+        return 0
     try:
         import matplotlib.pyplot  # noqa: F401  (only now)
     except ValueError as error:     # of a setting of matplotlib's own, such as the environment variable MPLBACKEND
@@ -56,7 +60,8 @@ def _folder(given: str) -> Path:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m zerodrift", description="Constrained multibody systems without constraint drift.")
-    commands = parser.add_subparsers(title="commands", required=True)
+    commands = parser.add_subparsers(title="commands")
+    parser.set_defaults(command=None)
     for name, does, folder, what in (
             ("reproduce", _reproduce, DEFAULT_FOLDER, "Figures 4-9 of Blajer (2002), and its claims against what we measure"),
             ("gallery", _gallery, DEFAULT_GALLERY, "All models in motion, with their lines and what there is to see")):
