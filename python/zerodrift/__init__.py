@@ -52,19 +52,20 @@ __all__ = [
     "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration",
     "assemble", "bias", "check", "compare", "corrections", "ensemble", "equilibrium", "formulations", "from_mechanics",
-    "get_include", "grid", "inertia", "integrators", "jacobian", "linearize", "linkage", "load", "mass_matrix", "models",
-    "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",
-    "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "work_precision",
+    "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage",
+    "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference",
+    "simulate", "stability_map", "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
     "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check", "ensemble": "ensembles.ensemble",
     "equilibrium": "analysis.equilibrium", "from_mechanics": "symbolics.mechanics", "get_include": "systems.native",
-    "grid": "ensembles.runs", "jacobian": "analysis.matrices", "linearize": "analysis.linearize",
-    "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",
-    "numba_signature": "systems.native", "reach": "tracing.trace", "record_size": "runs.record_size",
-    "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "table": "mechanisms.data", "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
+    "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices",
+    "kinematics": "analysis.kinematics", "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files",
+    "mass_matrix": "analysis.matrices", "native": "systems.native", "numba_signature": "systems.native",
+    "reach": "tracing.trace", "record_size": "runs.record_size", "reference": "studies.reference",
+    "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "table": "mechanisms.data",
+    "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
     "work_precision": "studies.work_precision",
 }
 

@@ -9,12 +9,11 @@ import numpy as np
 
 from .. import _check
 from ..errors import EquilibriumFailed, ZerodriftError
-from ..runs.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion
 from .quantities import names_of, values_of
 from .rest import Balance, Search
-from .retraction import onto, rows_of
+from .retraction import near_to, rows_of
 from .settling import settled
 from .state import state
 from .steady import Steady
@@ -34,8 +33,8 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     ----------
     system : system or Mechanism
     near : array_like (nq,), or dict of measure to value, optional
-        Position from which the search starts; of a mechanism also values of measures, from which it is assembled. Left out:
-        the start.
+        Position from which the search starts; or values of quantities of positions, to which the system is led from its start.
+        Left out: the start.
     hold : sequence of measures, optional
         Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
     v : dict of measure to value, optional
@@ -72,7 +71,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     system, t = system_of(system), _check.number("t", t)
     core_of(system)
     _check.choice("stability", stability, ("stable", "any"))
-    p = _first(system, near, t)
+    p = near_to(system, near, t)
     if v is not None:
         if hold != ():
             raise ValueError("hold must be left out where v prescribes the speeds of a steady motion")
@@ -81,15 +80,6 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
     return at_rest(balance, iterations, how)
-
-
-def _first(system: BaseSystem, near: Any, t: float) -> np.ndarray:
-    """The position from which the search starts."""
-    if isinstance(near, Mapping):
-        return np.array(assemble(system, values_of(near, "near"), t=t)[0])
-    if near is None:
-        return np.array(system._state_or_start(None, None, "near", "v", t)[0])
-    return onto(system, t, _check.vector("near", near, system.nq))
 
 
 def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float]) -> Equilibrium:

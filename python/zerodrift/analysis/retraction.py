@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
-from .. import _gateway
+from .. import _check, _gateway
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem, core_of
-from .quantities import find
+from .quantities import find, values_of
 from .state import State, scales, state
 from .tangent import DEPENDENT
 
 ITERATIONS = 30
+SHORT = 1e-3            # of the longest row: residuals of shorter ones are compared with that
 CONVERGED = 1e-13       # of the characteristic scales: the last step of Newton's method
+SMALLEST_PART = 1e-4    # of the way to a position that is led to
 STAGNATED = 1e-9        # a last step of this size counts where the next ones are not smaller
 
 
@@ -65,9 +68,10 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
         residual, rows = np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
         if not residual.size:
             return p
-        step = _least_step(rows, residual, scale.v)
+        step, off = _least_step(rows, residual, scale.v)
         size = float(np.abs(at.A @ step / scale.p).max())
-        if not np.isfinite(size) or size > 1e3:
+        contradict = size < STAGNATED and off > 1e3 * max(size, CONVERGED)     # rows that are met as nearly as can be
+        if contradict or not np.isfinite(size) or size > 1e3:
             break
         p = moved(at, step)
         if size < CONVERGED or (size < STAGNATED and size > last / 4):
@@ -77,9 +81,36 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
                            f"the last step was {last:.3g} of the size")
 
 
-def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Minimum-norm solution of rows x = -residual in scaled velocities."""
+def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float]:
+    """Minimum-norm solution of rows x = -residual in scaled velocities, and the largest residual in these units."""
     rows = rows * scale
     length = np.linalg.norm(rows, axis=1)
     length = np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
-    return scale * np.linalg.lstsq(rows / length[:, None], -residual / length, rcond=DEPENDENT)[0]
+    off = np.abs(residual) / np.maximum(length, SHORT * max(length.max(initial=0.0), 1e-300))
+    return scale * np.linalg.lstsq(rows / length[:, None], -residual / length, rcond=DEPENDENT)[0], float(off.max())
+
+
+def near_to(system: BaseSystem, near: Any, t: float) -> np.ndarray:
+    """The position that an argument `near` means: coordinates, or values of quantities; None: the start."""
+    if near is not None and not isinstance(near, Mapping):
+        return onto(system, t, _check.vector("near", near, system.nq))
+    p = np.array(system._state_or_start(None, None, "near", "v", t)[0])
+    return p if near is None else _led(system, t, p, values_of(near, "near"))
+
+
+def _led(system: BaseSystem, t: float, p: np.ndarray, values: Mapping[str, Any]) -> np.ndarray:
+    """The position with these values of quantities, reached from another in parts of the way, with the smallest moves."""
+    at = state(system, t, p, np.zeros(system.nv))
+    first = {name: find(at, name, "near").value for name in values}
+    last = {name: _check.vector(f"near[{name!r}]", np.atleast_1d(value), len(first[name])) for name, value in values.items()}
+    done, part = 0.0, 0.25
+    while done < 1.0:
+        part = min(part, 1.0 - done)
+        target = {name: first[name] + (done + part) * (last[name] - first[name]) for name in values}
+        try:
+            p, done, part = onto(system, t, p, target), done + part, 2 * part
+        except CorrectionFailed:
+            part /= 2
+            if part < SMALLEST_PART:
+                raise
+    return p

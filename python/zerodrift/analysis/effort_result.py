@@ -1,0 +1,62 @@
+"""The result of `inverse_dynamics`: efforts by name, reactions, power and residual."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..systems.base import BaseSystem
+from .kinematic_result import read
+
+ALIASES = {"angle": "torque", "displacement": "force", "length": "force", "position": "force"}
+
+
+class Efforts:
+    """Efforts of a motion; ``inv["crank.angle"]`` is that at a prescribed quantity, ``inv["A.force"]`` any measure, (k,) or (k,
+    size).
+
+    Efforts act besides the forces of the system: reactions of joints do not contain them.
+
+    Attributes
+    ----------
+    system : system
+    t : ndarray (k,)
+        In s.
+    p, v, vdot, multipliers : ndarray (k, ...)
+    efforts : dict of str to ndarray
+        In N or N m, those of vectors also by component.
+    power : ndarray (k,)
+        Of all efforts together, in W.
+    residual : ndarray (k,)
+        Norm of the force that the efforts do not give, in the mass metric, in N/sqrt(kg).
+    rank : ndarray (k,)
+        Independent efforts on the tangent space.
+    """
+
+    def __init__(self, system: BaseSystem, samples: tuple[np.ndarray, ...], multipliers: np.ndarray,
+                 efforts: dict[str, np.ndarray], *, residual: np.ndarray, power: np.ndarray, rank: np.ndarray) -> None:
+        self.system, self.multipliers, self.efforts = system, multipliers, efforts
+        self.t, self.p, self.v, self.vdot = samples
+        self.residual, self.power, self.rank = residual, power, rank
+
+    def __getitem__(self, given: Any) -> np.ndarray:
+        name = getattr(given, "name", given)
+        if name in self.efforts:
+            return self.efforts[name]
+        if self.system._watching.find(name) is None:
+            for known, values in self.efforts.items():
+                base, _, quantity = known.rpartition(".")
+                if quantity in ALIASES and name == f"{base}.{ALIASES[quantity]}":
+                    return values
+        return read(self.system, name, self.t, (self.p, self.v, self.vdot, self.multipliers))
+
+    def __repr__(self) -> str:
+        lines = [f"<efforts of a motion of {self.system.name}: {len(self.t)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s>"]
+        for name, values in self.efforts.items():
+            if values.ndim == 1:
+                lines.append(f"  {name:<24} {np.nanmin(values, initial=np.inf):.6g} ... {np.nanmax(values, initial=-np.inf):.6g}")
+        lines.append(f"  power                    {np.nanmin(self.power):.6g} ... {np.nanmax(self.power):.6g} W")
+        if (worst := np.nanmax(self.residual, initial=0.0)) > 0:
+            lines.append(f"  residual                 {worst:.3g} N/sqrt(kg)")
+        return "\n".join(lines)

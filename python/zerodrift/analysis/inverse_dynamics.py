@@ -1,0 +1,181 @@
+"""`inverse_dynamics`: the efforts that a motion needs, and its reactions."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..errors import AccuracyWarning, InconsistentStart
+from ..systems.base import BaseSystem, core_of, system_of
+from .effort_result import Efforts
+from .kinematic_result import Kinematics
+from .names import dominant
+from .quantities import components, effort, names_of, values_of
+from .state import State, scales, state
+from .tangent import DEPENDENT, Tangent, multipliers
+
+VIOLATION = 1e-6        # of the size: a motion that violates the constraints by more is refused
+UNDRIVEN = 1e-9         # of the forces: a residual that is zero but for rounding
+
+
+def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdot: Any = None, *, efforts: Any = None,
+                     weights: Mapping[Any, float] | None = None) -> Efforts:
+    """Efforts, reactions and power of a given motion.
+
+    The equations of motion (2) are projected onto the velocities that the constraints allow and solved for the efforts; what
+    remains gives the multipliers. With fewer efforts than freedoms the residual is the smallest in the mass metric; with more,
+    the sum of the squares of ``effort / weight`` is.
+
+    Parameters
+    ----------
+    system : system or Mechanism
+    motion : Kinematics, or float or array_like (k,)
+        A prescribed motion, or the times t of p, v and vdot.
+    p, v, vdot : array_like (nq,) or (k, nq), (nv,) or (k, nv), (nv,) or (k, nv), optional
+        With times: the motion in the system's coordinates.
+    efforts : sequence of str or measure, optional
+        Where the motion is driven: efforts conjugate to the rates of measures, coordinates or velocities; ``"joint.torque"`` and
+        ``"joint.force"`` act along the joint's coordinate. Left out: what is prescribed in `motion`. Drives of the system that
+        prescribe a motion have their efforts among the reactions, ``inv["motor.torque"]``.
+    weights : dict of effort to float, optional
+        The magnitudes of efforts that count alike where there are more than freedoms; one where left out.
+
+    Returns
+    -------
+    Efforts
+        ``inv["crank.angle"]`` is the effort there, also as ``inv["crank.torque"]`` where nothing else has that name, and
+        ``inv["A.force"]`` any measure.
+
+    Raises
+    ------
+    InconsistentStart
+        If the motion violates the constraints (3), (5) or (6).
+    ValueError, TypeError
+        For a wrong argument.
+
+    Warns
+    -----
+    AccuracyWarning
+        If the efforts cannot drive the motion; what they cannot is named.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    >>> link = m.link("link", (0, 0), (2, 0), mass=3.0)
+    >>> pin = m.revolute("pin", m.ground, link.start)
+    >>> inv = zd.inverse_dynamics(m.system("joint"), 0.0, [0.0], [0.0], [1.5], efforts=["pin.angle"])
+    >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
+    array([35.43])
+    """
+    system = system_of(system)
+    core_of(system)
+    names = None if efforts is None else names_of(efforts, "efforts")
+    if isinstance(motion, Kinematics):
+        if any(each is not None for each in (p, v, vdot)):
+            raise TypeError("p, v and vdot must be left out with what zd.kinematics returned")
+        system, names = motion.system, list(motion.prescribed) if names is None else names
+        samples = motion.t, motion.p, motion.v, motion.vdot
+    else:
+        samples = _samples(system, motion, p, v, vdot)
+    if names is None:
+        raise ValueError("efforts must be given with a motion in coordinates: where it is driven")
+    return _solved(system, samples, names, _weights(weights, names))
+
+
+def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.ndarray, ...]:
+    """T (k,), p (k, nq), v (k, nv), vdot (k, nv)."""
+    t = np.atleast_1d(_check.real("motion must hold times,", t).astype(float))
+    found = []
+    for name, given, size in (("p", p, system.nq), ("v", v, system.nv), ("vdot", vdot, system.nv)):
+        if given is None:
+            raise TypeError(f"{name} must be given with times")
+        array = np.atleast_2d(_check.real(f"{name} must hold", given).astype(float))
+        if array.shape != (len(t), size) or not np.isfinite(array).all():
+            raise ValueError(f"{name} must be finite, of shape ({len(t)}, {size}), not {array.shape}")
+        found.append(array)
+    return t, *found
+
+
+def _weights(given: Any, names: list[str]) -> dict[str, float]:
+    weights = {} if given is None else values_of(given, "weights")
+    for name, value in weights.items():
+        _check.choice("weights", name, names)
+        _check.number(f"weights[{name!r}]", value, above=0)
+    return weights
+
+
+def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str], weights: Mapping[str, float]) -> Efforts:
+    """Efforts and multipliers at all samples."""
+    t, p, v, vdot = samples
+    k, found, undriven = len(t), [], {}
+    lam, residual, rank, power = np.full((k, system.m), np.nan), np.full(k, np.nan), np.zeros(k, dtype=int), np.full(k, np.nan)
+    for i in range(k):
+        if not (np.isfinite(p[i]).all() and np.isfinite(v[i]).all() and np.isfinite(vdot[i]).all()):
+            found.append(None)
+            continue
+        at = state(system, float(t[i]), p[i], v[i])
+        _check_motion(at, vdot[i])
+        rows = [effort(at, name, "efforts") for name in names]
+        u, lam[i], left, rank[i] = _at(at, vdot[i], rows, [weights.get(name, 1.0) for name in names])
+        residual[i], power[i] = np.linalg.norm(left), float(u @ (np.vstack(rows) @ v[i])) if rows else 0.0
+        if residual[i] > UNDRIVEN * _size(at, vdot[i]):
+            undriven[dominant(at, at.A @ (Tangent(at).velocities @ left))] = residual[i]
+        found.append(np.split(u, np.cumsum([len(each) for each in rows])[:-1]))
+    if undriven:
+        warnings.warn(f"the efforts {', '.join(names)} cannot drive this motion of {system.name}: a force of up to "
+                      f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
+                      AccuracyWarning, stacklevel=3)
+    return Efforts(system, samples, lam, _by_name(names, found, k), residual=residual, power=power, rank=rank)
+
+
+def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
+        weights: list[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
+    """Efforts, multipliers, the residual on the tangent space and the rank of the efforts there, at one sample."""
+    V = Tangent(at).velocities
+    wanted = at.M @ vdot - at.force
+    G = np.vstack(rows) if rows else np.zeros((0, at.system.nv))
+    weight = np.concatenate([np.full(len(each), by) for each, by in zip(rows, weights, strict=True)]) if rows else np.zeros(0)
+    acting = V.T @ G.T * weight
+    values = np.linalg.svd(acting, compute_uv=False) if acting.size else np.zeros(0)
+    u = weight * np.linalg.lstsq(acting, V.T @ wanted, rcond=DEPENDENT)[0]
+    left = V.T @ (wanted - G.T @ u)
+    rank = int((values > DEPENDENT * values.max(initial=0.0)).sum())
+    return u, multipliers(at, G.T @ u - wanted), left, rank
+
+
+def _size(at: State, vdot: np.ndarray) -> float:
+    """The size of the forces on the tangent space."""
+    V = np.abs(Tangent(at).velocities.T)
+    return float(np.linalg.norm(V @ (np.abs(at.M) @ np.abs(vdot) + np.abs(at.force)))) or 1.0
+
+
+def _check_motion(at: State, vdot: np.ndarray) -> None:
+    """Refuses a motion that violates the constraints."""
+    scale = scales(at.system, at.p)
+    speed = scale.length * (1.0 + float(np.abs(at.v / scale.v).max(initial=0.0)))
+    size = scale.length * (1.0 + float(np.abs(vdot / scale.v).max(initial=0.0))) + speed**2 / scale.length
+    for what, left, by in (("(3), positions", at.Phi, scale.length), ("(5), velocities", at.C @ at.v + at.Phi_t, speed),
+                           ("(6), accelerations", at.C @ vdot - at.xi, size)):
+        worst = float(np.abs(left).max(initial=0.0))
+        if worst > VIOLATION * by:
+            names = [each.name for each in at.system.constraints]
+            raise InconsistentStart(f"the motion must satisfy the constraints {what}, of {at.system.name}: at t = {at.t:g} it "
+                                    f"violates {names[int(np.abs(left).argmax())]!r} by {worst:.3g}")
+
+
+def _by_name(names: list[str], found: list[Any], k: int) -> dict[str, np.ndarray]:
+    """Efforts by name, (k,) or (k, size)."""
+    by_name = {}
+    for j, name in enumerate(names):
+        size = next((len(each[j]) for each in found if each is not None), 1)
+        values = np.array([np.full(size, np.nan) if each is None else each[j] for each in found]).reshape(k, size)
+        by_name[name] = values[:, 0] if size == 1 else values
+        if 1 < size <= 3:
+            by_name |= {part: values[:, i] for i, part in enumerate(components(name, size))}
+    return by_name

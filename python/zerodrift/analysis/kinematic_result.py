@@ -1,0 +1,74 @@
+"""The result of `kinematics`: a prescribed motion, whose measures are read by name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..systems.base import BaseSystem
+from .quantities import known
+
+
+class Kinematics:
+    """A prescribed motion; ``kin["coupler.acceleration"]`` is a measure at all samples, (k,) or (k, size).
+
+    Attributes
+    ----------
+    system : system
+    t : ndarray (k,)
+        In s.
+    p, v, vdot : ndarray (k, nq), (k, nv), (k, nv)
+        NaN beyond a dead point.
+    prescribed : tuple of str
+    errors : dict of str to float
+        Estimated error of the second rate of each prescribed quantity; zero where it is differentiated exactly.
+    """
+
+    def __init__(self, system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
+                 errors: dict[str, float], prescribed: tuple[str, ...]) -> None:
+        self.system, self.t, self.p, self.v, self.vdot = system, t, p, v, vdot
+        self.errors, self.prescribed = errors, prescribed
+
+    @property
+    def success(self) -> bool:
+        """No sample lies beyond a dead point."""
+        return bool(np.isfinite(self.p).all())
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __getitem__(self, given: Any) -> np.ndarray:
+        name = getattr(given, "name", given)
+        if self.system._watching.find(name) is not None and isinstance(name, str) and name.rpartition(".")[2] in FORCES:
+            raise KeyError(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them")
+        return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
+
+    def __repr__(self) -> str:
+        reached = int(np.isfinite(self.p).all(axis=1).sum())
+        return (f"<motion of {self.system.name} by {', '.join(self.prescribed)}: {len(self)} samples, t = {self.t[0]:g} ... "
+                f"{self.t[-1]:g} s{'' if self.success else f'; {len(self) - reached} beyond a dead point'}>")
+
+
+FORCES = ("force", "torque", "tension", "power")
+
+
+def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...]) -> np.ndarray:
+    """A quantity at samples: t (k,), and p, v, vdot, multipliers; NaN where these are."""
+    place, watching = system._watching.find(name), system._watching
+    if place is not None:
+        depends = watching.core.measure_depends(place.number)
+        used = {"positions": states[:1], "velocities": states[:2]}.get(depends, states)
+        good = np.logical_and.reduce([np.isfinite(each).all(axis=1) for each in used])
+        rows = [np.ascontiguousarray(np.where(good[:, None], np.nan_to_num(each), 0.0)[good]) for each in states]
+        values = np.full((len(t), watching.core.measure_size(place.number)), np.nan)
+        if good.any():
+            values[good] = watching.core.measure(place.number, np.ascontiguousarray(t[good]), *rows)
+        return place.pick(values)
+    for variables, values in zip((system.coordinates, system.velocities, system.constraints), (states[0], states[1], states[3]),
+                                 strict=True):
+        for i, variable in enumerate(variables):
+            if variable.name == name:
+                return values[:, i].copy()
+    raise KeyError(f"nothing in {system.name} is called {name!r}; {_check.closest(name, known(system))}")

@@ -1,0 +1,187 @@
+"""`kinematics`: positions, velocities and accelerations of a system whose motion is prescribed."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..errors import AccuracyWarning, InconsistentStart, LockedWarning
+from ..systems.base import BaseSystem, core_of, system_of
+from .kinematic_result import Kinematics
+from .prescribed import Prescribed, prescribed
+from .quantities import find, values_of
+from .retraction import near_to
+from .state import scales, state
+from .tangent import DEPENDENT
+from .tracker import DeadPoint, Target, Tracker
+
+CONTRADICTION = 1e-9        # of the size of the rates: prescribed ones that contradict each other
+INACCURATE = 1e-4           # of the largest second rate: differences of an array over time that are worth a warning
+
+
+def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: float | None = None,
+               near: Any = None) -> Kinematics:
+    """Motion of a system by prescribed quantities, without forces and masses; inverse kinematics for the end of a robot.
+
+    Positions are tracked sample by sample on one assembly branch. Velocities and accelerations follow from (5) and (6) with the
+    rows of the prescribed quantities. Drives of the system run at the times of the samples.
+
+    Parameters
+    ----------
+    system : system or Mechanism
+    motion : dict of measure to values
+        Quantities of positions that are prescribed: arrays (k,) or (k, size) over the samples, callables of t in NumPy's
+        functions, or SymPy expressions in t. Together with the constraints they must determine all positions.
+    t : array_like (k,), optional
+        Times of the samples in s, increasing. Arrays are differentiated by polynomials through the seven nearest samples;
+        `Kinematics.errors` estimates what that leaves.
+    speed : float, optional
+        In place of t: the constant rate of the one scalar that is prescribed. Without both, only positions are determined, at
+        t = 0, and rates are NaN.
+    near : array_like (nq,) or dict of measure to value, optional
+        Position at which the tracking begins; left out: the start.
+
+    Returns
+    -------
+    Kinematics
+        ``kin["coupler.acceleration"]`` is any measure that needs no forces, at all samples. Samples beyond a dead point are NaN.
+
+    Raises
+    ------
+    SingularSystem
+        If positions stay free.
+    InconsistentStart
+        If what is prescribed contradicts itself or the constraints.
+    ValueError, TypeError
+        For a wrong argument.
+
+    Warns
+    -----
+    LockedWarning
+        If a dead point ends the motion; the message has the limit.
+    AccuracyWarning
+        If an array over time is too coarse for its derivatives.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> kin = zd.kinematics(zd.models.four_bar(), {"crank.angle": np.linspace(np.pi / 2, 5.0, 50)}, speed=10.0)
+    >>> kin["rocker.angle"].shape, bool(abs(kin["crank.angular_velocity"] - 10.0).max() < 1e-9)
+    ((50,), True)
+    """
+    system = system_of(system)
+    core_of(system)
+    given, times = values_of(motion, "motion"), None if t is None else _check.increasing("t", t, -np.inf, np.inf)
+    if speed is not None:
+        speed = _speed(speed, given, times)
+    wanted = {name: prescribed(f"motion[{name!r}]", value, times, speed) for name, value in given.items()}
+    times = _times(wanted, times, speed)
+    p = near_to(system, near, times[0])
+    _check_quantities(system, times[0], p, wanted)
+    tracker = Tracker(system, list(wanted))
+    positions = _tracked(tracker, p, times, wanted)
+    rates = _rates(system, times, positions, wanted, has_rates=t is not None or speed is not None)
+    _warn_of_errors(wanted)
+    return Kinematics(system, times, positions, *rates, {name: each.error for name, each in wanted.items()}, tuple(wanted))
+
+
+def _speed(speed: Any, given: Mapping[str, Any], times: Any) -> float:
+    speed = _check.number("speed", speed)
+    if times is not None or len(given) != 1:
+        raise ValueError("speed must be given without t, and for a single prescribed quantity")
+    if speed == 0:
+        raise ValueError("speed must not be zero: the samples then have no times")
+    return speed
+
+
+def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: float | None) -> np.ndarray:
+    """The times of the samples."""
+    if not wanted:
+        raise ValueError("motion must prescribe at least one quantity")
+    counts = {len(each.value) for each in wanted.values()}
+    if len(counts) > 1:
+        raise ValueError(f"motion must have as many samples of each quantity, not {sorted(counts)}")
+    if times is not None:
+        return times
+    value = next(iter(wanted.values())).value
+    if speed is None:
+        return np.zeros(len(value))
+    times = (value[:, 0] - value[0, 0]) / speed
+    if value.shape[1] != 1 or (np.diff(times) <= 0).any():
+        raise ValueError("speed must be that of a scalar whose samples go its way: increasing for a positive speed")
+    return times
+
+
+def _check_quantities(system: BaseSystem, t: float, p: np.ndarray, wanted: Mapping[str, Prescribed]) -> None:
+    at = state(system, t, p, np.zeros(system.nv))
+    for name, each in wanted.items():
+        found = find(at, name, "motion")
+        if found.is_velocity:
+            raise ValueError(f"motion must prescribe quantities of positions, and {name!r} is one of velocities")
+        if each.value.shape[1] != len(found.value):
+            raise ValueError(f"motion[{name!r}] must have {len(found.value)} components, not {each.value.shape[1]}")
+
+
+def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> np.ndarray:
+    """Positions (k, nq) at the samples, NaN beyond a dead point."""
+    tracker.check_determined(times[0], p)
+    found, here = np.full((len(times), tracker.system.nq), np.nan), tracker.target(times[0], p)
+    for i, t in enumerate(times):
+        there = Target(float(t), {name: each.value[i] for name, each in wanted.items()})
+        try:
+            p = tracker.follow(p, here, there)
+        except DeadPoint as dead:
+            limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
+                              for name, value in dead.reached.values.items())
+            warnings.warn(f"the motion of {tracker.system.name} ends at a dead point, {limit}: {len(times) - i} samples beyond "
+                          "it are NaN", LockedWarning, stacklevel=3)
+            break
+        found[i], here = p, there
+    return found
+
+
+def _rates(system: BaseSystem, times: np.ndarray, positions: np.ndarray, wanted: Mapping[str, Prescribed], *,
+           has_rates: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Velocities and accelerations (k, nv) each."""
+    v, vdot = (np.full((len(times), system.nv), np.nan) for _ in range(2))
+    for i in np.flatnonzero(np.isfinite(positions).all(axis=1) & has_rates):
+        at = state(system, float(times[i]), positions[i], np.zeros(system.nv))
+        rate = np.concatenate([-at.Phi_t, *(each.rate[i] for each in wanted.values())])
+        v[i] = _solved(at.system, at.p, np.vstack([at.C, *(find(at, name, "motion").row for name in wanted)]), rate, times[i])
+        at = state(system, at.t, at.p, v[i])
+        found = [find(at, name, "motion") for name in wanted]
+        second = np.concatenate([at.xi, *(each.second[i] - one.bias for each, one in zip(wanted.values(), found, strict=True))])
+        vdot[i] = _solved(at.system, at.p, np.vstack([at.C, *(each.row for each in found)]), second, times[i])
+    return v, vdot
+
+
+def _solved(system: BaseSystem, p: np.ndarray, rows: np.ndarray, right: np.ndarray, t: float) -> np.ndarray:
+    """The one x with rows x = right.
+
+    Raises
+    ------
+    InconsistentStart
+        If there is none.
+    """
+    scale = scales(system, p).v
+    length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+    rows, right = rows * scale / length[:, None], right / length
+    x = np.linalg.lstsq(rows, right, rcond=DEPENDENT)[0]
+    off = float(np.abs(rows @ x - right).max(initial=0.0))
+    if off > CONTRADICTION * (float(np.abs(x).max(initial=0.0)) + float(np.abs(right).max(initial=0.0))) + 1e-12:
+        raise InconsistentStart(f"the prescribed motion must agree with the constraints of {system.name}: at t = {t:g} rates "
+                                f"differ by {off:.3g}")
+    return scale * x
+
+
+def _warn_of_errors(wanted: Mapping[str, Prescribed]) -> None:
+    for name, each in wanted.items():
+        if each.error > INACCURATE * np.abs(each.second).max(initial=0.0) and each.error > 0:
+            warnings.warn(f"the samples of {name} must be closer for accurate accelerations: these differ by up to "
+                          f"{each.error:.3g} between polynomials of degree four and six; a callable or an expression is exact",
+                          AccuracyWarning, stacklevel=3)

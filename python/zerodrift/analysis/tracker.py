@@ -1,0 +1,132 @@
+"""Positions tracked along prescribed quantities, each from the last, on one assembly branch.
+
+A predictor follows the velocities that the prescribed rates determine, Newton's method corrects. A part of the way is refused,
+and halved, where the corrector moves more than a fifth of the predictor, as it does where it leaves the branch, and where the
+measure has no position any more. What remains after that is a dead point: the last position before it, which is never passed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import CorrectionFailed, SingularSystem
+from ..systems.base import BaseSystem
+from .names import dominant
+from .quantities import find
+from .retraction import moved, onto
+from .state import scales, state
+from .tangent import DEPENDENT, null_space, scaled_rows
+
+LARGEST_STEP = 0.25         # of a part, in characteristic scales
+LARGEST_CORRECTION = 0.2    # of the predictor's step
+SMALLEST_PART = 1e-9        # of the way between two samples
+SINGULAR = 1e-6             # of the largest singular value of scaled rows: next to a dead point
+
+
+class Target(NamedTuple):
+    """A time and values (size,) of the prescribed quantities."""
+
+    t: float
+    values: dict[str, np.ndarray]
+
+
+class DeadPoint(CorrectionFailed):
+    """The way to a target ends; `reached` is the last target before, `p` the position there."""
+
+    def __init__(self, reached: Target, p: np.ndarray) -> None:
+        super().__init__("a dead point")
+        self.reached, self.p = reached, p
+
+
+class Tracker:
+    """Positions of a system along targets.
+
+    Parameters
+    ----------
+    system : BaseSystem
+    names : list of str
+        The prescribed quantities, of positions.
+    """
+
+    def __init__(self, system: BaseSystem, names: list[str]) -> None:
+        self.system, self.names, self._rest = system, names, np.zeros(system.nv)
+
+    def target(self, t: float, p: np.ndarray) -> Target:
+        """The target that a position meets."""
+        at = state(self.system, t, p, self._rest)
+        return Target(t, {name: find(at, name, "prescribed").value for name in self.names})
+
+    def check_determined(self, t: float, p: np.ndarray) -> None:
+        """Refuses quantities that do not determine the positions.
+
+        Raises
+        ------
+        SingularSystem
+            Naming the coordinate that stays free.
+        """
+        at = state(self.system, t, p, self._rest)
+        rows = np.vstack([at.holonomic, *(find(at, name, "prescribed").row for name in self.names)])
+        free = null_space(rows, scales(self.system, p).v)
+        if free.shape[1]:
+            names = ", ".join(sorted({dominant(at, at.A @ column) for column in free.T}))
+            raise SingularSystem(f"the prescribed quantities must determine all positions of {self.system.name}, and leave "
+                                 f"{free.shape[1]} free: {names}; prescribe more, or begin beside a singular position with near=")
+
+    def follow(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray:
+        """The position at the next target.
+
+        Raises
+        ------
+        DeadPoint
+            If the way ends before.
+        """
+        done, part = 0.0, 1.0
+        while done < 1.0:
+            part = min(part, 1.0 - done)
+            now, then = _between(here, there, done), _between(here, there, done + part)
+            found = self._part(p, now, then)
+            if found is None:
+                part /= 2
+                if part < SMALLEST_PART:
+                    raise DeadPoint(now, p)
+                continue
+            p, done, part = found, done + part, 2 * part
+        return p
+
+    def _part(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
+        """The position after a part of the way; None where that is too long to be sure of it."""
+        delta = self._predicted(p, here, there)
+        at, scale = state(self.system, here.t, p, self._rest), scales(self.system, p).p
+        if delta is None or (step := float(np.abs(at.A @ delta / scale).max(initial=0.0))) > LARGEST_STEP:
+            return None
+        guess = moved(at, delta)
+        try:
+            found = onto(self.system, there.t, guess, there.values)
+        except CorrectionFailed:
+            return None
+        corrected = float(np.abs((found - guess) / scale).max(initial=0.0))
+        return found if corrected <= LARGEST_CORRECTION * step + 1e-9 else None
+
+    def _predicted(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
+        """The displacement (nv,) that the rates of the targets determine; None where they do not."""
+        at, m, dt = state(self.system, here.t, p, self._rest), self.system.mh, there.t - here.t
+        found = [find(at, name, "prescribed") for name in self.names]
+        rows = np.vstack([at.holonomic, *(each.row for each in found)])
+        change = np.concatenate([-at.Phi_t[:m] * dt, *(there.values[name] - here.values[name] for name in self.names)])
+        scale = scales(self.system, p).v
+        length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+        values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
+        if len(values) < self.system.nv or values[self.system.nv - 1] < SINGULAR * values[0]:
+            return None
+        return scale * np.linalg.lstsq(rows * scale / length[:, None], change / length, rcond=DEPENDENT)[0]
+
+
+def _between(here: Target, there: Target, part: float) -> Target:
+    """The target at a part of the way."""
+    if part >= 1.0:
+        return there
+    values: Mapping[str, np.ndarray] = {name: value + part * (there.values[name] - value) for name, value in here.values.items()}
+    return Target(here.t + part * (there.t - here.t), dict(values))

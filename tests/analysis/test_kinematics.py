@@ -1,0 +1,131 @@
+"""Prescribed motions against closed forms, `zd.trace` and differences."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+LAYOUTS = ["joint", "absolute"]
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_turn_of_a_four_bar_is_that_of_trace(layout):
+    bar, angles, speed = zd.models.four_bar(), np.linspace(np.pi / 2, 2.5 * np.pi, 73), 10.0
+    kin = zd.kinematics(bar.system(layout), {"crank.angle": angles}, speed=speed)
+    traced = zd.trace(bar, "crank.angle", angles)
+    for name in ("rocker.angle", "coupler.angle", "C.position.x"):
+        assert kin[name] == pytest.approx(traced[name], abs=1e-12)
+    assert kin["rocker.angular_velocity"] == pytest.approx(speed * traced.derivative("rocker.angle"), abs=1e-10)
+    assert kin.t[-1] == pytest.approx(2 * np.pi / speed, rel=1e-14)
+    assert kin[zd.transmission_angle(bar, "C")].shape == (73,)
+    assert kin.success
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_slider_crank_in_closed_form(layout):
+    r, length, omega = 0.1, 0.35, 7.0
+    m = zd.Mechanism("slider-crank")        # no masses that matter
+    crank = m.link("crank", (0, 0), (r, 0), mass=1.0)
+    rod = m.link("rod", (r, 0), (r + length, 0), mass=1.0)
+    slide = m.body("slide", 1.0, 1.0, at=(r + length, 0))
+    m.revolute("A", m.ground, crank.start)
+    m.revolute("B", crank.end, rod.start)
+    m.revolute("C", rod.end, slide)
+    m.prismatic("guide", m.ground, slide, axis=(1, 0))
+    angle = np.linspace(0.3, 0.3 + 2 * np.pi, 50)
+    kin = zd.kinematics(m.system(layout), {"crank.angle": angle}, speed=omega)
+    root = np.sqrt(length**2 - (r * np.sin(angle))**2)
+    tilt = r * np.sin(angle) * np.cos(angle) / root
+    x = r * np.cos(angle) + root
+    v = -r * omega * (np.sin(angle) + tilt)
+    bend = r * (np.cos(2 * angle) / root + r**2 * np.sin(angle)**2 * np.cos(angle)**2 / root**3)
+    a = -r * omega**2 * (np.cos(angle) + bend)
+    assert kin["slide.position.x"] == pytest.approx(x, abs=1e-12)
+    assert kin["slide.velocity.x"] == pytest.approx(v, abs=1e-11)
+    assert kin["slide.acceleration.x"] == pytest.approx(a, abs=1e-9)
+
+
+def robot(mass=1.0):
+    m = zd.Mechanism("arm", gravity=(0, -9.81))
+    upper = m.link("upper", (0, 0), (0.5, 0.1), mass=2.0 * mass, length=0.6)
+    lower = m.link("lower", (0.5, 0.1), (0.8, 0.5), mass=mass, length=0.5)
+    m.revolute("hip", m.ground, upper.start)
+    m.revolute("knee", upper.end, lower.start)
+    return m
+
+
+CENTRE, RADIUS, TURN = np.array([0.55, 0.3]), 0.12, 3.0
+
+
+def circle(t):
+    return [CENTRE[0] + RADIUS * np.cos(TURN * t), CENTRE[1] + RADIUS * np.sin(TURN * t)]
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_inverse_kinematics_of_an_arm_in_closed_form(layout):
+    t = np.linspace(0, 2.0, 60)
+    kin = zd.kinematics(robot().system(layout), {"lower.end.position": circle}, t)
+    x, y = circle(t)
+    cosine = (x**2 + y**2 - 0.6**2 - 0.5**2) / (2 * 0.6 * 0.5)
+    knee = np.arccos(cosine)
+    upper = np.arctan2(y, x) - np.arctan2(0.5 * np.sin(knee), 0.6 + 0.5 * cosine)
+    assert kin["upper.angle"] == pytest.approx(upper, abs=1e-11)
+    assert kin["lower.angle"] == pytest.approx(upper + knee, abs=1e-11)
+    away = np.stack([x, y], axis=1) - CENTRE
+    assert kin["lower.end.acceleration"] == pytest.approx(-TURN**2 * away, abs=1e-10)
+    assert kin.errors == {"lower.end.position": 0.0}
+
+
+def test_arrays_and_expressions_agree_with_callables_within_the_reported_error():
+    sympy = pytest.importorskip("sympy")
+    t, symbol = np.linspace(0, 1.0, 101), sympy.Symbol("t")
+    m = robot()
+    exact = zd.kinematics(m, {"lower.end.position": circle}, t)
+    written = sympy.Matrix([CENTRE[0] + RADIUS * sympy.cos(TURN * symbol), CENTRE[1] + RADIUS * sympy.sin(TURN * symbol)])
+    assert zd.kinematics(m, {"lower.end.position": written}, t).vdot == pytest.approx(exact.vdot, abs=1e-9)
+    sampled = zd.kinematics(m, {"lower.end.position": np.stack(circle(t), axis=1)}, t)
+    error = np.abs(sampled["lower.end.acceleration"] - exact["lower.end.acceleration"]).max()
+    assert 0 < error <= sampled.errors["lower.end.position"] + 1e-9
+    with pytest.warns(zd.AccuracyWarning, match="samples of .* must be closer"):
+        zd.kinematics(m, {"lower.end.position": np.stack(circle(t), axis=1)[::20]}, t[::20])
+
+
+def test_a_dead_point_ends_the_motion_at_its_limit():
+    """Crank and coupler in one line, folded: a triangle of the sides 1 - 0.3, 0.6 and 1."""
+    bar, limit = zd.models.four_bar(), -np.arccos((0.6**2 + 1 - 0.7**2) / (2 * 0.6))
+    angles = np.concatenate([np.linspace(-1.4, limit - 1e-8, 20), limit + 1e-8 * np.arange(1, 4)])
+    with pytest.warns(zd.LockedWarning, match=f"dead point, rocker.angle = {limit:.7f}"[:-1]):
+        kin = zd.kinematics(bar, {"rocker.angle": angles})
+    assert np.isfinite(kin["rocker.angle"]).sum() == 20
+    assert np.isnan(kin["coupler.position"][-3:]).all()
+    assert not kin.success
+    assert "3 beyond a dead point" in repr(kin)
+
+
+def test_drives_run_at_the_times_of_the_samples():
+    m = robot()
+    m.motor("knee drive", "knee", angle=lambda t: 0.4 * np.sin(2 * t))
+    t = np.linspace(0, 1, 11)
+    kin = zd.kinematics(m, {"upper.angle": lambda t: 0.2 + t}, t)
+    assert kin["knee.angle"] == pytest.approx(0.4 * np.sin(2 * t), abs=1e-12)
+    assert kin["knee.speed"] == pytest.approx(0.8 * np.cos(2 * t), abs=1e-11)
+    assert kin["lower.angular_acceleration"] == pytest.approx(-1.6 * np.sin(2 * t), abs=1e-9)
+
+
+def test_what_is_wrong_is_refused():
+    m = robot()
+    with pytest.raises(zd.SingularSystem, match=r"must determine all positions of arm, and leave 1 free: lower\.angle"):
+        zd.kinematics(m, {"upper.angle": [0.1, 0.2]})
+    with pytest.raises(ValueError, match="motion must prescribe quantities of positions"):
+        zd.kinematics(m, {"upper.angular_velocity": [0.1, 0.2]})
+    with pytest.raises(TypeError, match="t must be given"):
+        zd.kinematics(m, {"lower.end.position": circle})
+    with pytest.raises(ValueError, match="speed must not be zero"):
+        zd.kinematics(m, {"upper.angle": [0.1, 0.2]}, speed=0.0)
+    with pytest.raises(ValueError, match="must have 2 components, not 1"):
+        zd.kinematics(m, {"lower.end.position": [0.1, 0.2]})
+    bar = zd.models.four_bar()
+    with pytest.raises(KeyError, match="needs forces"):
+        zd.kinematics(bar, {"crank.angle": [1.6, 1.7]})["A.force"]
+    with pytest.warns(zd.LockedWarning, match="2 samples beyond it are NaN"):      # both together have no position
+        zd.kinematics(bar, {"crank.angle": [1.6, 1.7], "rocker.angle": [-1.0, -1.0]})
