@@ -9,6 +9,8 @@ import numpy as np
 
 from .. import _check
 from ..errors import EquilibriumFailed, ZerodriftError
+from ..runs.operations import project
+from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion
 from .quantities import names_of, values_of
@@ -80,6 +82,12 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
     return at_rest(balance, iterations, how)
+
+
+def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The stable equilibrium found from a position, and the velocities nearest to v that its constraints allow."""
+    balance, _, _ = _found(system, t, p, {}, is_downhill=True)
+    return project(system, balance.at.p, v, t, projection=Projection(tol=1e-11))
 
 
 def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float]) -> Equilibrium:

@@ -24,6 +24,7 @@ from .tangent import Tangent, multipliers
 ITERATIONS = 300
 FIRST_RADIUS, LARGEST_RADIUS = 0.1, 0.3     # of the trust region, largest change of a coordinate in characteristic scales
 SMALLEST_RADIUS = 1e-14
+ROUGHLY_FLAT = 1e-6     # with the derivatives of an iteration, which are right to 1e-8
 FLAT = 1e-9         # of the largest stiffness: zero but for rounding; differences leave 1e-12
 BALANCED = 1e-12    # of the sum of magnitudes of the forces: zero but for rounding
 UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
@@ -33,7 +34,9 @@ DISTANT = 1e3       # characteristic lengths: a mechanism that went so far falls
 class Balance:
     """The balance of forces at a position of rest, parts of which are computed when they are first read."""
 
-    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray]) -> None:
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray], *,
+                 is_rough: bool = False) -> None:
+        self._differences, self.zero = (differences.roughly, ROUGHLY_FLAT) if is_rough else (differences.along, FLAT)
         self.at, self.names = state(system, t, p, np.zeros(system.nv)), held
         self.held = rows_of(self.at, held)[1]
         self.rows = np.vstack([self.at.C, self.held])
@@ -65,7 +68,7 @@ class Balance:
     def flat(self) -> float:
         """The curvature that counts as zero: away from a balance the stiffness is symmetric up to the unbalanced force only."""
         K = self.stiffness
-        return FLAT * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0))
+        return self.zero * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0))
 
     @property
     def is_stable(self) -> bool:
@@ -84,7 +87,7 @@ class Balance:
         columns = []
         for w in self.V.T:
             dp = at.A @ w
-            columns.append(differences.along(lambda h, dp=dp: self._residual(at.p + h * dp, lam),
+            columns.append(self._differences(lambda h, dp=dp: self._residual(at.p + h * dp, lam),
                                              float(np.abs(dp / scale.p).max())))
         return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
 
@@ -126,7 +129,7 @@ def downhill(here: Balance) -> np.ndarray:
     (curvature, axes), flat = here.curvature, here.flat
     if here.is_stable and here.size(step := nearest(here)) < FIRST_RADIUS and not _is_pushed(here, step):
         return step
-    flat = min(flat, FLAT * np.abs(curvature).max(initial=0.0))
+    flat = min(flat, here.zero * np.abs(curvature).max(initial=0.0))
     along = axes.T @ here.force
     at_balance = np.abs(along) <= 10 * here.rounding
     along = np.where((curvature < -here.flat) & at_balance, np.abs(curvature), along)       # unstable: left along its curvature
@@ -141,7 +144,7 @@ def _is_pushed(here: Balance, step: np.ndarray) -> bool:
 
 def nearest(here: Balance) -> np.ndarray:
     """Newton's step z (k,), flat directions left out."""
-    return np.linalg.lstsq(here.stiffness, here.force, rcond=FLAT)[0]
+    return np.linalg.lstsq(here.stiffness, here.force, rcond=here.zero)[0]
 
 
 class Search:
@@ -165,7 +168,8 @@ class Search:
         return (self._polished(here) if is_found else here), is_found
 
     def _polished(self, here: Balance) -> Balance:
-        """The balance after one more step of Newton's method, where that is better."""
+        """The balance with accurate derivatives, after one more step of Newton's method where that is better."""
+        here = Balance(self.system, self.t, here.at.p, self.held)
         try:
             there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held),
                             self.held)
@@ -174,7 +178,7 @@ class Search:
         return there if there.residual < here.residual else here
 
     def _search(self, p: np.ndarray) -> tuple[Balance, bool]:
-        here = Balance(self.system, self.t, p, self.held)
+        here = Balance(self.system, self.t, p, self.held, is_rough=True)
         start, self.radius = np.array(p), FIRST_RADIUS
         scale = scales(self.system, p).p
         for _ in range(ITERATIONS):
@@ -198,8 +202,8 @@ class Search:
         while self.radius > SMALLEST_RADIUS:
             part = min(1.0, self.radius / size)
             try:
-                there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ (part * z)), self.held),
-                                self.held)
+                p = onto(self.system, self.t, moved(here.at, here.V @ (part * z)), self.held)
+                there = Balance(self.system, self.t, p, self.held, is_rough=True)
                 quality = self._quality(here, there, part * z)
             except (CorrectionFailed, ArithmeticError):
                 quality = -1.0

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check
 from .._gateway import is_length
+from ..errors import ZerodriftError
 from ..systems.base import BaseSystem, core_of, system_of
+
+LARGEST = 1000      # of dense matrices
 
 
 class State(NamedTuple):
@@ -38,6 +42,9 @@ class State(NamedTuple):
 def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
     """Terms at (t, p, v)."""
     core = core_of(system)
+    if max(core.nq, core.nv, core.m) > LARGEST:
+        raise ZerodriftError(f"{system.name} must have at most {LARGEST} coordinates, velocities and constraints for this, not "
+                             f"{max(core.nq, core.nv, core.m)}: its matrices are dense here")
     p, v = np.ascontiguousarray(p), np.ascontiguousarray(v)
     terms, nv, m = core.evaluate(t, p, v), core.nv, core.m
     zero = np.zeros(nv)
@@ -54,9 +61,20 @@ class Scales(NamedTuple):
     v: np.ndarray
 
 
+_known: weakref.WeakKeyDictionary[BaseSystem, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
+
+
+def _lengths(system: BaseSystem) -> tuple[np.ndarray, np.ndarray]:
+    """Entries of p (nq,) and of v (nv,) that are lengths or their rates."""
+    if system not in _known:
+        groups = (system.coordinates, system.velocities)
+        _known[system] = tuple(np.array([is_length(each) for each in group], dtype=bool) for group in groups)
+    return _known[system]
+
+
 def scales(system: BaseSystem, p: np.ndarray) -> Scales:
     """Characteristic scales of a system near a position."""
-    of_p, of_v = (np.array([is_length(each) for each in group], dtype=bool) for group in (system.coordinates, system.velocities))
+    of_p, of_v = _lengths(system)
     length = core_of(system).c.length or float(np.abs(p[of_p]).max(initial=0.0)) or 1.0
     return Scales(length, np.where(of_p, length, 1.0), np.where(of_v, length, 1.0))
 

@@ -30,7 +30,8 @@ def described(drawing: Drawing) -> dict[str, Any]:
     return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": drawing.dimension,
             "gravity": numbers(drawing.gravity), "parameters": dict(drawing.parameters), "elements": elements,
             "start": {name: _plain(value) for name, value in drawing.held.items()},
-            "wish": {name: _plain(value) for name, value in drawing.wished.items()}}
+            "wish": {name: _plain(value) for name, value in drawing.wished.items()},
+            **({"equilibrium": True} if drawing.is_balanced else {})}
 
 
 def text(description: dict[str, Any]) -> str:

@@ -20,6 +20,7 @@ class Drawing(NamedTuple):
     elements: dict[str, Any]
     held: dict[str, Any]
     wished: dict[str, Any]
+    is_balanced: bool = False       # the start is the equilibrium near that position
 
     @property
     def dimension(self) -> int:

@@ -275,4 +275,5 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         return report(self._drawing())
 
     def _drawing(self) -> Drawing:
-        return Drawing(self.name, self.gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished))
+        return Drawing(self.name, self.gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
+                       self._is_balanced)

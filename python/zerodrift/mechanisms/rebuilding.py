@@ -60,11 +60,11 @@ def system(description: dict[str, Any], where: str) -> MechanismSystem:
 
 
 def _parts(where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any, gravity: Any, parameters: Any,
-           elements: Any, start: Any, wish: Any) -> Mechanism:
+           elements: Any, start: Any, wish: Any, equilibrium: Any = False) -> Mechanism:
     m = _at(where, Mechanism, name, dimension=dimension, gravity=gravity, parameters=parameters)
     for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
         _element(m, element, f"{where}, element {i}")
-    _at(f"{where}, start", m.start, start, wish=wish)
+    _at(f"{where}, start", m.start, start, wish=wish, equilibrium=equilibrium)
     keep_rotations(m, start, wish)
     return m
 

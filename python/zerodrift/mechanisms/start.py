@@ -22,8 +22,10 @@ class StartVerbs(Elements):
         super().__init__(parameters)
         self._held: dict[str, Any] = {}
         self._wished: dict[str, Any] = {}
+        self._is_balanced = False
 
-    def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None) -> None:
+    def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None,
+              equilibrium: bool | None = None) -> None:
         """Say where and how fast the motion starts; all else starts as drawn and at rest, unless a loop has to move with it.
 
         Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
@@ -39,6 +41,10 @@ class StartVerbs(Elements):
             ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace; None as a value takes back.
         wish : dict of measure to value
             What is met as nearly as possible after that.
+        equilibrium : bool, optional
+            True: the motion starts in the stable equilibrium that `zerodrift.equilibrium` finds from that position, with drives
+            at its time; held positions are where the search begins, held speeds are kept as nearly as the constraints allow.
+            False takes that back; left out, it stays as it was.
 
         Raises
         ------
@@ -53,6 +59,8 @@ class StartVerbs(Elements):
         >>> pin = m.revolute("pin", m.ground, link.start)
         >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
         """
+        if equilibrium is not None:
+            self._is_balanced = _check.instance("equilibrium", equilibrium, bool, "True or False")
         for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
             checked = targets(given, what, self.dimension)
             for name, value in checked.items():

@@ -189,6 +189,10 @@ class MechanismSystem(BaseSystem):
     def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """The assembled start (p, v) at a time: what is held, drives, and the rest as near to the drawing as can be."""
         p, v = self._core.state(*self._start.at(t))
+        if self._drawing.is_balanced:
+            from ..analysis.equilibrium import balanced  # slow to import, and seldom needed
+
+            p, v = balanced(self, t, p, v)
         return _check.frozen(p), _check.frozen(v)
 
     def _assembled(self, held: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -210,7 +214,8 @@ class MechanismSystem(BaseSystem):
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, direct: tuple[str, bool] | None = None, *,
                        starts_are_known: bool = True) -> NumberTables | None:
-        if not parameters or self._is_written_out or not are_plain(self._drawing, self._tables, self._start):
+        plain = not self._is_written_out and not self._drawing.is_balanced
+        if not parameters or not plain or not are_plain(self._drawing, self._tables, self._start):
             return super()._number_tables(parameters, count, direct) if starts_are_known else None
         wrong, own = np.zeros(count, dtype=bool), self.parameters
         for name, each in parameters.items():

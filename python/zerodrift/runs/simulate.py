@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import CostWarning, Interrupted, SingularSystem
-from ..systems.base import BaseSystem, core_of, direct_core_of, system_of
+from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import diagnosis, recording, road, settings
 from . import events as _events
 from . import outputs as _outputs
@@ -22,6 +22,7 @@ from .keyboard import Keyboard
 from .progress import progress_of
 from .saving import EVENTS
 from .solution import Solution
+from .start import start_of
 
 SLICE = 0.03        # seconds that the core runs before Python looks at the keyboard and shows the progress again
 
@@ -64,7 +65,8 @@ def simulate(
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own. It must satisfy the constraints, see `assemble`.
+        Start; left out: the system's own. It must satisfy the constraints, see `assemble`. In place of p0 also what
+        `equilibrium` returns.
     step : float, optional
         Step in s. If the span is no whole number of steps, a shorter one is added at the end. Left out: the integrator
         chooses its steps by its error estimate, with `rtol` and `atol`, if it has one.
@@ -208,9 +210,9 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
-    system = system_of(system, p0, v0)
-    core_of(system)
     span = _check.span(t_span)
+    system, p0, v0 = start_of(system, p0, v0, span[0])
+    core_of(system)
     plan = settings.plan(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct, vector)

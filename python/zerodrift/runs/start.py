@@ -1,0 +1,40 @@
+"""The start of a run: a state in coordinates, or an equilibrium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..systems.base import BaseSystem, Makes, system_of
+from .operations import project
+
+
+def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any, Any]:
+    """The system and the state (p0, v0) that the arguments of a run mean.
+
+    An equilibrium stands for its position and velocities; these meet drives that run at t0.
+
+    Raises
+    ------
+    TypeError
+        If velocities are given besides an equilibrium.
+    ValueError
+        If the equilibrium is that of a system with other coordinates.
+    """
+    if not _is_equilibrium(p0):
+        return system_of(system, p0, v0), p0, v0
+    if v0 is not None:
+        raise TypeError("v0 must be left out where p0 is an equilibrium, which has its velocities")
+    system = system.system(p0.system.layout) if isinstance(system, Makes) else system
+    if [each.name for each in system.coordinates] != [each.name for each in p0.system.coordinates]:
+        raise ValueError(f"p0 must be an equilibrium of {system.name} in its coordinates, not of {p0.system.name} in others")
+    terms = p0.system.evaluate(p0.p, p0.v, t0)
+    if terms.Phi_t is None or not np.any(terms.Phi_t):
+        return system, p0.p, p0.v
+    return system, *project(system, p0.p, p0.v, t0)
+
+
+def _is_equilibrium(given: Any) -> bool:
+    """What `zerodrift.equilibrium` returns, which is made of runs and so is known by its attributes."""
+    return isinstance(getattr(given, "system", None), BaseSystem) and hasattr(given, "stiffness")
