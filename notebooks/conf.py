@@ -1,0 +1,45 @@
+"""The site: `sphinx-build notebooks build/site`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import site_pages
+
+import zerodrift
+
+project, author, release = "zerodrift", "the zerodrift developers", zerodrift.__version__
+extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.autosummary"]
+exclude_patterns = ["templates"]
+templates_path = ["templates"]
+source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
+
+nb_execution_mode = "off"               # stored outputs are shown; the test suite executes the notebooks
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+suppress_warnings = ["mystnb.unknown_mime_type"]
+
+autosummary_generate = True
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+nitpick_ignore_regex = [        # types of other packages, classes behind public functions, and names of arguments and attributes
+    ("py:class", r"(numpy|matplotlib|collections|pathlib|np|concurrent|cffi|ffi)\b.*"), ("py:class", r"zerodrift\.[a-z_]\w*\..*"),
+    ("py:class", r"(?!zerodrift)[^.]*"), ("py:class", r"sympy\..*"), ("py:obj", r"[a-z_]\w*"),
+    ("py:obj", r"(numba|sympy|concurrent)\..*"), ("py:obj", r"(D|Heaviside)"), ("py:obj", r".*[(\[].*"),
+    ("py:obj", r"(Solution|Mechanism|Ensemble|Row|Linearization|Equilibrium|system)\.\w+"),
+]
+default_role = "py:obj"
+numpydoc_xref_param_type = False
+
+html_theme = "pydata_sphinx_theme"
+html_title = "zerodrift"
+html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondary_sidebar_items": ["page-toc"]}
+html_copy_source = False
+
+
+def setup(app: object) -> None:
+    """Write the generated pages before Sphinx looks for files."""
+    site_pages.write(Path(__file__).parent / "generated")
