@@ -29,7 +29,7 @@ nitpick_ignore_regex = [        # types of other packages, classes behind public
     ("py:class", r"(numpy|matplotlib|collections|pathlib|np|concurrent|cffi|ffi)\b.*"), ("py:class", r"zerodrift\.[a-z_]\w*\..*"),
     ("py:class", r"(?!zerodrift)[^.]*"), ("py:class", r"sympy\..*"), ("py:obj", r"[a-z_]\w*"),
     ("py:obj", r"(numba|sympy|concurrent)\..*"), ("py:obj", r"(D|Heaviside)"), ("py:obj", r".*[(\[].*"),
-    ("py:obj", r"(Solution|Mechanism|Ensemble|Row|Linearization|Equilibrium|system)\.\w+"),
+    ("py:obj", r"([A-Z]\w*|system)\.[a-z_]\w*"),
 ]
 default_role = "py:obj"
 numpydoc_xref_param_type = False
