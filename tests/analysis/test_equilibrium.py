@@ -148,3 +148,34 @@ def test_a_damped_run_ends_in_the_equilibrium():
     assert eq["two.end.position"] == pytest.approx(sol["two.end.position"][-1], abs=1e-7)
     assert eq.stable is True
     assert (eq.eigenvalues.real < 0).all()
+
+
+def chain(links, length=1.5):
+    """A chain of uniform links between two hooks one metre apart, drawn as a V."""
+    m = zd.Mechanism("chain", gravity=(0, -G))
+    depth = np.sqrt((length / 2)**2 - 0.25)
+    at = [(i / links, -depth * (1 - abs(2 * i / links - 1))) for i in range(links + 1)]
+    parts = [m.link(f"l{i}", at[i], at[i + 1], mass=1.0 / links) for i in range(links)]
+    m.revolute("first", m.ground, parts[0].start)
+    for i in range(links - 1):
+        m.revolute(f"p{i}", parts[i].end, parts[i + 1].start)
+    m.revolute("last", parts[-1].end, m.ground.point((1.0, 0)))
+    return m
+
+
+def test_a_chain_converges_to_the_catenary():
+    a = brentq(lambda a: 2 * a * np.sinh(0.5 / a) - 1.5, 0.05, 5)
+    sag, tension = a * (np.cosh(0.5 / a) - 1), G / 1.5 * a      # the level part of the tension
+    errors = []
+    for links in (10, 20, 40):
+        eq = zd.equilibrium(chain(links))
+        assert eq.stable is True
+        assert eq["first.force.y"] == pytest.approx(G / 2, rel=1e-10)
+        errors.append((eq[f"l{links // 2}.start.position.y"] + sag, eq["first.force.x"] + tension))
+    ratios = np.array(errors[:-1]) / np.array(errors[1:])
+    assert ratios == pytest.approx(np.full((2, 2), 4.0), rel=0.03)      # second order
+
+
+def test_too_many_coordinates_are_refused():
+    with pytest.raises(zd.ZerodriftError, match="must have at most 1000 coordinates"):
+        zd.equilibrium(zd.models.chain().system("absolute"))

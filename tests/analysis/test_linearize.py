@@ -229,3 +229,40 @@ def test_a_boom_that_an_effort_holds():
     eq = zd.equilibrium(m, near={"boom.angle": 0.5}, hold=["boom.angle"])
     lin = zd.linearize(m, eq)
     assert (lin.eigenvalues**2).real == pytest.approx([1.5 * G / 1.5 * np.sin(0.5)] * 2, rel=1e-10)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_disc_that_rolls_in_a_circle_against_differences_of_runs(layout):
+    """Height and turning, which do not depend on the frame, along exp(A t) and in two runs that start apart."""
+    from scipy.linalg import expm
+
+    system = zd.models.rolling_disc().system(layout)
+    p, v = system.start_at(0.0)
+    outputs = ["disc.position.z", "disc.angular_velocity.z"]
+    lin = zd.linearize(system, (0.0, p, v), outputs=outputs)
+    assert lin.rotation[2] == pytest.approx(zd.simulate(system, 1e-3, step=1e-3)["disc.velocity.x"][-1] / -v[1] / 1e-3, rel=1e-5)
+    z = np.random.default_rng(2).standard_normal(len(lin.A))
+    dp, dv = np.split(lin.basis @ z, [system.nq])
+    apart, sols = 1e-5, []
+    for sign in (1, -1):
+        start = zd.project(system, p + sign * apart * dp, v + sign * apart * dv, projection=zd.Projection(tol=1e-13))
+        sols.append(zd.simulate(system, 0.6, *start, step=1e-3, save_every=100))
+    for name, row in zip(outputs, lin.C, strict=True):
+        found = np.array([row @ expm(lin.A * t) @ z for t in sols[0].t])
+        expected = (sols[0][name] - sols[1][name]) / (2 * apart)
+        assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_the_steady_circle_of_a_disc_is_routh_s(layout):
+    radius, mass = 0.5, 1.0
+    C, A = mass * radius**2 / 2, mass * radius**2 / 4
+    disc = zd.models.rolling_disc(nudge=0.05).system(layout)
+    eq = zd.equilibrium(disc, v={"disc.angular_velocity.z": 0.9})
+    assert eq["disc.angular_velocity.z"] == pytest.approx(0.9, rel=1e-12)
+    turning = zd.linearize(eq.system, eq).rotation[2]
+    sine = eq["disc.position.z"] / radius       # of the angle between axle and vertical
+    cosine = np.sqrt(1 - sine**2)
+    spin = (0.9 - turning * sine**2) / cosine       # from the part of the angular velocity about the vertical
+    assert spin * turning * sine * (C + mass * radius**2) == pytest.approx(
+        cosine * (A * turning**2 * sine - mass * G * radius), rel=1e-9)

@@ -88,9 +88,9 @@ class Derivatives:
             return self._jacobian @ np.concatenate([dp, dv])
         return self.solve(*of_residuals(self.at, self.vdot, self.lam, Direction(dp=dp, dv=dv)))[0]
 
-    def both(self, dp: np.ndarray, dv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def both(self, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Derivatives of vdot (nv,) and of the multipliers (m,) along a tangent direction."""
-        return self.solve(*of_residuals(self.at, self.vdot, self.lam, Direction(dp=dp, dv=dv)))
+        return self.solve(*of_residuals(self.at, self.vdot, self.lam, Direction(dt, dp, dv)))
 
     def solve(self, r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Changes of vdot and lambda that make up for changes r, s of the residuals."""

@@ -41,7 +41,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
         Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
     v : dict of measure to value, optional
         A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
-        their rates in a frame that turns about the direction of gravity; other velocities are the smallest in the mass metric.
+        their rates in a frame that turns about the direction of gravity.
         The steady motion nearest to the start is found, stable or not.
     stability : {"stable", "any"}
         "stable" leaves an unstable equilibrium downhill; "any" takes Newton's method to one nearby, stable or not.
@@ -93,7 +93,7 @@ def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tupl
 def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float]) -> Equilibrium:
     """The steady motion with given speeds."""
     search = Steady(system, t, speeds)
-    return in_motion(search.run(p), search.iterations)
+    return in_motion(search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1])), search.iterations)
 
 
 def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:

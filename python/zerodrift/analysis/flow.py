@@ -39,8 +39,8 @@ class DerivativesAtRest(Derivatives):
         super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam)
         self._jacobian, self._rest = None, rest
 
-    def both(self, dp: np.ndarray, dv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        at, direction = self.at, Direction(dp=dp, dv=dv)
+    def both(self, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        at, direction = self.at, Direction(dt, dp, dv)
 
         def along(h: float) -> np.ndarray:
             there = direction.step(at, h)
@@ -71,11 +71,36 @@ class Flow:
         self.acc = self.frame.rows(at) @ self.vdot + self.frame.bias(at)
 
     @functools.cached_property
+    def jerk(self) -> np.ndarray:
+        """The derivative of the accelerations acc along the motion, (n,); zero at rest."""
+        dp, dv = self.at.A @ self.at.v, self.vdot
+        if not dp.any() and not dv.any():
+            return np.zeros_like(self.acc)
+        dvdot = self.derivatives.both(dp, dv, 1.0)[0]
+        return self._changes(self.at.v, dp, dv, dvdot, 1.0)[1][self.w.size:]
+
+    @functools.cached_property
+    def _fit(self) -> tuple[np.ndarray, np.ndarray]:
+        """Omega (3,), with which acc = Omega x w and jerk = Omega x acc as nearly as can be, and what is left of both (2 n,)."""
+        second = 1.0 / (1.0 + float(np.abs(self.w).max(initial=0.0)))       # time that makes both comparable
+        Omega = self.frame.steady_rotation(np.stack([self.w, second * self.acc]), np.stack([self.acc, second * self.jerk]))
+        turned = self.frame.rotation(Omega, self.w.size)
+        return Omega, np.concatenate([self.acc - turned @ self.w, second * (self.jerk - turned @ self.acc)])
+
+    @property
     def Omega(self) -> np.ndarray:
         """Angular velocity (3,) of the steady motion; zero where the motion is not steady."""
-        Omega = self.frame.steady_rotation(self.w, self.acc)
-        left = self.acc - self.frame.rotation(Omega, self.w.size) @ self.w
-        return Omega if np.abs(left).max(initial=0.0) <= STEADY * self._size() else np.zeros(3)
+        return self._fit[0] if self.is_steady else np.zeros(3)
+
+    @property
+    def left(self) -> tuple[np.ndarray, float]:
+        """What accelerations and their derivatives lack to a steady motion, (2 n,), and the size of accelerations here."""
+        return self._fit[1], self._size()
+
+    @property
+    def is_steady(self) -> bool:
+        """All rates turn with one angular velocity, and go on to do so."""
+        return bool(np.abs(self._fit[1]).max(initial=0.0) <= STEADY * self._size())
 
     def _size(self) -> float:
         """The size of accelerations here: those there are, and those of the forces before they cancel."""
@@ -85,11 +110,10 @@ class Flow:
         caused = np.abs(self.frame.rows(self.at)) @ np.where(mass > 1e-12 * mass.max(initial=0.0), forces, 0.0)
         return float(largest + caused.max(initial=0.0))
 
-    @functools.cached_property
+    @property
     def unsteady(self) -> np.ndarray:
-        """Acceleration (n,) in the frame that a steady motion does not have; zero where it is rounding."""
-        left = self.acc - self.frame.rotation(self.Omega, self.w.size) @ self.w
-        return left if np.abs(left).max(initial=0.0) > STEADY * self._size() else np.zeros_like(left)
+        """Accelerations (n,) that a steady motion does not have; zero where they are rounding."""
+        return np.zeros_like(self.acc) if self.is_steady else self.acc
 
     @functools.cached_property
     def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -104,17 +128,18 @@ class Flow:
         return tuple(np.array(each).reshape(len(parts), -1).T for each in zip(*parts, strict=True)) if parts else (
             np.zeros((2 * self.w.size, 0)), np.zeros((2 * self.w.size, 0)), np.zeros((nv, 0)), np.zeros((at.system.m, 0)))
 
-    def _changes(self, delta: np.ndarray, dp: np.ndarray, dv: np.ndarray, dvdot: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _changes(self, delta: np.ndarray, dp: np.ndarray, dv: np.ndarray, dvdot: np.ndarray,
+                 dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """A direction (eta, nu), and its rate, in the frame."""
         at, frame = self.at, self.frame
         J = frame.rows(at)
 
         def along(h: float) -> np.ndarray:
-            there = Direction(dp=dp, dv=dv).step(at, h)
+            there = Direction(dt, dp, dv).step(at, h)
             rows = frame.rows(there)
             return np.concatenate([rows @ there.v, rows @ self.vdot + frame.bias(there)])
 
-        nu, dacc = np.split(differences.along(along, Direction(dp=dp, dv=dv).size(scales(at.system, at.p), at)), 2)
+        nu, dacc = np.split(differences.along(along, Direction(dt, dp, dv).size(scales(at.system, at.p), at)), 2)
         eta = J @ delta
         return np.concatenate([eta, nu]), np.concatenate([nu + frame.commutator(self.w) @ eta, dacc + J @ dvdot])
 

@@ -70,12 +70,12 @@ class Frame:
         return matrix
 
     def steady_rotation(self, w: np.ndarray, acc: np.ndarray) -> np.ndarray:
-        """Omega (3,), with which acc = Omega x w as nearly as can be, about axes that leave gravity as it is."""
-        axes = self._axes()
-        columns = np.array([self.rotation(axis, w.size) @ w for axis in axes]).reshape(len(axes), w.size).T
+        """Omega (3,), with which acc = Omega x w for rows of both (j, n) as nearly as can be, about axes that keep gravity."""
+        axes, (j, n) = self._axes(), w.shape
+        columns = np.array([w @ self.rotation(axis, n).T for axis in axes]).reshape(len(axes), j * n).T
         if not columns.size or np.abs(columns).max() <= STEADY * np.abs(w).max(initial=0.0):
             return np.zeros(3)
-        return axes.T @ np.linalg.lstsq(columns, acc, rcond=STEADY)[0]
+        return axes.T @ np.linalg.lstsq(columns, acc.ravel(), rcond=STEADY)[0]
 
     def _axes(self) -> np.ndarray:
         if self.gravity is None:

@@ -1,8 +1,9 @@
 """Search for a steady motion with prescribed speeds: all bodies keep their rates in a frame that turns about gravity's direction.
 
-For a position, velocities are the smallest in the mass metric that satisfy (5) and the prescribed speeds. The position is found
-by a damped Gauss-Newton method from the condition that the accelerations of all bodies, as the equations of motion give them,
-are those of the frame: acc = Omega x w, see `frames`.
+Positions and velocities are found together, on the constraints (3) and (5) and with the prescribed speeds, by a damped
+Gauss-Newton method from the condition that the accelerations of all bodies, as the equations of motion give them, are those of
+the frame: acc = Omega x w, and their derivatives with them, see `frames`. It starts with the velocities nearest to those of the
+start.
 """
 
 from __future__ import annotations
@@ -11,21 +12,22 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..errors import CorrectionFailed, EquilibriumFailed, InconsistentStart, ZerodriftError
+from ..errors import EquilibriumFailed, InconsistentStart, ZerodriftError
 from ..systems.base import BaseSystem
-from .flow import accelerate
-from .frames import STEADY, Frame, frame_of
+from .flow import Flow
+from .frames import STEADY
 from .quantities import find
 from .retraction import moved, onto
 from .state import State, scales, state
 from .tangent import DEPENDENT, Tangent
 
 ITERATIONS, LARGEST_STEP = 60, 0.2      # characteristic scales
+RANK = 1e-7      # of the largest singular value: directions that change nothing, to the error of the differences
 DIFFERENCE = 1e-4                       # characteristic scales: half of a central difference
 
 
 def with_speeds(at: State, speeds: Mapping[str, float]) -> State:
-    """The state at the same position with velocities that meet the constraints and the prescribed speeds.
+    """The state at the same position with the nearest velocities that meet the constraints and the prescribed speeds.
 
     Raises
     ------
@@ -43,36 +45,39 @@ def with_speeds(at: State, speeds: Mapping[str, float]) -> State:
     v = scale * np.linalg.lstsq(G * scale, g, rcond=DEPENDENT)[0]
     if np.abs(G @ v - g).max(initial=0.0) > 1e-9 * (np.abs(G * v).max(initial=0.0) + np.abs(g).max(initial=0.0)):
         raise InconsistentStart(f"v must agree with the constraints of {at.system.name}: {', '.join(speeds)} cannot all be met")
-    Z = Tangent(at, np.vstack(rows[1:]) if speeds else None).velocities
-    return state(at.system, at.t, at.p, v - Z @ (Z.T @ at.M @ v))
+    Z = free_velocities(at, speeds)
+    return state(at.system, at.t, at.p, v + Z @ (Z.T @ at.M @ (at.v - v)))
+
+
+def free_velocities(at: State, speeds: Mapping[str, float]) -> np.ndarray:
+    """Basis (nv, j) of the velocity changes that keep the constraints and the prescribed speeds."""
+    rows = [find(at, name, "v").row for name in speeds]
+    return Tangent(at, np.vstack(rows) if rows else None).velocities
 
 
 class Steady:
     """The search for a steady motion."""
 
     def __init__(self, system: BaseSystem, t: float, speeds: Mapping[str, float]) -> None:
-        self.system, self.t, self.speeds, self.frame = system, t, speeds, frame_of(system)
+        self.system, self.t, self.speeds = system, t, speeds
         self.iterations = 0
 
-    def at(self, p: np.ndarray) -> State:
-        """The state at a position, with the prescribed speeds."""
-        return with_speeds(state(self.system, self.t, p, np.zeros(self.system.nv)), self.speeds)
+    def at(self, p: np.ndarray, v: np.ndarray) -> State:
+        """The state at a position with the prescribed speeds, its velocities otherwise near to v."""
+        return with_speeds(state(self.system, self.t, p, v), self.speeds)
 
     def residual(self, at: State) -> tuple[np.ndarray, float]:
-        """What the accelerations lack to those of a steady motion, (n,), and their size."""
-        rows = self.frame.rows(at)
-        acc, w = rows @ accelerate(at)[0] + self.frame.bias(at), rows @ at.v
-        turned = Frame.rotation(self.frame, self.frame.steady_rotation(w, acc), w.size) @ w
-        return acc - turned, float(np.abs(acc).max(initial=0.0) + np.abs(turned).max(initial=0.0) + np.abs(w).max(initial=0.0)**2)
+        """What accelerations and their derivatives lack to those of a steady motion, (2 n,), and their size."""
+        return Flow(at).left
 
-    def run(self, p: np.ndarray) -> State:
-        """The steady motion that is found from a position.
+    def run(self, p: np.ndarray, v: np.ndarray) -> State:
+        """The steady motion that is found from a state.
 
         Raises
         ------
         EquilibriumFailed
         """
-        here = self.at(onto(self.system, self.t, p))
+        here = self.at(onto(self.system, self.t, p), v)
         left, size = self.residual(here)
         for _ in range(ITERATIONS):
             if np.abs(left).max(initial=0.0) <= 1e-12 * size:
@@ -90,25 +95,33 @@ class Steady:
 
     def _step(self, here: State, left: np.ndarray) -> tuple[State, np.ndarray, float] | None:
         """The state after a step that reduces the residual; None: no step does."""
-        W, scale = Tangent(here).displacements, scales(self.system, here.p).p
-        sizes = [max(float(np.abs(here.A @ w / scale).max(initial=0.0)), 1e-300) for w in W.T]
-        ends = [[self._moved(here, w, h / size)[1] for h in (DIFFERENCE, -DIFFERENCE)]
-                for w, size in zip(W.T, sizes, strict=True)]
-        columns = [(ahead - back) * size / (2 * DIFFERENCE) for (ahead, back), size in zip(ends, sizes, strict=True)]
-        if not columns:
+        scale, nv = scales(self.system, here.p), self.system.nv
+        W, Z = Tangent(here).displacements, free_velocities(here, self.speeds)
+        directions = np.block([[W, np.zeros((nv, Z.shape[1]))], [np.zeros_like(W), Z]])
+        sizes = np.maximum(np.abs(directions / np.tile(scale.v, 2)[:, None]).max(axis=0, initial=0.0), 1e-300)
+        ends = [[self._moved(here, d, h / size)[1] for h in (DIFFERENCE, -DIFFERENCE)]
+                for d, size in zip(directions.T, sizes, strict=True)]
+        if not ends:
             return None
-        z = np.linalg.lstsq(np.array(columns).T, -left, rcond=1e-7)[0]
-        part = min(1.0, LARGEST_STEP / max(float(np.abs(here.A @ (W @ z) / scale).max(initial=0.0)), 1e-300))
+        columns = [(ahead - back) / (2 * DIFFERENCE) for ahead, back in ends]
+        step = directions / sizes @ np.linalg.lstsq(np.array(columns).T, -left, rcond=RANK)[0]
+        return self._damped(here, left, step, LARGEST_STEP / max(float(np.abs(step[:nv] / scale.v).max(initial=0.0)), 1e-300))
+
+    def _damped(self, here: State, left: np.ndarray, step: np.ndarray, most: float) -> tuple[State, np.ndarray, float] | None:
+        """The state after at most that part of a step, with a smaller residual."""
+        part = min(1.0, most)
         while part > 1e-8:
             try:
-                there, now, size = self._moved(here, W @ z, part)
+                there, now, size = self._moved(here, step, part)
                 if np.linalg.norm(now) < np.linalg.norm(left):
                     return there, now, size
-            except (CorrectionFailed, ZerodriftError):
+            except ZerodriftError:
                 pass
             part /= 4
         return None
 
-    def _moved(self, here: State, delta: np.ndarray, part: float) -> tuple[State, np.ndarray, float]:
-        there = self.at(onto(self.system, self.t, moved(here, part * delta)))
+    def _moved(self, here: State, step: np.ndarray, part: float) -> tuple[State, np.ndarray, float]:
+        """The state after a part of a step in displacements and velocities (2 nv,), with its residual and size."""
+        delta, dv = np.split(part * step, 2)
+        there = self.at(onto(self.system, self.t, moved(here, delta)), here.v + dv)
         return there, *self.residual(there)
