@@ -179,3 +179,37 @@ def test_a_chain_converges_to_the_catenary():
 def test_too_many_coordinates_are_refused():
     with pytest.raises(zd.ZerodriftError, match="must have at most 1000 coordinates"):
         zd.equilibrium(zd.models.chain().system("absolute"))
+
+
+def test_systems_of_all_kinds_have_equilibria():
+    """Built in, of callables, and symbolic ones: the same pendulum on a rod."""
+    sympy = pytest.importorskip("sympy")
+
+    def of_callables():
+        return zd.System(["x", "y"], mass=lambda p: 2.0 * np.eye(2), force=lambda p, v: np.array([0.0, -2.0 * G]),
+                         constraints=lambda p: np.array([p[0]**2 + p[1]**2 - 1.0]), p0=[1.0, 0.0])
+
+    def symbolic():
+        x, y = sympy.symbols("x y")
+        vx, vy = sympy.symbols("x_dot y_dot")
+        return zd.symbolic([x, y], kinetic=vx**2 + vy**2, potential=2 * G * y, constraints=[x**2 + y**2 - 1], speeds=[vx, vy],
+                           p0=[1.0, 0.0])
+
+    for make in (zd.systems.pendulum, of_callables, symbolic):
+        system = make()
+        eq = zd.equilibrium(system)
+        length = np.hypot(*eq.p)
+        assert eq["y"] == pytest.approx(-length, abs=1e-12)
+        assert eq.eigenvalues.imag.max() == pytest.approx(np.sqrt(9.81 / length), rel=1e-9)
+        assert zd.linearize(system, eq).eigenvalues.imag.max() == pytest.approx(np.sqrt(9.81 / length), rel=1e-9)
+
+
+def test_scales_do_not_vanish_with_the_position():
+    eq = zd.equilibrium(zd.systems.oscillator(mass=2.0))
+    assert abs(eq["x"]) < 1e-15
+    assert eq.frequencies[0] == pytest.approx(np.sqrt(5.0) / (2 * np.pi), rel=1e-12)
+
+
+def test_a_position_that_cannot_be_evaluated_is_not_an_equilibrium():
+    with pytest.raises(zd.EquilibriumFailed):
+        zd.equilibrium(zd.systems.rolling_disc())       # it falls flat, where its equations end

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..errors import CorrectionFailed
+from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from . import differences
 from .retraction import moved, onto, rows_of
@@ -164,7 +164,11 @@ class Search:
 
     def run(self, p: np.ndarray) -> tuple[Balance, bool]:
         """The last balance from a position on, and whether it is an equilibrium."""
-        here, is_found = self._search(p)
+        self._last = Balance(self.system, self.t, p, self.held, is_rough=True)
+        try:
+            here, is_found = self._search(self._last)
+        except (ZerodriftError, ArithmeticError):       # the system cannot be evaluated around the last position
+            return self._last, False
         return (self._polished(here) if is_found else here), is_found
 
     def _polished(self, here: Balance) -> Balance:
@@ -173,14 +177,12 @@ class Search:
         try:
             there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held),
                             self.held)
-        except (CorrectionFailed, ArithmeticError):
+        except (ZerodriftError, ArithmeticError):      # also where the system cannot be evaluated
             return here
         return there if there.residual < here.residual else here
 
-    def _search(self, p: np.ndarray) -> tuple[Balance, bool]:
-        here = Balance(self.system, self.t, p, self.held, is_rough=True)
-        start, self.radius = np.array(p), FIRST_RADIUS
-        scale = scales(self.system, p).p
+    def _search(self, here: Balance) -> tuple[Balance, bool]:
+        start, self.radius, scale = here.at.p, FIRST_RADIUS, scales(self.system, here.at.p).p
         for _ in range(ITERATIONS):
             z = (downhill if self.is_downhill else nearest)(here)
             if here.size(z) < 1e-13 or self._is_done(here, z):
@@ -188,7 +190,7 @@ class Search:
             there = self._step(here, z)
             if there is None or np.abs((there.at.p - start) / scale).max() > DISTANT:
                 return here, here.residual <= 10 * here.rounding
-            here = there
+            self._last = here = there
             self.iterations += 1
         return here, False
 
@@ -205,7 +207,7 @@ class Search:
                 p = onto(self.system, self.t, moved(here.at, here.V @ (part * z)), self.held)
                 there = Balance(self.system, self.t, p, self.held, is_rough=True)
                 quality = self._quality(here, there, part * z)
-            except (CorrectionFailed, ArithmeticError):
+            except (ZerodriftError, ArithmeticError):      # also where the system cannot be evaluated
                 quality = -1.0
             if quality > 0:
                 self.radius = min(LARGEST_RADIUS, self.radius * (2.0 if quality > 0.75 and part < 1 else 1.0))

@@ -29,7 +29,7 @@ class Spectrum(NamedTuple):
     def dampings(self) -> np.ndarray:
         """Damping ratios, ``-real / abs``: 1 for a real eigenvalue that decays, negative for what grows."""
         size = np.abs(self.eigenvalues)
-        return -self.eigenvalues.real / np.where(size > 0, size, 1.0)
+        return 0.0 - self.eigenvalues.real / np.where(size > 0, size, 1.0)
 
     @property
     def grows(self) -> bool:

@@ -75,7 +75,10 @@ def _lengths(system: BaseSystem) -> tuple[np.ndarray, np.ndarray]:
 def scales(system: BaseSystem, p: np.ndarray) -> Scales:
     """Characteristic scales of a system near a position."""
     of_p, of_v = _lengths(system)
-    length = core_of(system).c.length or float(np.abs(p[of_p]).max(initial=0.0)) or 1.0
+    length = core_of(system).c.length
+    if not length:
+        start = p if system.p0 is None else np.asarray(system.p0)
+        length = float(np.abs(start[of_p]).max(initial=0.0)) or 1.0
     return Scales(length, np.where(of_p, length, 1.0), np.where(of_v, length, 1.0))
 
 
