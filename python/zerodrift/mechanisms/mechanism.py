@@ -275,5 +275,6 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         return report(self._drawing())
 
     def _drawing(self) -> Drawing:
-        return Drawing(self.name, self.gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
+        gravity = np.array(_check.vector("gravity", self.gravity, self.dimension))
+        return Drawing(self.name, gravity, dict(self.parameters), dict(self._elements), dict(self._held), dict(self._wished),
                        self._is_balanced)
