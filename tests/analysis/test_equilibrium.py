@@ -103,7 +103,7 @@ FALLS = {"coin": "falls flat", "rolling_disc": "falls flat"}
 def test_each_model_balances(name):
     m = getattr(zd.models, name)()
     if name in FALLS:
-        with pytest.raises(zd.EquilibriumFailed, match="a force of"):
+        with pytest.raises(zd.EquilibriumFailed, match=r"a force of .* remains"):
             zd.equilibrium(m)
         m_any = zd.equilibrium(m, stability="any")
         assert m_any.stable is False
@@ -121,12 +121,14 @@ def test_each_model_balances(name):
 def test_free_directions_are_named():
     assert zd.equilibrium(zd.models.double_wishbone()).free == ("axle.angle",)
     assert zd.equilibrium(zd.models.flyball_governor()).free == ("bearing.angle",)
+    wheels = {"rear axle.angle", "front axle.angle", "frame rotation about z", "frame.x", "frame.y"}
+    assert set(zd.equilibrium(zd.models.whipple_bicycle()).free) == wheels     # nonholonomic: it may stand anywhere
 
 
 def test_what_cannot_balance_is_named():
     m = zd.Mechanism("stone", gravity=(0, -G))
     m.particle("stone", 1.0, at=(0, 0))
-    with pytest.raises(zd.EquilibriumFailed, match=r"stone must have a position in which its forces balance.*'stone\.y_dot'"):
+    with pytest.raises(zd.EquilibriumFailed, match=r"stone must have a position .* balance.*'stone\.y' moves on without end"):
         zd.equilibrium(m)
     with pytest.raises(ValueError, match="stability must be one of 'stable', 'any'"):
         zd.equilibrium(m, stability="maybe")

@@ -17,8 +17,10 @@ from .quantities import names_of, values_of
 from .rest import Balance, Search
 from .retraction import near_to, rows_of
 from .settling import settled
-from .state import state
+from .state import scales, state
 from .steady import Steady
+
+FAR = 20.0      # characteristic scales: a coordinate that has moved so far does not stop
 
 
 def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None, stability: str = "stable",
@@ -121,12 +123,15 @@ def _found(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.nd
         if is_found:
             return found, search.iterations + other.iterations, how
         balance = min(balance, found, key=lambda each: each.residual)
-    raise EquilibriumFailed(_nothing(balance))
+    raise EquilibriumFailed(_nothing(balance, p))
 
 
-def _nothing(balance: Balance) -> str:
+def _nothing(balance: Balance, start: np.ndarray) -> str:
     """The message of a search that found nothing."""
     at, where = balance.at, np.array2string(balance.at.p, precision=4, threshold=12)
-    return (f"{at.system.name} must have a position in which its forces balance, and none was found: the best one leaves a "
-            f"force of {balance.residual:.3g} N/sqrt(kg) in the mass metric, which accelerates {balance.largest_force()!r}, at "
-            f"p = {where}; hold that motion with hold=, or start the search elsewhere with near=")
+    moved = np.abs(at.p - start) / scales(at.system, start).p
+    runs = f"{at.system.coordinates[int(moved.argmax())].name!r} moves on without end" if moved.max() > FAR else (
+        f"it accelerates {balance.largest_force()!r}")
+    return (f"{at.system.name} must have a position in which its forces balance, and none was found: a force of "
+            f"{balance.residual:.3g} N/sqrt(kg) in the mass metric remains; {runs}, at p = {where}; hold that motion with "
+            "hold=, or start the search elsewhere with near=")

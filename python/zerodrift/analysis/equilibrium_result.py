@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem
 from .flow import Flow
-from .names import dominant, pivots
+from .names import pivots
 from .quantities import Reading, components
 from .rest import Balance
 from .retraction import moved, onto, rows_of
@@ -107,10 +107,12 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
     at, m, k = balance.at, balance.at.system.m, balance.V.shape[1]
     K, D = balance.stiffness, balance.damping
     spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]))
-    free = [dominant(at, at.A @ (balance.V @ axis)) for axis in _free(balance)]
+    free = _free(balance)
+    moves = np.column_stack([*(balance.V @ axis for axis in free), balance.family()])
+    names = pivots(at, np.vstack([at.A @ moves, np.zeros_like(moves)]))
     state = (at.p, at.v, np.zeros_like(at.v), balance.multipliers[:m])
     return Equilibrium(at.system, at.t, state, _efforts(balance), stiffness=K, damping=D, basis=balance.V, spectrum=spectrum,
-                       stable=_stable(balance, spectrum, len(free)), free=tuple(dict.fromkeys(free)), residual=balance.residual,
+                       stable=_stable(balance, spectrum, len(free)), free=tuple(names), residual=balance.residual,
                        iterations=iterations, how=how)
 
 

@@ -83,13 +83,25 @@ class Balance:
     @functools.cached_property
     def stiffness(self) -> np.ndarray:
         """K (k, k): the derivative of V^T (d - f + C^T lambda) along V, multipliers frozen."""
-        at, lam, scale = self.at, self.multipliers, scales(self.at.system, self.at.p)
-        columns = []
-        for w in self.V.T:
+        return self._along(self.V)
+
+    def _along(self, directions: np.ndarray) -> np.ndarray:
+        """The same derivative along displacements (nv, j), (k, j)."""
+        at, lam, scale, columns = self.at, self.multipliers, scales(self.at.system, self.at.p), []
+        for w in directions.T:
             dp = at.A @ w
             columns.append(self._differences(lambda h, dp=dp: self._residual(at.p + h * dp, lam),
                                              float(np.abs(dp / scale.p).max())))
         return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
+
+    def family(self) -> np.ndarray:
+        """Displacements (nv, j) along which a balance stays one, beyond what nonholonomic constraints allow."""
+        W = self.tangent.displacements
+        if not self.at.system.mn or W.shape[1] == self.V.shape[1]:
+            return np.zeros((len(W), 0))
+        _, values, vectors = np.linalg.svd(self._along(W))
+        rank = int((values > self.zero * max(values.max(initial=0.0), 1e-300)).sum())
+        return W @ vectors[rank:].T
 
     def _residual(self, p: np.ndarray, lam: np.ndarray) -> np.ndarray:
         there, m = state(self.at.system, self.at.t, p, self.at.v), self.at.system.m

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 from ..errors import ZerodriftError
@@ -43,7 +45,10 @@ def _to_the_fastest(system: BaseSystem, p: np.ndarray, rest: np.ndarray, horizon
         return float(v @ state(system, t, p, v).force)
 
     power.terminal, power.direction = True, -1
-    sol = simulate(system, horizon, p, rest, integrator="dormand_prince", rtol=1e-4, atol=1e-6, events=[power], max_steps=5000)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")     # the way to rest need not be accurate
+        sol = simulate(system, horizon, p, rest, integrator="dormand_prince", rtol=1e-4, atol=1e-6, events=[power],
+                       max_steps=5000)
     if not len(sol.t):
         raise ZerodriftError("the motion towards rest did not begin")
     return np.array(sol.p[-1])

@@ -1,0 +1,44 @@
+"""Random mechanisms with loops, redundant joints, drives and forces: the same results in joint and in absolute coordinates."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from mechanisms.random_mechanisms import Maker
+
+SEEDS = [seed for seed in range(24) if "blade" not in Maker(seed).m._elements]     # blades leave families of equilibria
+
+
+def both(seed):
+    m = Maker(seed).m
+    return [m.system(layout) for layout in ("joint", "absolute")]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_equilibria_and_spectra_are_the_same(seed):
+    spectra = []
+    for system in both(seed):
+        try:
+            eq = zd.equilibrium(system)
+        except zd.EquilibriumFailed:
+            spectra.append(None)        # forces of the sample may have no balance
+            continue
+        terms = system.evaluate(eq.p, eq.v)
+        left = terms.f - (0 if terms.d is None else terms.d) - (0 if terms.C is None else terms.C.T @ eq.multipliers)
+        assert np.abs(left).max() < 1e-9 * (np.abs(terms.f).max() + np.abs(eq.multipliers).max(initial=1.0))
+        spectra.append(zd.linearize(system, eq).eigenvalues)
+    one, other = spectra
+    assert (one is None) == (other is None)
+    if one is not None:
+        assert len(one) == len(other)
+        assert max((np.abs(other - each).min() for each in one), default=0.0) < 1e-7 * np.abs(one).max(initial=1.0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_free_motion_needs_no_effort(seed):
+    for system in both(seed):
+        p, v = system.start_at(0.0)
+        vdot, _ = zd.acceleration(system, p, v)
+        efforts = [each.name for each in system.velocities]
+        inv = zd.inverse_dynamics(system, 0.0, p, v, vdot, efforts=efforts)
+        assert max(np.abs(inv[each]).max() for each in efforts) < 1e-8 * max(1.0, np.abs(system.evaluate(p, v).f).max())
