@@ -54,7 +54,7 @@ __all__ = [
     "assemble", "bias", "check", "compare", "corrections", "ensemble", "equilibrium", "formulations", "from_mechanics",
     "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage",
     "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project", "reach", "record_size", "reference",
-    "simulate", "stability_map", "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "work_precision",
+    "simulate", "stability_map", "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "view", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
@@ -66,7 +66,7 @@ _LATER = {      # imported, or made, at first use
     "reach": "tracing.trace", "record_size": "runs.record_size", "reference": "studies.reference",
     "stability_map": "studies.stability_map", "symbolic": "symbolics.define", "table": "mechanisms.data",
     "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
-    "work_precision": "studies.work_precision",
+    "view": "player.view", "work_precision": "studies.work_precision",
 }
 
 

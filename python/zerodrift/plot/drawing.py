@@ -291,6 +291,25 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
     return shapes_of(points, motion), None
 
 
+def moments_of(sol: Solution, positions: Any) -> list[list[Shape]]:
+    """The shapes of each position (k, nq) of the system of a solution.
+
+    Raises
+    ------
+    ValueError
+        If the system has no drawing.
+    """
+    moments, points = _moments(sol.system, positions, sol)
+    return [_lines(each) for each in points] if moments is None else moments
+
+
+def _lines(points: np.ndarray) -> list[Shape]:
+    """Points (n, 3) joined by lines where they are not NaN."""
+    known = np.flatnonzero(~np.isnan(points).any(axis=1))
+    runs = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1) if known.size else []
+    return [Shape("rod" if len(run) > 1 else "dot", points[run]) for run in runs]
+
+
 def drawing_axes(ax: Axes | None, dimension: int) -> Axes:
     ax = None if ax is None else given_axes(ax)
     if ax is None:

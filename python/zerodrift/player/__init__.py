@@ -1,0 +1,1 @@
+"""Player: films of motions in one HTML file, without a network."""

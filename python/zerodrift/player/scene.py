@@ -1,0 +1,186 @@
+"""Scene of a film: shapes whose points move, arrows, graphs, as one JSON object that the player's script draws.
+
+Points that several shapes share are written once, and points that rest are no part of the moving table. Coordinates are 16-bit
+integers within the box around all of them: an error of 1e-5 of the picture. Between samples points move along straight lines.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..plot.drawing import moments_of, paths_of
+from ..plot.glyphs import GLYPHS
+from ..runs.columns import columns
+from ..runs.solution import Solution
+from ..systems.shapes import Shape
+
+RATE = 60               # samples for each second of the film
+MOST_SAMPLES = 900      # of a film; longer ones are thinned
+SHORTEST, LONGEST = 3.0, 15.0   # s: films of shorter and longer motions are slower and faster than these
+RESTS = 1e-9            # of the picture: points that move less rest
+LEVELS = 65535          # of a coordinate
+PIN = 0.017             # of the picture: a pin's radius
+SLENDER = 0.13          # of the short bars, the quarter of all: no pin is larger
+ROUND = ("wheel", "gear", "ring")       # kinds of shapes whose number is a radius
+ARROW = 0.22            # of the picture: the longest arrow
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Contents of a film besides the shapes: arrows, paths, graphs, names, and its speed."""
+
+    forces: Any = False
+    path: Any = ()
+    graphs: Any = ()
+    names: bool = False
+    speed: float | None = None
+    samples: int = MOST_SAMPLES
+
+
+def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> dict[str, Any]:
+    """The film of solutions of the same time span, drawn over each other."""
+    first = solutions[0]
+    t0, t1 = float(first.t[0]), float(max(sol.t[-1] for sol in solutions))
+    speed = wanted.speed or _speed(t1 - t0)
+    count = int(np.clip(RATE * (t1 - t0) / speed, 2, wanted.samples)) if t1 > t0 else 1
+    times = np.linspace(t0, t1, count)
+    layers = [_layer(sol, times, wanted) for sol in solutions]
+    every = np.concatenate([layer["table"].reshape(-1, layer["table"].shape[2]) for layer in layers])
+    places = np.concatenate([layer["extent"] for layer in layers])
+    arrow = ARROW * float(np.linalg.norm(np.ptp(places, axis=0)) or 1.0)
+    places = np.concatenate([places, *(_tips(layer, arrow) for layer in layers)])
+    low, high = places.min(axis=0), places.max(axis=0)
+    box = every.min(axis=0), every.max(axis=0)
+    labelled = list(zip(solutions, labels, strict=True))
+    return {"name": first.system.name, "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
+            "low": low.tolist(), "high": high.tolist(), "pin": _pin(layers[0], float((high - low).max() or 1.0)),
+            "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names,
+            "layers": [_packed(layer, box, label) for layer, label in zip(layers, labels, strict=True)],
+            "graphs": [line for sol, label in labelled for line in _graphs(sol, times, wanted.graphs, label)],
+            "trust": [line for sol, label in labelled for line in _trust(sol, times, label)]}
+
+
+def _speed(duration: float) -> float:
+    """Seconds of the motion in a second of the film: 1, 2 or 5 times a power of ten."""
+    if SHORTEST <= duration <= LONGEST or not duration > 0:
+        return 1.0
+    wanted = duration / (SHORTEST if duration < SHORTEST else LONGEST)
+    power = 10.0 ** np.floor(np.log10(wanted))
+    return float(next(times * power for times in (5, 2, 1) if times * power <= wanted * (1 + 1e-12)))
+
+
+def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
+    """Shapes of a solution at all times, points in a table (times, points, dimension)."""
+    p = _positions(sol, times)
+    moments = moments_of(sol, p)
+    shapes = [[shape.points for shape in moment] for moment in moments]
+    points = np.array([np.concatenate(each) for each in shapes])                # (times, points of all shapes, dimension)
+    entries, begin = [], 0
+    for shape in moments[0]:
+        entries.append((shape, range(begin, begin + len(shape.points))))
+        begin += len(shape.points)
+    extent = [points[:, [i for shape, numbers in entries for i in numbers[:_places(shape)]]].reshape(-1, points.shape[2])]
+    round_ones = [(points[:, numbers[0]], shape.number) for shape, numbers in entries if shape.kind in ROUND]
+    extent += [at + side * radius for at, radius in round_ones for side in (-1, 1)]
+    arrows, columns_of_arrows = _arrows(sol, times, wanted.forces)
+    paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
+    return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
+            "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
+
+
+def _places(shape: Shape) -> int:
+    """The points of a shape that are places; the last ones of some kinds are directions."""
+    if shape.points.shape[1] == 3:
+        return 1 if shape.kind in ("pin", "sleeve", "patch") else len(shape.points)
+    return len(shape.points) - GLYPHS[shape.kind].directions
+
+
+def _positions(sol: Solution, times: np.ndarray) -> np.ndarray:
+    """Coordinates at the times of the film; where values between samples are not to be had, on straight lines between these."""
+    within = np.clip(times, sol.t[0], sol.t[-1])
+    try:
+        return np.asarray(sol(within)[0])
+    except ValueError:
+        return np.column_stack([np.interp(within, sol.t, column) for column in sol.p.T])
+
+
+def _arrows(sol: Solution, times: np.ndarray, forces: Any) -> tuple[list[dict[str, Any]], list[np.ndarray]]:
+    """Forces as points of the table: place and vector of each, with its largest size."""
+    if forces is False or forces is None or (isinstance(forces, list | tuple) and not forces):
+        return [], []
+    rows = np.unique(np.linspace(0, len(sol.t) - 1, min(len(sol.t), MOST_SAMPLES)).astype(int))
+    described, found = [], []
+    for name, places, vectors in sol.system._forces(forces, sol, rows):
+        ways = [np.stack([np.interp(times, sol.t[rows], column) for column in each.T], axis=1) for each in (places, vectors)]
+        described.append({"name": name, "most": float(np.linalg.norm(vectors, axis=1).max(initial=0.0))})
+        found.append(np.stack(ways, axis=1))
+    most = max((each["most"] for each in described), default=0.0) or 1.0
+    scaled = [np.stack([each[:, 0], each[:, 1] / most], axis=1) for each in found]
+    return [each | {"scale": most} for each in described], scaled
+
+
+def _pin(layer: dict[str, Any], extent: float) -> float:
+    """The radius of a pin: small beside the picture, and beside short bars."""
+    bars = [np.linalg.norm(np.ptp(shape.points, axis=0)) for shape, _ in layer["entries"] if shape.kind in ("link", "bar")]
+    return min(PIN * extent, SLENDER * float(np.quantile(bars, 0.25)) if bars else np.inf)
+
+
+def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
+    """The places to which arrows reach."""
+    ways = layer["table"][:, layer["own"]:]
+    return (ways[:, ::2] + arrow * ways[:, 1::2]).reshape(-1, ways.shape[2])
+
+
+def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
+    """A layer with numbers as text: each point that moves once, those that rest apart."""
+    table = layer["table"]
+    size = np.maximum(box[1] - box[0], 1e-300)
+    levels = np.round((table - box[0]) / size * LEVELS).astype(np.uint16)
+    moves = (np.ptp(table, axis=0) > RESTS * size.max()).any(axis=1)
+    numbers, fixed, moving, known = [], [], [], {}
+    for i in range(table.shape[1]):
+        key = levels[:, i].tobytes() if moves[i] else levels[0, i].tobytes()
+        if (moves[i], key) not in known:
+            known[moves[i], key] = len(moving) if moves[i] else -1 - len(fixed)
+            (moving if moves[i] else fixed).append(i)
+        numbers.append(known[moves[i], key])
+    shapes = [[shape.kind, shape.name, [numbers[i] for i in those], round(float(shape.number), 9)]
+              for shape, those in layer["entries"]]
+    of_arrows = numbers[layer["own"]:]
+    arrows = [each | {"at": of_arrows[2 * i], "to": of_arrows[2 * i + 1]} for i, each in enumerate(layer["arrows"])]
+    return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(moving), "points": _text(levels[:, moving]),
+            "fixed": [table[0, i].tolist() for i in fixed], "paths": [np.round(path, 6).tolist() for path in layer["paths"]]}
+
+
+def _graphs(sol: Solution, times: np.ndarray, names: Any, label: str) -> list[dict[str, Any]]:
+    names = () if names is None else names
+    if not isinstance(names, str) and not len(names):
+        return []
+    return [_line(variable.name, variable.unit, sol.t, values, times, label) for variable, values in columns(sol, names)]
+
+
+def _trust(sol: Solution, times: np.ndarray, label: str) -> list[dict[str, Any]]:
+    """Constraint violation and energy error over time."""
+    found = []
+    for name, unit, values in (("position violation", "", sol.position_violation), ("energy error", "J", sol.energy_violation)):
+        if values is not None and np.size(values):
+            values = np.abs(np.asarray(values, dtype=float)).reshape(len(sol.t), -1).max(axis=1)
+            found.append(_line(name, unit, sol.t, values, times, label))
+    return found
+
+
+def _line(name: str, unit: str, t: np.ndarray, values: np.ndarray, times: np.ndarray, label: str) -> dict[str, Any]:
+    sampled = np.interp(times, t, values).astype(np.float32)
+    return {"name": name, "unit": unit, "label": label, "least": float(np.min(values)), "most": float(np.max(values)),
+            "values": _text(sampled)}
+
+
+def _text(array: np.ndarray) -> str:
+    """Little-endian numbers in base 64."""
+    return base64.b64encode(np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<")).tobytes()).decode("ascii")
+

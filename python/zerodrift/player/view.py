@@ -1,0 +1,178 @@
+"""`zd.view`: the film of a motion in one HTML file."""
+
+from __future__ import annotations
+
+import base64
+import functools
+import html
+import io
+import json
+import tempfile
+import webbrowser
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from .. import _check
+from .._writing import write_whole
+from ..errors import ZerodriftError
+from ..runs.solution import A_SOLUTION, Solution
+from .scene import Wanted, scene
+
+HEIGHT = 460            # of a film in a notebook, in points of the screen
+GRAPH = 110             # more for each graph
+LARGEST = 100_000       # characters of the page that a solution shows of itself
+SHORTER = (900, 300, 100, 40)       # samples of it: the first whose page is not larger
+
+
+class View:
+    """A film: it shows itself in notebooks, `save` writes it to a file, `show` opens it in the browser.
+
+    Attributes
+    ----------
+    page : str
+        The HTML page, with everything that it needs.
+    """
+
+    def __init__(self, solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> None:
+        self._solutions, self._wanted = solutions, wanted
+        self._scene = scene(solutions, labels, wanted)
+        self.samples: int = self._scene["samples"]
+        self.height = HEIGHT + GRAPH * len({line["unit"] for line in self._scene["graphs"]})
+
+    @functools.cached_property
+    def page(self) -> str:
+        name = html.escape(self._scene["name"])
+        data = json.dumps(self._scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+        return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
+                f'<meta name="viewport" content="width=device-width"><style>{_text("player.css")}</style></head><body>'
+                f'<script type="application/json" id="scene">{data}</script><script>{_text("player.js")}</script></body></html>')
+
+    def save(self, path: str | Path) -> Path:
+        """Write the film to an HTML file, which needs no other file and no network.
+
+        Parameters
+        ----------
+        path : str or Path
+            The suffix ``.html`` is added where it is missing.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
+        path = Path(path)
+        path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
+        write_whole(path, lambda file: file.write(self.page.encode()))
+        return path
+
+    def show(self) -> None:
+        """Open the film in the browser, from a temporary file."""
+        folder = Path(tempfile.mkdtemp(prefix="zerodrift-"))
+        webbrowser.open(self.save(folder / "film.html").as_uri())
+
+    def _repr_html_(self) -> str:
+        """A frame that may run scripts and nothing else, in front of a still picture, which untrusted notebooks keep."""
+        name = html.escape(self._scene["name"], quote=True)
+        return (f'<div style="position:relative;height:{self.height}px;max-width:960px">'
+                f'<img alt="{name} at the start of the motion" src="data:image/png;base64,{self._still()}" '
+                'style="position:absolute;max-width:100%;max-height:100%">'
+                f'<iframe title="Film of {name}" sandbox="allow-scripts" srcdoc="{html.escape(self.page, quote=True)}" '
+                'style="position:absolute;width:100%;height:100%;border:0;background:Canvas"></iframe></div>')
+
+    def _still(self) -> str:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        from ..plot.drawing import mechanism
+
+        figure = Figure(figsize=(6.4, 4.4), layout="constrained")
+        FigureCanvasAgg(figure)
+        mechanism(self._solutions[0], t=float(self._solutions[0].t[0]),
+                  ax=figure.add_subplot(projection="3d" if self._scene["dimension"] == 3 else None))
+        file = io.BytesIO()
+        figure.savefig(file, format="png", dpi=60)
+        return base64.b64encode(file.getvalue()).decode("ascii")
+
+    def __repr__(self) -> str:
+        return f"<film of {self._scene['name']}: {self._scene['samples']} samples, {len(self.page) / 1000:.0f} kB>"
+
+
+def of_solution(solution: Solution, text: str) -> str:
+    """The film of a solution above its text, for notebooks; the text alone where the system cannot be drawn."""
+    words = f"<pre>{html.escape(text)}</pre>"
+    for samples in SHORTER:
+        try:
+            film = View([solution], [solution.system.name], Wanted(samples=samples))
+        except (ValueError, ZerodriftError):
+            return words
+        if len(film.page) <= LARGEST:
+            thinned = samples < SHORTER[0] and film.samples == samples
+            note = f"<small>The film shows {film.samples} samples; zd.view(sol) shows more.</small>" if thinned else ""
+            return f"{film._repr_html_()}{note}{words}"
+    return words
+
+
+def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any = (), names: bool = False,
+         speed: float | None = None, labels: Sequence[str] | None = None) -> View:
+    """Film of one motion, or of several over each other, for notebooks and browsers.
+
+    Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
+    the energy error of the run. A click on a part shows its name and, where forces are drawn, its force. In space, drag turns;
+    the wheel with Ctrl zooms.
+
+    Parameters
+    ----------
+    *solutions : Solution
+        At least one. Several are drawn over each other, in colours of their own: a drifting and a corrected run, for example.
+    forces : bool, or sequence of str or element
+        Reactions and forces that are drawn as arrows, to one scale that is given in the film; True: all of them.
+    path : point or name, or a list of these
+        Points whose paths are drawn.
+    graphs : str, measure, or sequence of these
+        Measures, coordinates and velocities whose graphs are drawn beside the film, with a cursor at its time.
+    names : bool
+        Names of parts.
+    speed : float, optional
+        Seconds of the motion in a second of the film. Left out: 1 for motions of 3 to 15 s, and as much more or less for others.
+    labels : sequence of str, optional
+        Names of the solutions.
+
+    Returns
+    -------
+    View
+        It shows itself at the end of a notebook's cell; `View.save` writes one HTML file, and `View.show` opens the browser.
+
+    Raises
+    ------
+    ValueError
+        If a system has no drawing, or systems of the plane and of space are given together.
+    TypeError
+        If something else than a solution is given.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> sol = zd.simulate(zd.models.slider_crank(), 2.0, step=0.005)
+    >>> film = zd.view(sol, forces=["pin"], graphs=["crank.angle"])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     film.save(folder + "/crank.html").stat().st_size < 100_000
+    True
+    """
+    if not solutions:
+        raise TypeError("view needs at least one solution, as zd.simulate returns")
+    for sol in solutions:
+        _check.instance("each of solutions", sol, Solution, A_SOLUTION)
+    speed = None if speed is None else _check.number("speed", speed, above=0)
+    if labels is None:
+        labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
+    if len(labels) != len(solutions):
+        raise ValueError(f"labels must name {len(solutions)} solutions, not {len(labels)}")
+    return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
+
+
+@functools.cache
+def _text(name: str) -> str:
+    """A file of the player."""
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")

@@ -1,0 +1,146 @@
+"""Films: contents of the page, its size, what is refused; in a browser, pictures that change without an error."""
+
+import base64
+import html
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.fixture(scope="module")
+def crank():
+    return zd.simulate(zd.models.slider_crank(), 4.0, step=0.005)
+
+
+def scene_of(film):
+    return json.loads(re.search(r'id="scene">(.*?)</script>', film.page, re.DOTALL)[1])
+
+
+def places(scene, layer, number):
+    """A point of the table at all samples."""
+    points = scene["layers"][layer]
+    if number < 0:
+        return np.tile(points["fixed"][-1 - number], (scene["samples"], 1))
+    table = np.frombuffer(base64.b64decode(points["points"]), dtype="<u2").reshape(scene["samples"], points["moving"], -1)
+    low, high = np.array(scene["box"])
+    return low + table[:, number] / 65535 * (high - low)
+
+
+def test_points_of_the_film_are_those_of_the_motion(crank):
+    """The wrist is the one end of the rod that slides; a coordinate of 16 bits errs by half a level of the box."""
+    scene = scene_of(zd.view(crank))
+    t = np.linspace(*scene["span"], scene["samples"])
+    ends = next(numbers for kind, name, numbers, _ in scene["layers"][0]["shapes"] if (kind, name) == ("link", "rod"))
+    known = np.column_stack([np.interp(t, crank.t, column) for column in crank["rod.position"].T])
+    allowed = np.ptp(scene["box"], axis=0).max() / 65535 + 1e-4      # and straight lines between samples of 5 ms
+    assert min(np.abs(places(scene, 0, number) - known).max() for number in ends) < allowed
+
+
+def test_a_small_film_is_small(crank):
+    assert len(zd.view(crank).page) < 50_000
+    assert "http" not in zd.view(crank).page.replace("http-equiv", "")
+
+
+def test_arrows_have_the_size_of_the_force(crank):
+    scene = scene_of(zd.view(crank, forces=["pin"]))
+    arrow, = scene["layers"][0]["arrows"]
+    force = places(scene, 0, arrow["to"]) * arrow["scale"]
+    t = np.linspace(*scene["span"], scene["samples"])
+    known = np.column_stack([np.interp(t, crank.t, column) for column in crank["pin.force"].T])
+    assert np.abs(np.abs(force) - np.abs(known)).max() < 1e-3 * np.abs(known).max()
+
+
+def test_the_arrow_on_a_hanging_body_points_up():
+    """What the hook does to the bar, the second body: it carries it."""
+    m = zd.Mechanism("hanging", gravity=(0, -9.81))
+    bar = m.link("bar", (0, 0), (0, -1), mass=2.0)
+    m.revolute("hook", m.ground, bar.start)
+    scene = scene_of(zd.view(zd.simulate(m, 1.0, step=0.1), forces=["hook"]))
+    arrow, = scene["layers"][0]["arrows"]
+    assert np.allclose(places(scene, 0, arrow["to"]) * arrow["scale"], [0, 2 * 9.81], atol=1e-2)
+
+
+def test_graphs_and_trust_lines(crank):
+    scene = scene_of(zd.view(crank, graphs=["crank.angle", "slide.force"]))
+    assert [(line["name"], line["unit"]) for line in scene["graphs"]] == [
+        ("crank.angle", "rad"), ("slide.force.x", "N"), ("slide.force.y", "N")]
+    assert [line["name"] for line in scene["trust"]] == ["position violation", "energy error"]
+    assert scene["trust"][0]["most"] == np.abs(crank.position_violation).max()
+
+
+def test_motions_over_each_other():
+    bar = zd.systems.four_bar()
+    runs = [zd.simulate(bar, 2.0, step=0.01, stabilization=stabilization) for stabilization in (None, "projection")]
+    scene = scene_of(zd.view(*runs, labels=["free", "corrected"]))
+    assert [layer["label"] for layer in scene["layers"]] == ["free", "corrected"]
+
+
+@pytest.mark.parametrize(("span", "speed"), [(0.5, 0.1), (3.0, 1.0), (8.0, 1.0), (200.0, 10.0)])
+def test_the_speed_of_short_and_long_motions(span, speed):
+    assert scene_of(zd.view(zd.simulate(zd.systems.pendulum(), span, step=0.05)))["speed"] == pytest.approx(speed)
+
+
+def test_a_file_needs_no_other(crank, tmp_path):
+    path = zd.view(crank).save(tmp_path / "film")
+    assert path.name == "film.html"
+    assert path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+
+
+def test_a_solution_shows_its_film_above_its_text(crank):
+    shown = crank._repr_html_()
+    assert "sandbox=\"allow-scripts\"" in shown
+    assert 'alt="slider_crank at the start of the motion"' in shown
+    assert html.escape(repr(crank)) in shown
+    assert len(shown) < 250_000         # quotation marks are escaped in a frame
+
+
+def test_what_cannot_be_drawn_shows_its_text():
+    system = zd.System(["x"], mass=np.eye(1), force=lambda p: -p, p0=[1.0])
+    sol = zd.simulate(system, 1.0, step=0.1)
+    assert sol._repr_html_() == f"<pre>{html.escape(repr(sol))}</pre>"
+    with pytest.raises(ValueError, match="draw"):
+        zd.view(sol)
+
+
+def test_what_is_refused(crank):
+    with pytest.raises(TypeError, match="at least one solution"):
+        zd.view()
+    with pytest.raises(TypeError, match="each of solutions"):
+        zd.view(zd.models.watt())
+    with pytest.raises(ValueError, match="labels must name 1 solutions"):
+        zd.view(crank, labels=["a", "b"])
+    with pytest.raises(KeyError, match="nothing in slider_crank is called"):
+        zd.view(crank, graphs=["crank.angel"])
+
+
+CATCH = "<script>window.errors = []; addEventListener('error', each => errors.push(each.message));</script>"
+LOOK = """<script>addEventListener("load", () => {
+  const canvas = document.querySelector("canvas"), n = zerodrift.film.samples;
+  const at = t => { zerodrift.show(t); return canvas.toDataURL(); };
+  const begin = at(0), changed = begin !== at(n / 2) && begin === at(0);
+  const start = performance.now();
+  for (let i = 0; i < n; i++) zerodrift.show(i);
+  document.title = JSON.stringify({changed, cost: (performance.now() - start) / n, errors: window.errors});
+});</script>"""
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
+@pytest.mark.parametrize("name", ["slider_crank", "jansen", "stewart_platform"])
+def test_films_run_in_a_browser(name, tmp_path):
+    film = zd.view(zd.simulate(getattr(zd.models, name)(), 1.0, step=0.01), names=True)
+    page = film.page.replace("<body>", f"<body>{CATCH}").replace("</body>", f"{LOOK}</body>")
+    (tmp_path / "film.html").write_text(page, encoding="utf-8")
+    shown = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", "--virtual-time-budget=4000",
+                            f"--user-data-dir={tmp_path / 'profile'}", (tmp_path / "film.html").as_uri()],
+                           capture_output=True, text=True, check=True, timeout=120).stdout
+    found = json.loads(html.unescape(re.search(r"<title>(.*?)</title>", shown)[1]))
+    assert found["errors"] == []
+    assert found["changed"]
