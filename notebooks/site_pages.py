@@ -19,12 +19,19 @@ ERRORS = tuple(each for each in vars(errors).values() if inspect.isclass(each) a
 def write(folder: Path) -> None:
     """Write all of them; a file that would not change is left as it is."""
     folder.mkdir(exist_ok=True)
-    for name, lines in {"formulations": methods("Formulations", zd.formulations()), "integrators": methods("Integrators", zd.integrators()),
-                        "corrections": methods("Corrections", zd.corrections()), "elements": elements(), "errors": messages(),
-                        "models": models(), "reference": reference()}.items():
-        path, text = folder / f"{name}.md", "\n".join(lines) + "\n"
+    pages = {"formulations": methods("Formulations", zd.formulations()), "integrators": methods("Integrators", zd.integrators()),
+             "corrections": methods("Corrections", zd.corrections()), "elements": elements(), "errors": messages(),
+             "models": models(), "reference": reference()}
+    for name, lines in {"front.html": front(), **{f"{page}.md": text for page, text in pages.items()}}.items():
+        path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
+
+
+def front() -> Iterable[str]:
+    """The film of the first page: what the code above it computes."""
+    sol = zd.simulate(zd.models.jansen(), 6.0, step=0.01)
+    yield zd.view(sol, path="F", forces=["Y bed", "W"], graphs=["F.position.y"])._repr_html_()
 
 
 def methods(title: str, rows: dict[str, object]) -> Iterable[str]:

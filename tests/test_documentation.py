@@ -65,8 +65,9 @@ def test_every_public_name_is_documented(name):
     assert getattr(zerodrift, name).__doc__
 
 
-def test_the_code_of_the_readme_runs(capsys):
+def test_the_code_of_the_readme_runs(capsys, tmp_path, monkeypatch):
     matplotlib.use("Agg")
+    monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
     assert len(blocks) == 2
     for block in blocks:
