@@ -70,6 +70,14 @@ _LATER = {      # imported, or made, at first use
 }
 
 
+def _shown(solution: Solution) -> str:
+    """The film of a solution above its text, in notebooks; matplotlib is imported then."""
+    return importlib.import_module(".player.view", __name__).of_solution(solution, repr(solution))
+
+
+Solution._repr_html_ = _shown       # here, as runs know nothing of films
+
+
 def __getattr__(name: str) -> Any:
     if name in ("compare", "inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
         return importlib.import_module(f".{name}", __name__)

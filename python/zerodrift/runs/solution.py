@@ -150,12 +150,6 @@ class Solution:
     def __repr__(self) -> str:
         return summary(self)
 
-    def _repr_html_(self) -> str:
-        """The film of the motion above the text, in notebooks."""
-        from ..player.view import of_solution  # matplotlib is slow to import
-
-        return of_solution(self, repr(self))
-
     def __getitem__(self, name: Any) -> np.ndarray:
         """A coordinate, a velocity, the multiplier of a constraint, or a measure of a mechanism, by its name, at every row.
 
