@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 import zerodrift as zd
+from zerodrift.analysis.settling import settled
 
 G = 9.81
 
@@ -215,3 +216,25 @@ def test_scales_do_not_vanish_with_the_position():
 def test_a_position_that_cannot_be_evaluated_is_not_an_equilibrium():
     with pytest.raises(zd.EquilibriumFailed):
         zd.equilibrium(zd.systems.rolling_disc())       # it falls flat, where its equations end
+
+
+@pytest.mark.parametrize("name", ["four_bar", "closed_pendulum", "spatial_slider_crank"])
+def test_integration_with_stops_comes_near_the_stable_position(name):
+    """From the start, kinetic energy taken out at each maximum: close to the minimum of the potential energy."""
+    system = getattr(zd.models, name)().system("joint")
+    p, rest = np.array(system.start_at(0.0)[0]), np.zeros(system.nv)
+    near = settled(system, p)
+    lowest = system.evaluate(zd.equilibrium(system).p, rest).V
+    first, last = (system.evaluate(each, rest).V for each in (p, near))
+    assert last - lowest < 1e-4 * (first - lowest)
+    assert np.abs(system.evaluate(near, rest).Phi).max(initial=0.0) < 1e-9
+    assert zd.equilibrium(system, near=near).iterations <= 5
+
+
+def test_a_vector_is_held_by_the_efforts_of_its_components():
+    m = zd.Mechanism("stone", gravity=(0.5, -G))
+    m.particle("stone", 2.0, at=(0.3, 0.4))
+    eq = zd.equilibrium(m, hold=["stone.position"])
+    assert eq.effort == pytest.approx({"stone.position.x": -1.0, "stone.position.y": 2.0 * G})
+    assert eq["stone.position"] == pytest.approx([0.3, 0.4], abs=1e-14)
+    assert "nothing is free to move" in repr(eq)

@@ -94,7 +94,7 @@ class Flow:
 
     @property
     def left(self) -> tuple[np.ndarray, float]:
-        """What accelerations and their derivatives lack to a steady motion, (2 n,), and the size of accelerations here."""
+        """Differences of accelerations and their derivatives from a steady motion, (2 n,), and the size of accelerations."""
         return self._fit[1], self._size()
 
     @property

@@ -67,7 +67,7 @@ class Steady:
         return with_speeds(state(self.system, self.t, p, v), self.speeds)
 
     def residual(self, at: State) -> tuple[np.ndarray, float]:
-        """What accelerations and their derivatives lack to those of a steady motion, (2 n,), and their size."""
+        """Differences of accelerations and their derivatives from a steady motion, (2 n,), and their size."""
         return Flow(at).left
 
     def run(self, p: np.ndarray, v: np.ndarray) -> State:

@@ -36,5 +36,5 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
 
 
 def _is_equilibrium(given: Any) -> bool:
-    """What `zerodrift.equilibrium` returns, which is made of runs and so is known by its attributes."""
+    """An argument is the result of `zerodrift.equilibrium`, known by its attributes: its class is made of runs."""
     return isinstance(getattr(given, "system", None), BaseSystem) and hasattr(given, "stiffness")
