@@ -98,8 +98,9 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     zd_pace_half(&run->course.control.pace, &a, &b);
     int digits = digits_of(a, b);
     snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
-             "or the problem is stiff and needs an implicit method, as 'radau'; max_steps=None sets no bound", run->settings.max_steps, digits, a,
-             digits, b);
+             "%s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
+             run->stepper.integrator->decay == 0 ? "as where a force jumps; a smooth law, or events at its jumps, takes fewer"
+                                               : "or the problem is stiff and needs an implicit method, as 'radau'");
 }
 
 static void describe_surplus(const zd_system *system, const char *formulation, char *to, size_t size)

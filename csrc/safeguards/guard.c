@@ -31,6 +31,7 @@
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* in natural units: smaller detours come from rounding and tolerances */
 static const double RESOLVED = 2;       /* omega h of a motion of which steps still show something: one period is pi steps */
+static const double AT_REST = 1e-24;     /* in natural units, squared: in a shorter step the difference of accelerations is rounding */
 static const double AMPLE = 0x1p-8;     /* of `limit`: a quarter of the largest omega h */
 enum {
     STREAK = 3,             /* steps in succession that have to be too long: in a single one p1 - p0 may happen to be zero */
@@ -123,7 +124,10 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->inverse_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
     guard->is_ample = power <= AMPLE * guard->limit * moved;
-    if (!(moved > 0)) return;
+    if (!(moved > AT_REST)) {
+        guard->streak = 0;
+        return;
+    }
     if (power > guard->largest_fourth * moved && power < INFINITY) guard->largest_fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;

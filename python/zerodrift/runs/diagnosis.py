@@ -69,9 +69,11 @@ def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 
 def _skipped_corrections(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    if skipped := solution.stats["energy_skipped"]:
-        yield CorrectionWarning, (f"{skipped} of {solution.stats['steps']} energy corrections were left out: near a turning "
-                                  "point the kinetic energy is too small for them; sol.energy_skipped says where")
+    stats = solution.stats
+    if skipped := stats["energy_skipped"]:
+        due = skipped + stats["energy_corrections"]     # more than the steps, where some are made in parts
+        yield CorrectionWarning, (f"{skipped} of {due} energy corrections were left out: near a turning point the kinetic energy "
+                                  "is too small for them; sol.energy_skipped says where")
 
 
 def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
