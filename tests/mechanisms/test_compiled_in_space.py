@@ -14,6 +14,7 @@ from mechanisms.test_compiled import ROUNDING, differences
 from mechanisms.test_files_of_space import everything
 from zerodrift._gateway.space import joint_kinds
 from zerodrift.mechanisms import compiled as of_mechanisms
+from zerodrift.mechanisms.fixed import amend
 from zerodrift.symbolics import compiling, direct_emission
 
 SAME = 1e-11        # of the largest value of a measure: some ten steps of other roundings, of spins of 150 rad/s
@@ -32,7 +33,7 @@ def all_cut():
     m = everything()
     for joint in m._elements.values():
         if getattr(joint, "cut", None) is False:
-            joint.cut = True
+            amend(joint, cut=True)
     return m
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from . import columns
+from .fixed import Fixed
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 from .plane import Pose
@@ -22,7 +23,7 @@ class MassProperties(NamedTuple):
     com: np.ndarray
 
 
-class Point:
+class Point(Fixed):
     """A point that moves with a body; `Body.point` makes it, and a link has a `start` and an `end`.
 
     Attributes
@@ -78,7 +79,7 @@ class Point:
         return f"<point {self.name or tuple(map(float, self.local))} of {self.body.name}>"
 
 
-class Body:
+class Body(Fixed):
     """A rigid body; `Mechanism.body` makes it.
 
     Attributes
@@ -95,7 +96,7 @@ class Body:
 
     def __init__(self, name: str, pose: Pose, mass: float, inertia: float, com: np.ndarray) -> None:
         self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
-        self.register: Callable[[Point], Point] = _as_it_is       # the mechanism puts its own in place
+        self._register: Callable[[Point], Point] = _as_it_is       # the mechanism puts its own in place
 
     position = vector("position", "Where the origin of its frame is, in the drawing's axes, in m.")
     velocity = vector("velocity", "The velocity of that origin, in the drawing's axes, in m/s.")
@@ -144,7 +145,7 @@ class Body:
             raise TypeError(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
         size = self.dimension
         local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
-        return self.register(Point(self, local, name))
+        return self._register(Point(self, local, name))
 
     def properties(self, numbers: Numbers) -> MassProperties:
         """Its mass, inertia and centre of mass, with numbers that may have been changed."""
@@ -160,7 +161,7 @@ class Body:
         return f"<{self.what} {self.name}>"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**vars(self), "register": _as_it_is}     # a snapshot does not take its mechanism along
+        return {**vars(self), "_register": _as_it_is}     # a snapshot does not take its mechanism along
 
 
 class Ground(Body):

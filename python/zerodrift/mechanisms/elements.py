@@ -25,7 +25,7 @@ class Elements:
 
     def __init__(self, parameters: Any) -> None:
         self.ground = SpaceGround() if self.dimension == 3 else Ground()
-        self.ground.register = self._register_point
+        self.ground._register = self._register_point
         self.parameters = {key: _check.number(f"parameter {key!r}", value)
                            for key, value in _check.parameters(parameters).items() if _is_identifier(key)}
         self._elements: dict[str, Any] = {"ground": self.ground}
@@ -38,7 +38,7 @@ class Elements:
     def _add(self, element: Any) -> Any:
         self._elements[element.name] = element
         if isinstance(element, Body):
-            element.register = self._register_point
+            element._register = self._register_point
         return element
 
     def _register_point(self, point: Point) -> Point:

@@ -14,6 +14,8 @@ SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessT
          ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
              "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
+DEEPEST = 100       # operations within operations: deeper ones would be beyond Python's stack
+LARGEST = 2**DOUBLE     # of whole numbers, and of powers of numbers: SymPy computes them with all their digits as it reads them
 CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
 
 
@@ -70,16 +72,18 @@ def _written(expression: Any, what: str) -> Any:
     return [word, *(_written(part, what) for part in expression.args)]
 
 
-def from_json(written: Any, what: str) -> Any:
+def from_json(written: Any, what: str, depth: int = 0) -> Any:
     """The expression; an error names `what` it belongs to and the part that is none."""
     import sympy as sp
 
+    if depth > DEEPEST:
+        raise ValueError(f"{what} must have at most {DEEPEST} operations within operations")
     if isinstance(written, bool) or written is None or isinstance(written, dict):
         raise ValueError(f"{what} has {written!r}, which is no part of an expression")
     if isinstance(written, str):
         return sp.Symbol(written)
     if not isinstance(written, list):
-        return sp.Integer(written) if isinstance(written, int) else sp.Float(written)
+        return _integer(written, what) if isinstance(written, int) else sp.Float(written)
     word, *parts = written or [None]
     word = word if isinstance(word, str) else str(word)
     if word in CONSTANTS and not parts:
@@ -89,10 +93,29 @@ def from_json(written: Any, what: str) -> Any:
     if word not in _operations():
         raise ValueError(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}")
     if word == "cases" and all(isinstance(part, list) and len(part) == 2 for part in parts):
-        read = [tuple(from_json(each, what) for each in part) for part in parts]
+        read = [tuple(from_json(each, what, depth + 1) for each in part) for part in parts]
     else:
-        read = [from_json(part, what) for part in parts]
+        read = [from_json(part, what, depth + 1) for part in parts]
+    if word == "^" and len(read) == 2:
+        _check_power(*read, what)
     try:
         return _operations()[word](*read)
     except Exception as error:      # each of SymPy's classes has its own
         raise ValueError(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None
+
+
+def _integer(written: int, what: str) -> Any:
+    import sympy as sp
+
+    if abs(written) > LARGEST:
+        raise ValueError(f"{what} must have whole numbers of at most {LARGEST}, not one of {written.bit_length()} bits")
+    return sp.Integer(written)
+
+
+def _check_power(base: Any, exponent: Any, what: str) -> None:
+    """Refuses powers of numbers that would fill the memory."""
+    if not (base.is_Rational and exponent.is_Rational):
+        return
+    bits = max(int(base.p).bit_length(), int(base.q).bit_length())
+    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > DOUBLE * DOUBLE):
+        raise ValueError(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory")

@@ -6,13 +6,14 @@ import numpy as np
 
 from . import columns
 from .bodies import Body, Point
+from .fixed import Fixed
 from .joints import Joint
 from .laws import Law
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
 
-class Motor:
+class Motor(Fixed):
     """A drive of a joint, `Mechanism.motor`.
 
     Attributes
@@ -55,7 +56,7 @@ class Motor:
         return f"<motor {self.name}: {self.drives} of {self.joint.name}>"
 
 
-class Actuator:
+class Actuator(Fixed):
     """A cylinder or a linear drive between two points, `Mechanism.actuator`.
 
     Attributes
@@ -99,7 +100,7 @@ class Actuator:
         return f"<actuator {self.name}: {self.drives} between {self.first.body.name} and {self.second.body.name}>"
 
 
-class Spring:
+class Spring(Fixed):
     """A spring with a damper between two points, `Mechanism.spring`."""
 
     kind = "spring"
@@ -135,7 +136,7 @@ class Spring:
         return f"<spring {self.name}: {self.first.body.name} - {self.second.body.name}>"
 
 
-class TorsionSpring:
+class TorsionSpring(Fixed):
     """A spring with a damper about a joint, `Mechanism.torsion_spring`."""
 
     kind = "torsion_spring"
@@ -157,7 +158,7 @@ class TorsionSpring:
         return f"<torsion spring {self.name} at {self.joint.name}>"
 
 
-class Bushing:
+class Bushing(Fixed):
     """A soft joint: springs and dampers along and about a frame of the first body, `Mechanism.bushing`."""
 
     kind = "bushing"
@@ -198,7 +199,7 @@ class SpaceBushing(Bushing):
         self.frames = frames
 
 
-class Force:
+class Force(Fixed):
     """A force at a point along a direction, `Mechanism.force`."""
 
     kind = "force"
@@ -214,7 +215,7 @@ class Force:
         return f"<force {self.name} at {self.point.body.name}>"
 
 
-class Torque:
+class Torque(Fixed):
     """A moment on a body, `Mechanism.torque`; in space about an axis (3,) of `frame`, or of `against` where that is a body."""
 
     kind = "torque"

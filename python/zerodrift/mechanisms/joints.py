@@ -13,6 +13,7 @@ import numpy as np
 from .._gateway.mechanisms import JointKind, joint_kinds
 from . import columns
 from .bodies import Point
+from .fixed import Fixed
 from .laws import Law
 from .measures import Measure, scalar, vector
 from .numbers import AS_GIVEN, Numbers
@@ -20,7 +21,7 @@ from .numbers import AS_GIVEN, Numbers
 JOINTS = joint_kinds()
 
 
-class Joint:
+class Joint(Fixed):
     """What joins two bodies; verbs of `Mechanism` make it.
 
     Attributes
@@ -227,7 +228,7 @@ BY_ROW = {kind: made(kind) for kind in sorted(JOINTS.keys() - {written.kind for 
 globals().update({joint.__name__: joint for joint in BY_ROW.values()})
 
 
-class Coupling:
+class Coupling(Fixed):
     """One row between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
 
     Attributes

@@ -9,6 +9,7 @@ import numpy as np
 from .._gateway.mechanisms import ElementKind, element_kinds
 from . import columns
 from .bodies import Point
+from .fixed import Fixed
 from .laws import Law
 from .measures import scalar
 from .numbers import AS_GIVEN, Numbers
@@ -18,7 +19,7 @@ WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # by han
 EFFORTS = {"force": "The force along its gauge, in N", "torque": "The moment along its gauge, in N m"}
 
 
-class MadeForce:
+class MadeForce(Fixed):
     """A force element between two points; verbs of `Mechanism` make it.
 
     Attributes

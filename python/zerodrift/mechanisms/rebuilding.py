@@ -12,6 +12,7 @@ import numpy as np
 from .. import _check
 from .describing import VERSION, WHAT
 from .expressions import from_json
+from .fixed import amend
 from .force_verbs import NEEDED, taken
 from .joints import BY_ROW, Joint
 from .made_forces import FORCES_BY_ROW, MadeForce
@@ -20,14 +21,25 @@ from .reading_json import law_and_of, point_of_body, told_direction, told_place
 from .rebuilding_space import IN_SPACE, keep_rotations
 from .system import LAYOUTS, MechanismSystem
 
+MOST_DIGITS = 400       # of a whole number in a file: doubles have at most 309
+
 
 def parsed(text: str, where: str) -> dict[str, Any] | None:
     """The JSON of a mechanism; None where the text is something else."""
     try:
-        found = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, where), parse_constant=_refused(where))
+        found = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, where), parse_constant=_refused(where),
+                           parse_int=lambda digits: _whole(digits, where))
     except json.JSONDecodeError:
         return None
+    except RecursionError:
+        raise ValueError(f"{where} has lists within lists, deeper than they can be read") from None
     return found if isinstance(found, dict) and found.get("zerodrift") == WHAT else None
+
+
+def _whole(digits: str, where: str) -> int:
+    if len(digits) > MOST_DIGITS:
+        raise ValueError(f"{where} has a whole number of {len(digits)} digits; there may be {MOST_DIGITS}")
+    return int(digits)
 
 
 def _once(pairs: list[tuple[str, Any]], where: str) -> dict[str, Any]:
@@ -73,7 +85,7 @@ def _element(m: Mechanism, description: Any, where: str) -> None:
     _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
     kind, name = description.get("kind"), description.get("name")
     made = MADE | IN_SPACE if m.dimension == 3 else MADE
-    if kind not in made:
+    if not isinstance(kind, str) or kind not in made:
         raise ValueError(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}")
     where = f"{where} ({kind} {name!r})"
     given = _fields(made[kind], description, where, skip=("kind", "name"))
@@ -129,7 +141,7 @@ def _revolute(m: Mechanism, name: str, *, first: Any, second: Any, damping: Any,
 def _prismatic(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any, damping: Any, cut: Any) -> None:
     axis, sides = told_direction("axis", axis), (told_place(m, first), told_place(m, second))
     joint = m.prismatic(name, *sides, axis=sides[0].body.pose.direction(axis), damping=damping, cut=cut)
-    joint.axis = axis
+    amend(joint, axis=axis)
 
 
 def _weld(m: Mechanism, name: str, *, first: Any, second: Any, cut: Any = False) -> None:
@@ -143,20 +155,20 @@ def _rod(m: Mechanism, name: str, *, first: Any, second: Any, length: Any = None
 def _slot(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
     axis, line = told_direction("axis", axis), point_of_body(m, first)
     joint = m.slot(name, line.body, told_place(m, second), axis=line.body.pose.direction(axis))
-    joint.first, joint.axis = line, axis
+    amend(joint, first=line, axis=axis)
 
 
 def _rolling(m: Mechanism, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
     normal, line = told_direction("normal", normal), point_of_body(m, first)
     joint = m.rolling(name, line.body, told_place(m, second), radius=radius, at=line.drawn,
                       normal=line.body.pose.direction(normal))
-    joint.first, joint.axis = line, np.array([normal[1], -normal[0]])
+    amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
 
 
 def _knife_edge(m: Mechanism, name: str, *, first: Any, second: Any, axis: Any) -> None:
     axis, point = told_direction("axis", axis), point_of_body(m, second)
     joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
-    joint.first, joint.axis = point_of_body(m, first), axis
+    amend(joint, first=point_of_body(m, first), axis=axis)
 
 
 def _by_row(joint: type[Joint]) -> Callable[..., None]:
@@ -169,9 +181,9 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
             axis = told_direction("axis", axis)
             given["axis"] = point_of_body(m, places[sides[0]]).body.pose.direction(axis)
         made = verb(m, name, *(told_place(m, places[side]) for side in sides), **given)
-        made.axis = axis
+        amend(made, axis=axis)
         if joint.is_of_one_body:
-            made.first = point_of_body(m, places["first"])
+            amend(made, first=point_of_body(m, places["first"]))
 
     words, needed = inspect.signature(verb).parameters, inspect.Parameter.empty
     optional = {word: None for word in joint.takes if words[word].default is None}
@@ -241,7 +253,7 @@ def _bushing(m: Mechanism, name: str, *, first: Any, second: Any, stiffness: Any
 def _force(m: Mechanism, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
     along, frame, (value, of) = told_direction("along", along, m.dimension), m._body("frame", frame), law_and_of(value, "value")
     force = m.force(name, told_place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
-    force.along = along
+    amend(force, along=along)
 
 
 def _torque(m: Mechanism, name: str, *, body: Any, against: Any, value: Any) -> None:
@@ -260,7 +272,7 @@ def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
             given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
         if "value" in given:
             given["value"], given["of"] = law_and_of(given["value"], "value")
-        verb(m, name, *(told_place(m, side) for side in sides), **given).axis = axis
+        amend(verb(m, name, *(told_place(m, side) for side in sides), **given), axis=axis)
 
     initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]

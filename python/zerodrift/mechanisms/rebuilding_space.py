@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from .bodies import Point
+from .fixed import amend
 from .reading_json import law_and_of, point_of_body, told_direction, told_place
 from .space import Pose3, given_rotation
 from .space_joints import BY_KIND, SpaceJoint
@@ -34,7 +35,7 @@ def _rotation(what: str, given: Any) -> np.ndarray:
 
 def _body(m: Any, name: str, *, mass: Any, inertia: Any, at: Any, rotation: Any, com: Any) -> None:
     body = m.body(name, mass, _matrix("inertia", inertia), at=at, rotation=rotation, com=com)
-    body.pose = Pose3(body.pose.origin, _rotation("rotation", rotation))
+    amend(body, pose=Pose3(body.pose.origin, _rotation("rotation", rotation)))
 
 
 def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, length: Any, thickness: Any = None,
@@ -44,7 +45,7 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     link = m.link(name, start, end, mass, length=length, thickness=thickness, inertia=inertia, normal=R[:, 2])
     if np.abs(link.pose.rotation - R).max() > SAME:
         raise ValueError("rotation must have the link along its first column")
-    link.pose = Pose3(link.pose.origin, R)
+    amend(link, pose=Pose3(link.pose.origin, R))
 
 
 def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
@@ -67,7 +68,7 @@ def _joint(kind: str) -> Callable[..., None]:
             raise ValueError("length must not be 0: it is the pitch")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
                                      length=None if length is None else _check.number("length", length), damping=damping)
-        made.frames, made.cut = both, _check.instance("cut", cut, bool, "True or False")
+        amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))
     return make
 
 
@@ -78,7 +79,7 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, frames: Any, semiaxe
     axle = centre.body.pose.direction(given[1][0])
     shape = {"radius": b, "axle": axle} if not a else {"radius": a} if a == b == c else {"semiaxes": (a, b, c)}
     joint = m.rolling(name, plane.body, centre, at=plane.drawn, normal=plane.body.pose.direction(given[0][0]), **shape)
-    joint.first, joint.frames = plane, given
+    amend(joint, first=plane, frames=given)
 
 
 def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damping: Any = 0.0, length: Any = None,
@@ -87,14 +88,14 @@ def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damp
     frames = _frames(m, point_of_body(m, first), point, frames)
     along, normal = (point.body.pose.direction(frames[1][i]) for i in (0, 2))
     joint = m.knife_edge(name, point, along=along, normal=normal)
-    joint.first, joint.frames = point_of_body(m, first), frames
+    amend(joint, first=point_of_body(m, first), frames=frames)
 
 
 def _bushing(m: Any, name: str, *, first: Any, second: Any, frames: Any, stiffness: Any, damping: Any, torsion: Any,
              torsion_damping: Any) -> None:
     bushing = m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
                         torsion_damping=torsion_damping)
-    bushing.frames = _frames(m, bushing.first, bushing.second, frames)
+    amend(bushing, frames=_frames(m, bushing.first, bushing.second, frames))
 
 
 def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any, value: Any) -> None:
@@ -103,7 +104,7 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any
     turns_with = frame if against is m.ground else against
     torque = m.torque(name, body, value=value, of=of, against=against, axis=turns_with.pose.direction(axis),
                       frame=frame)
-    torque.axis = axis
+    amend(torque, axis=axis)
 
 
 IN_SPACE: Mapping[str, Callable[..., None]] = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import operator
 import os
 from collections.abc import Sequence
@@ -229,6 +230,7 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
         asked = "".join(f", and {word} is for steps that are chosen" for word, value in given.items() if value is not None)
         raise ValueError(f"step is needed: {name!r} takes steps of fixed size{asked}; give step=, or "
                          f"{' or '.join(f'integrator={each!r}' for each in able)}, which can choose theirs")
+    given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
     found = {name: None if value is None else _check.number(name, value, least=least.get(name)) for name, value in values.items()}

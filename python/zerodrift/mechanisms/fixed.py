@@ -1,0 +1,36 @@
+"""Elements whose public attributes do not change, as systems and solutions share them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+class Fixed:
+    """Base of elements: a public attribute is set once, when the element is made, and its arrays are read-only.
+
+    Raises
+    ------
+    AttributeError
+        When it is set again; the message names what makes a system with another value.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            if name in self.__dict__:
+                element = self.__dict__.get("name", "")
+                raise AttributeError(
+                    f"{name} of {element!r} must not change, as systems and solutions share their elements: "
+                    f"m.with_parameters({{'{element}.{name}': value}}) makes a system with another value")
+            if isinstance(value, np.ndarray):
+                value = value.copy()
+                value.flags.writeable = False
+        object.__setattr__(self, name, value)
+
+
+def amend(element: Fixed, **values: Any) -> None:
+    """Sets attributes of an element that is not part of a system yet, as when it is read from a file."""
+    for name, value in values.items():
+        element.__dict__.pop(name, None)
+        setattr(element, name, value)
