@@ -39,7 +39,7 @@ def deep(depth):
 ])
 def test_expressions_that_are_refused(good, tmp_path, expression, message):
     (tmp_path / "h.json").write_text(with_law(good, expression))
-    with pytest.raises(ValueError, match=rf"element 3 \(motor 'motor'\).*{message}"):
+    with pytest.raises(ValueError, match=rf"element 2 \(motor 'motor'\).*{message}"):
         zd.load(tmp_path / "h.json")
 
 
