@@ -12,6 +12,7 @@ import numpy as np
 from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning
 from ..systems.base import core_of
+from . import branches
 from .rows import integrators, name_of
 from .solution import Solution
 from .summary import SMALLEST_PIVOT
@@ -105,12 +106,21 @@ def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:
                f"of its {steps} steps; an implicit method, as 'radau', takes longer ones")
 
 
+def _other_branch(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
+    """The step that led to another assembly branch. The check may take as long as a run; a jump changes the energy."""
+    if (at := branches.changed_at(solution)) is not None:
+        yield AccuracyWarning, (f"in the step from t = {at:.6g} a correction led to another assembly branch, which no motion "
+                                f"reaches from there: {TOO_COARSE}")
+
+
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     found = list(_numerical_energy(solution))
     if not found and not solution.stats["too_long"] and solution.stats["unresolved"]:
         found = [_unresolved_part(solution)]        # otherwise the same has been said of the whole mechanism
     for sentence in found:
         yield AccuracyWarning, f"{sentence}: {TOO_COARSE}"
+    if found or solution.stats["too_long"] or solution.stats["energy_skipped"]:
+        yield from _other_branch(solution)
 
 
 def _numerical_energy(solution: Solution) -> Iterator[str]:
