@@ -99,7 +99,12 @@ def test_a_solution_shows_its_film_above_its_text(crank):
     assert "sandbox=\"allow-scripts\"" in shown
     assert 'alt="slider_crank at the start of the motion"' in shown
     assert html.escape(repr(crank)) in shown
-    assert len(shown) < 250_000         # quotation marks are escaped in a frame
+    assert len(shown) < 125_000         # the film, and a still picture behind it
+
+
+def test_a_long_chain_shows_its_text_alone():
+    sol = zd.simulate(zd.models.chain(400), 1e-3, step=1e-3)
+    assert "<iframe" not in sol._repr_html_()
 
 
 def test_what_cannot_be_drawn_shows_its_text():

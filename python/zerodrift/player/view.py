@@ -23,6 +23,7 @@ from .scene import Wanted, scene
 HEIGHT = 460            # of a film in a notebook, in points of the screen
 GRAPH = 110             # more for each graph
 LARGEST = 100_000       # characters of the page that a solution shows of itself
+MOST_COORDINATES = 300  # of systems whose solutions show a film of themselves
 SHORTER = (900, 300, 100, 40)       # samples of it: the first whose page is not larger
 
 
@@ -78,7 +79,7 @@ class View:
         return (f'<div style="position:relative;height:{self.height}px;max-width:960px">'
                 f'<img alt="{name} at the start of the motion" src="data:image/png;base64,{self._still()}" '
                 'style="position:absolute;max-width:100%;max-height:100%">'
-                f'<iframe title="Film of {name}" sandbox="allow-scripts" srcdoc="{html.escape(self.page, quote=True)}" '
+                f'<iframe title="Film of {name}" sandbox="allow-scripts" srcdoc=\'{_quoted(self.page)}\' '
                 'style="position:absolute;width:100%;height:100%;border:0;background:Canvas"></iframe></div>')
 
     def _still(self) -> str:
@@ -102,12 +103,14 @@ class View:
 def of_solution(solution: Solution, text: str) -> str:
     """The film of a solution above its text, for notebooks; the text alone where the system cannot be drawn."""
     words = f"<pre>{html.escape(text)}</pre>"
+    if solution.system.nq > MOST_COORDINATES:
+        return f"{words}<small>zd.view(sol) shows the film of so many bodies; it takes a while to make.</small>"
     for samples in SHORTER:
         try:
             film = View([solution], [solution.system.name], Wanted(samples=samples))
         except (ValueError, ZerodriftError):
             return words
-        if len(film.page) <= LARGEST:
+        if len(_quoted(film.page)) <= LARGEST:
             thinned = samples < SHORTER[0] and film.samples == samples
             note = f"<small>The film shows {film.samples} samples; zd.view(sol) shows more.</small>" if thinned else ""
             return f"{film._repr_html_()}{note}{words}"
@@ -170,6 +173,11 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
     if len(labels) != len(solutions):
         raise ValueError(f"labels must name {len(solutions)} solutions, not {len(labels)}")
     return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
+
+
+def _quoted(page: str) -> str:
+    """A page as an attribute between single quotation marks."""
+    return page.replace("&", "&amp;").replace("'", "&#39;")
 
 
 @functools.cache
