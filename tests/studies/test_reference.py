@@ -1,5 +1,6 @@
 """`zd.reference`: what it certifies is true, and it certifies nothing that it cannot know."""
 
+import contextlib
 import math
 import pickle
 
@@ -191,6 +192,24 @@ def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
     assert np.abs(ref.solution.p[:, 0] - np.cos(ref.solution.t)).max() <= ref.error < 1e-12
     with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
         zd.reference(system, 1.0, formulations=("augmented", "schur"))
+
+
+# ---- joint and absolute coordinates ----
+
+
+def test_a_mechanism_is_compared_in_its_other_coordinates():
+    ref = zd.reference(zd.models.four_bar(), 0.3)
+    assert [d.formulation for d in ref.differences][-1] == "augmented, absolute"
+    assert 10 * max(d.p for d in ref.differences) <= ref.error < 1e-10
+
+
+def test_a_motion_that_is_another_in_other_coordinates_is_not_certified(monkeypatch):
+    """As where a rank is decided wrongly in one of them."""
+    system = zd.models.four_bar().system("joint")
+    other = system.with_parameters({"rocker.mass": 1.01 * system.parameters["rocker.mass"]})._in_other_coordinates()
+    monkeypatch.setattr(type(system), "_in_other_coordinates", lambda self: other)
+    with contextlib.suppress(zd.UnreachableTolerance):
+        assert zd.reference(system, 0.3).error > 1e-4
 
 
 # ---- what acts in a narrow place ----

@@ -125,6 +125,12 @@ class MechanismSystem(BaseSystem):
 
     # ---- written out ----
 
+    def _in_other_coordinates(self) -> MechanismSystem | None:
+        other = MechanismSystem(self._drawing, "absolute" if self.layout == "joint" else "joint", self._changed)
+        names = {variable.name for variable in (*self.coordinates, *self.velocities)}
+        known = {*other.measures, *(variable.name for variable in (*other.coordinates, *other.velocities))}
+        return other if names <= known and other.nv else None
+
     @property
     def _has_plain_laws(self) -> bool:
         laws = (getattr(element, "law", None) for element in self._drawing.elements.values())

@@ -53,6 +53,14 @@ class Perturbed(BaseSystem):
         return x * (1.0 + ROUNDING * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
 
 
+class Rows(NamedTuple):
+    """Times, coordinates and velocities of a run that was made in other coordinates."""
+
+    t: np.ndarray
+    p: np.ndarray
+    v: np.ndarray
+
+
 @dataclass(frozen=True)
 class Way:
     """How a run is made: its steps, equations and method, and how it is rounded (0: as it comes)."""
@@ -61,6 +69,7 @@ class Way:
     formulation: str
     integrator: str
     rounding: int = 0
+    is_elsewhere: bool = False      # in the other coordinates of the system
 
 
 class Motion:
@@ -72,6 +81,8 @@ class Motion:
         self._made_before: dict[tuple[Way, int], Solution | Exception | None] = {}
         self.bounded = bounds["max_step"] is not None
         self.is_plain = system._has_plain_laws
+        self.elsewhere = system._in_other_coordinates() if p0 is None and v0 is None else None
+        self.elsewhere_failed = False
         taken = settings.evaluating_integrators(system)
         cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
         self.method, self.other = cards[0].name, cards[1].name
@@ -130,18 +141,26 @@ class Motion:
                 raise KeyboardInterrupt
 
         system, (p0, v0) = self.system, self.start
+        if way.is_elsewhere:
+            system, p0, v0 = self.elsewhere, None, None
         if way.rounding:
             system = Perturbed(system, way.rounding)
             p0, v0 = (system.shifted(x, way.rounding + i) for i, x in enumerate((p0, v0)))
         saved = {"save_every": way.steps // (rows or way.steps)} if self.t_eval is None else {"t_eval": self.t_eval}
         try:
-            return simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
-                            formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
-                            direct=False, progress=look if stop else False, **saved)
+            run = simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
+                           formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
+                           direct=False, progress=look if stop else False, **saved)
+            return self._in_own_coordinates(run) if way.is_elsewhere else run
         except ZerodriftError as error:
             if error.solution is None:      # it did not even start
                 raise
             return None
+
+    def _in_own_coordinates(self, run: Solution) -> Rows:
+        """A run in other coordinates, in those of the motion: these are measures there."""
+        own = ([run[variable.name] for variable in group] for group in (self.system.coordinates, self.system.velocities))
+        return Rows(run.t, *(np.column_stack(columns) for columns in own))
 
     def difference(self, way: Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
         """How far that run is from the motion of so many steps, at the rows that both have."""
@@ -151,7 +170,8 @@ class Motion:
         if run is not None:
             every, its = (1, 1) if self.t_eval is not None else (steps // rows, (len(run.t) - 1) // rows)
             apart = [float(np.abs(getattr(motion, name)[::every] - getattr(run, name)[::its]).max()) for name in "pv"]
-        return Difference(way.steps, way.formulation, *apart, way.integrator, way.rounding > 0)
+        equations = f"{way.formulation}, {self.elsewhere.layout}" if way.is_elsewhere else way.formulation
+        return Difference(way.steps, equations, *apart, way.integrator, way.rounding > 0)
 
 
 def _shift(t: np.ndarray, x: np.ndarray) -> float:

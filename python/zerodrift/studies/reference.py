@@ -12,6 +12,8 @@ another reason to disagree:
   all formulations do the same arithmetic, and would only seem to agree;
 * one with five thirds of the steps, rounded off in a third way: it is finer than what it checks, and shares few of its instants.
   In time, its points of evaluation are more than three times as dense as those of the first;
+* of a mechanism that has joint and absolute coordinates, one in the others: runs that share coordinates share what follows from
+  their ranks;
 * where terms are not all polynomials, sines and cosines, so that something may act in a narrow place which no other run has
   evaluated: one with many times the steps, whose points of evaluation lie as densely in the state as in time.
 
@@ -61,6 +63,7 @@ TIME = ("terms depend on t, and no max_step was said: what acts for less than th
 PLACE = ("not all terms are polynomials, sines and cosines, and neither max_move nor max_step was given: what acts in a place "
          "narrower than the way between the points at which they were evaluated, some {apart:.2g} of a coordinate, may have been "
          "missed")
+COORDINATES = "the mechanism's other coordinates cannot follow this motion, so that no run in these was compared"
 ROUNDED = ("the difference between runs stops falling at round-off and at the tolerance of corrections, which this motion "
            "multiplies")
 SLOWLY = "halving the steps divides the differences"
@@ -99,7 +102,7 @@ class Reference:
     def __repr__(self) -> str:
         lines = [f"Reference of {self.solution.system.name}: |error of p| <= {self.error:.2g}, "
                  f"|error of v| <= {self.velocity_error:.2g}, {len(self.solution.t)} rows"]
-        lines += [f"  {d.steps:8} steps, {d.formulation:12} {d.integrator:14} {'rounded otherwise, ' if d.rounded else '':19}"
+        lines += [f"  {d.steps:8} steps, {d.formulation:19} {d.integrator:14} {'rounded otherwise, ' if d.rounded else '':19}"
                   f"differ by {d.p:.2g} in p, {d.v:.2g} in v" for d in self.differences]
         return "\n".join(lines + [f"  not excluded: {caveat}" for caveat in self.caveats])
 
@@ -248,6 +251,8 @@ class _Search:
         differences.append(motion.difference(self._finer(steps), fine, steps))
         if self._looks_for_places:
             differences.append(motion.difference(self._dense(steps), fine, steps))
+        if motion.elsewhere is not None:
+            differences += self._in_other_coordinates(fine, steps)
         errors = [SAFETY * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
                   for name, shift in zip("pv", motion.shift, strict=True)]
         found = Reference(fine, *errors, tuple(differences))
@@ -280,6 +285,18 @@ class _Search:
     def _finer(self, steps: int) -> Way:
         return Way(5 * steps // UNIT, self._of_finer(), self.motion.method, rounding=3)
 
+    def _in_other_coordinates(self, fine: Solution, steps: int) -> list[Difference]:
+        """The difference of a run in other coordinates; none where these cannot follow the motion, which is a caveat then."""
+        motion = self.motion
+        way = Way(steps, next(iter(settings.formulations(motion.elsewhere))), motion.method, is_elsewhere=True)
+        with contextlib.suppress(ZerodriftError):
+            found = motion.difference(way, fine, steps)
+            if math.isfinite(found.p):
+                return [found]
+        motion.elsewhere_failed = True
+        motion.elsewhere = None
+        return []
+
     def _dense(self, steps: int) -> Way:
         return Way(steps * max(2, math.ceil(DENSE / steps)), self._of_finer(), self.motion.method, rounding=4)
 
@@ -309,9 +326,10 @@ class _Search:
 
     def _is_missing_something(self, found: Reference) -> bool:
         """Whether the run with the densest points of evaluation differs from the motion by more than all others."""
-        *others, dense = found.differences
-        explained = max(each.p for each in others) + ROUNDING * self.motion.size
-        return len(others) == CHECKS and dense.p > EXPLAINED * explained
+        if not self._looks_for_places:
+            return False
+        others, dense = found.differences[:CHECKS], found.differences[CHECKS]
+        return dense.p > EXPLAINED * (max(each.p for each in others) + ROUNDING * self.motion.size)
 
     def _is_rounding(self, found: Reference) -> bool:
         """Whether runs differ by what rounding was seen to do, or may do where each step rounds the same way."""
@@ -325,6 +343,8 @@ class _Search:
         apart = LARGEST_GAP * (motion.span[1] - motion.span[0]) / self._of_instants(found, steps)
         if not (core_of(motion.system).timeless or motion.bounded):
             yield TIME.format(apart=apart)
+        if motion.elsewhere_failed:
+            yield COORDINATES
         if not (motion.is_plain or motion.bounded or motion.bounds.get("max_move")):
             yield PLACE.format(apart=apart * motion.speed)
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself

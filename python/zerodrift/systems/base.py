@@ -331,6 +331,10 @@ class BaseSystem:
         """Whether there is one."""
         return False
 
+    def _in_other_coordinates(self) -> BaseSystem | None:
+        """The same system in other coordinates, whose solutions have all of its own by name; None where there are none."""
+        return None
+
     @property
     def _has_plain_laws(self) -> bool:
         """Whether its terms are known to be polynomials, sines and cosines, besides elements that are smooth."""
