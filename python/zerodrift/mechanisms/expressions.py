@@ -15,7 +15,8 @@ SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessT
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
              "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
 DEEPEST = 100       # operations within operations: deeper ones would be beyond Python's stack
-LARGEST = 2**DOUBLE     # of whole numbers, and of powers of numbers: SymPy computes them with all their digits as it reads them
+LARGEST = 10**309       # of whole numbers: doubles end there
+MOST_BITS = 3000        # of powers of numbers, which SymPy computes with all their digits as it reads them
 CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
 
 
@@ -108,7 +109,7 @@ def _integer(written: int, what: str) -> Any:
     import sympy as sp
 
     if abs(written) > LARGEST:
-        raise ValueError(f"{what} must have whole numbers of at most {LARGEST}, not one of {written.bit_length()} bits")
+        raise ValueError(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits")
     return sp.Integer(written)
 
 
@@ -117,5 +118,5 @@ def _check_power(base: Any, exponent: Any, what: str) -> None:
     if not (base.is_Rational and exponent.is_Rational):
         return
     bits = max(int(base.p).bit_length(), int(base.q).bit_length())
-    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > DOUBLE * DOUBLE):
+    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MOST_BITS):
         raise ValueError(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory")
