@@ -25,6 +25,7 @@ from . import style as _style
 from .style import COLOURS
 
 MARKERS = "os^Dv<>pPX*"
+BEYOND = 1e30           # of an error: no scale that shows it shows the others
 
 
 def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
@@ -282,7 +283,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
 
     The colour is that of the integrator, dashed where it chooses its steps; the marker is that of the formulation and the
-    corrections. Runs that failed are not there; below the dotted line, errors are those of the reference.
+    corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the dotted line, errors are those of the reference.
 
     Parameters
     ----------
@@ -305,7 +306,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     _check.instance("result", result, WorkPrecision, "what zd.work_precision returns")
     ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
-    done = [row for row in result.rows if row.success and row.error > 0]
+    done = [row for row in result.rows if row.success and 0 < row.error < BEYOND]
     integrators = _assign((row.setting.integrator for row in result.rows), COLOURS)
     variants = _assign((_variant(row.setting) for row in result.rows), MARKERS)
     for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
