@@ -283,7 +283,8 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
 
     The colour is that of the integrator, dashed where it chooses its steps; the marker is that of the formulation and the
-    corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the dotted line, errors are those of the reference.
+    corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the dotted line, errors are
+    those of the reference.
 
     Parameters
     ----------
