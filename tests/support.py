@@ -1,5 +1,7 @@
 """What several tests need: the systems there are, states of theirs, the paper's equations in plain NumPy, and comparisons."""
 
+import os
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +14,11 @@ from zerodrift import _gateway
 
 ROOT = Path(__file__).resolve().parent.parent
 FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators(zd.systems.four_bar()))
+
+
+def environment_of_tests(**variables):
+    """Of processes that import what this one can, the package from where it is installed."""
+    return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))} | variables
 
 
 def _instances():

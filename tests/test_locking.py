@@ -10,7 +10,7 @@ import threading
 import pytest
 
 import zerodrift as zd
-from support import ROOT
+from support import environment_of_tests
 from zerodrift import _locking
 from zerodrift._locking import Lock
 
@@ -70,8 +70,7 @@ with Lock(Path(sys.argv[1]), "held by"):
 def test_a_killed_process_holds_nothing(tmp_path, which):
     """Nor do the processes that it has forked, which go on."""
     path = tmp_path / "lock"
-    holder = subprocess.Popen([sys.executable, "-c", HOLDER, path, which], stdin=subprocess.PIPE, env=os.environ | {
-        "PYTHONPATH": os.pathsep.join([str(ROOT / "python"), *filter(None, sys.path)])})
+    holder = subprocess.Popen([sys.executable, "-c", HOLDER, path, which], stdin=subprocess.PIPE, env=environment_of_tests())
     assert holder.wait() == -signal.SIGKILL
     assert path.exists()
     for _ in range(1000):       # until the child has closed what it inherited

@@ -1,15 +1,14 @@
 """The site: it builds without a warning, and the code of its pages runs."""
 
-import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import matplotlib
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from support import ROOT, environment_of_tests
+
 PAGES = ROOT / "notebooks"
 
 
@@ -27,9 +26,8 @@ def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
 def test_the_site_builds_without_a_warning(tmp_path):
     for package in ("sphinx", "myst_nb", "numpydoc", "pydata_sphinx_theme"):
         pytest.importorskip(package)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "-n", "-d", str(tmp_path / "doctrees"), str(PAGES),
-                           str(tmp_path / "site")], capture_output=True, text=True, check=False, env=environment)
+                           str(tmp_path / "site")], capture_output=True, text=True, check=False, env=environment_of_tests())
     assert (done.returncode, done.stderr) == (0, "")
     for page in ("index", "how_to", "generated/errors", "generated/api/zerodrift.simulate"):
         assert (tmp_path / "site" / f"{page}.html").is_file()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import ROOT
+from support import environment_of_tests
 from zerodrift import _writing
 from zerodrift._writing import write_whole
 
@@ -79,8 +79,7 @@ write_whole(sys.argv[1], write)
 def test_an_older_file_survives_a_process_that_is_killed(tmp_path):
     path = tmp_path / "run"
     path.write_bytes(b"what was there")
-    done = subprocess.run([sys.executable, "-c", KILLED, path], check=False, env=os.environ | {
-        "PYTHONPATH": os.pathsep.join([str(ROOT / "python"), *filter(None, sys.path)])})
+    done = subprocess.run([sys.executable, "-c", KILLED, path], check=False, env=environment_of_tests())
     assert done.returncode == -signal.SIGKILL
     assert path.read_bytes() == b"what was there"
 

@@ -16,6 +16,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from small_studies import dies, locks, lowest, pendulum, waits
+from support import environment_of_tests
 from zerodrift.ensembles import executors, transport
 from zerodrift.ensembles.store import Store
 
@@ -301,10 +302,8 @@ def test_a_cluster_whose_worker_is_killed(tmp_path):
     pytest.importorskip("distributed", reason="needs dask's cluster: pip install 'zerodrift[cluster]'")
     counted, stored, script = tmp_path / "counted", tmp_path / "stored", tmp_path / "script.py"
     script.write_text(CLUSTER)
-    here = os.path.dirname(os.path.dirname(__file__))
-    paths = os.pathsep.join([here, *filter(None, sys.path)])
     ended = subprocess.run([sys.executable, script, tmp_path / "study", stored], timeout=tol.HUNG, capture_output=True, text=True,
-                           env=os.environ | {"ZERODRIFT_COUNTED": str(counted), "PYTHONPATH": paths})
+                           env=environment_of_tests(ZERODRIFT_COUNTED=str(counted)))
     assert ended.returncode == 0, ended.stderr
     found = zd.load(tmp_path / "study")
     alone = zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 60)}, step=0.01, outputs=["link.angle"])

@@ -16,7 +16,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from small_studies import lowest, pendulum, slow, waits
-from support import ROOT
+from support import environment_of_tests
 from zerodrift import _writing
 from zerodrift.ensembles import store as module
 from zerodrift.ensembles.identity import Identity
@@ -59,7 +59,7 @@ zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 60)}, s
 def test_a_killed_study_goes_on(tmp_path, monkeypatch):
     """With another number of runs in a chunk and of threads; nothing that was finished is made again."""
     folder, counted = tmp_path / "study", tmp_path / "counted"
-    environment = os.environ | {"ZERODRIFT_COUNTED": str(counted), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    environment = environment_of_tests(ZERODRIFT_COUNTED=str(counted))
     monkeypatch.setenv("ZERODRIFT_COUNTED", str(counted))
     killed = subprocess.run([sys.executable, "-c", KILLED, folder], env=environment, timeout=tol.HUNG)
     assert killed.returncode == -signal.SIGKILL
@@ -157,7 +157,7 @@ zd.ensemble(pendulum, 1.0, parameters={"gravity": np.linspace(5.0, 10.0, 12)}, s
 
 def test_a_store_in_use_is_refused(tmp_path, monkeypatch):
     """To a thread and to a process, for the same study; its own call goes on, and a finished study may be read by many."""
-    seen, environment = [], os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    seen, environment = [], environment_of_tests()
     write = module.Store.write
 
     def again(self, first, part):
@@ -349,7 +349,7 @@ for each in (zd.systems.four_bar(), system, zd.models.slider_crank().system(), l
 
 def test_identities_do_not_depend_on_the_process(capsys):
     """Nor on what a system has found out meanwhile; strings hash otherwise in each process."""
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), *filter(None, sys.path)])}
+    environment = environment_of_tests()
     there = subprocess.run([sys.executable, "-c", IDENTITIES], env=environment, check=True, text=True, capture_output=True).stdout
     exec(IDENTITIES, {"__name__": "__main__"})
     assert capsys.readouterr().out == there

@@ -35,13 +35,6 @@ def changed_at(solution: Any) -> float | None:
     system, rows = solution.system, len(solution.t)
     if not 0 < system.mh <= system.nv <= LARGEST or rows < 2 or rows != solution.stats["steps"] + 1:
         return None
-    try:
-        return _first_change(solution)
-    except Exception:       # of the user's functions, which may be undefined beside the motion
-        return None
-
-
-def _first_change(solution: Any) -> float | None:
     branch = _Branch(solution)
     if branch.rank < 1:
         return None
@@ -127,7 +120,10 @@ class _Branch:
         for step in range(steps + APPROACHES):
             share = 1 / max(steps - step, 2)
             time = t[begin] + (t[end] - t[begin]) * min(1, (step + 1) / steps)
-            moved = self._step(time, p, share * (target - p) / self.scale_p)
+            try:
+                moved = self._step(time, p, share * (target - p) / self.scale_p)
+            except Exception:       # of the user's functions, which may be undefined beside the motion
+                return 0.0
             if moved is None:
                 return 0.0
             p = moved
