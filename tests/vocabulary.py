@@ -1,0 +1,96 @@
+"""Texts of the project: docstrings, comments, messages and pages, each with the place where it stands."""
+
+import ast
+import io
+import json
+import re
+import tokenize
+from dataclasses import dataclass
+from pathlib import Path
+
+from support import ROOT
+
+PYTHON, C, PAGES = "python/zerodrift", "csrc", "notebooks"
+DESCRIBED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text of the project."""
+
+    file: str
+    line: int
+    kind: str       # docstring, comment, message or page
+    owner: str      # the function or class that a docstring describes, the exception that a message belongs to, or ""
+    text: str
+
+    def __str__(self):
+        return f"{self.file}:{self.line}: {self.kind} {self.owner}: {' '.join(self.text.split())[:200]}"
+
+
+def python_texts(path):
+    """Docstrings, comments and messages of exceptions and warnings in a Python file."""
+    source, file = path.read_text(encoding="utf-8"), str(path.relative_to(ROOT))
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, DESCRIBED) and (found := ast.get_docstring(node)):
+            yield Text(file, getattr(node, "lineno", 1), "docstring", getattr(node, "name", ""), found)
+        if isinstance(node, ast.Call) and (name := _exception(node.func)):
+            for found in filter(None, map(_message, node.args[:2])):
+                yield Text(file, node.lineno, "message", name, found)
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            yield Text(file, token.start[0], "comment", "", token.string.lstrip("# "))
+
+
+def _exception(function):
+    name = getattr(function, "id", getattr(function, "attr", ""))
+    return name if re.search(r"(Error|Warning|^warn)$", name) else ""
+
+
+def _message(node):
+    """The text of a string or an f-string; values stand as {}."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if isinstance(node, ast.JoinedStr):
+        return "".join(part.value if isinstance(part, ast.Constant) else "{}" for part in node.values)
+    if isinstance(node, ast.BinOp):
+        return (_message(node.left) or "") + (_message(node.right) or "")
+    return None
+
+
+def c_texts(path):
+    """Comments and strings with a blank of a C file, in the order in which they stand."""
+    source, file = path.read_text(encoding="utf-8"), str(path.relative_to(ROOT))
+    for found in re.finditer(r"/\*(.*?)\*/|//([^\n]*)|\"((?:[^\"\\\n]|\\.)*)\"", source, re.DOTALL):
+        comment, line = found[1] or found[2], source.count("\n", 0, found.start()) + 1
+        if comment:
+            yield Text(file, line, "comment", "", re.sub(r"\n\s*\*", "\n", comment).strip())
+        elif found[3] and " " in found[3]:
+            yield Text(file, line, "message", "", found[3])
+
+
+def page_texts(path):
+    """Paragraphs of a page, or cells of a notebook that are text."""
+    file = str(path.relative_to(ROOT))
+    if path.suffix == ".ipynb":
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        for k, cell in enumerate(cells):
+            if cell["cell_type"] == "markdown":
+                yield Text(file, k, "page", "", "".join(cell["source"]))
+        return
+    line = 1
+    for paragraph in path.read_text(encoding="utf-8").split("\n\n"):
+        yield Text(file, line, "page", "", paragraph)
+        line += paragraph.count("\n") + 2
+
+
+READERS = {".py": python_texts, ".c": c_texts, ".h": c_texts, ".md": page_texts, ".ipynb": page_texts}
+
+
+def texts(*places):
+    """Texts of files and folders, sorted by file."""
+    for place in places:
+        path = ROOT / place
+        for file in [path] if path.is_file() else sorted(path.rglob("*")):
+            if file.suffix in READERS and "__pycache__" not in file.parts:
+                yield from READERS[file.suffix](Path(file))
