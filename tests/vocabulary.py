@@ -11,6 +11,7 @@ from pathlib import Path
 from support import ROOT
 
 PYTHON, C, PAGES = "python/zerodrift", "csrc", "notebooks"
+MADE = {"__pycache__", "generated"}      # folders that git does not hold
 DESCRIBED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
 
@@ -92,5 +93,5 @@ def texts(*places):
     for place in places:
         path = ROOT / place
         for file in [path] if path.is_file() else sorted(path.rglob("*")):
-            if file.suffix in READERS and "__pycache__" not in file.parts:
+            if file.suffix in READERS and not MADE.intersection(file.parts):
                 yield from READERS[file.suffix](Path(file))
