@@ -18,7 +18,7 @@ class Network(Bodies):
     """Bodies that hang on each other as a tree, with loops, and on one that has many joints; blocks and groups of random sizes.
 
     Phi is quadratic, with rows of random numbers; the last groups are nonholonomic. M is full in some blocks, diagonal in others.
-    `redundant`: so many groups follow from others, one from one each. `massless`: so many bodies have no mass in one of their
+    `redundant`: so many groups are redundant, one from one each. `massless`: so many bodies have no mass in one of their
     velocities, where constraints hold them.
     """
 
@@ -52,7 +52,7 @@ class Network(Bodies):
         self.rows, self.curved = (size * mask * rng.normal(size=(self.m, n)) for size in (1.0, 0.1))
         self.force, self.bias = rng.normal(size=n), rng.normal(size=n)
         self.blocks, self.kinematics, self.groups = np.repeat(np.arange(count), self.velocities), False, groups
-        self.following = np.zeros(self.m, dtype=bool)      # rows that follow from others
+        self.following = np.zeros(self.m, dtype=bool)      # redundant rows
         for _ in range(redundant):
             self._repeat(more)
         self.structure = zd.Structure([int(size) for size in self.velocities], self.groups, words)

@@ -138,7 +138,7 @@ def check_massless(seed):
 def on_branch(random, vdot):
     """What is left of the second derivatives along p + vdot t^2 / 2, and the acceleration on that.
 
-    Where rows of C follow from others, the same combinations of Phi are of second order, and their gradients along the branch
+    Where rows of C are redundant, the same combinations of Phi are of second order, and their gradients along the branch
     are rows again.
     """
     C = random.C(random.p)[: random.mh]

@@ -34,7 +34,7 @@ def slow(sol):
 
 
 def dies(sol):
-    """The same; the process dies at the eighth run, as if it was killed, but for those that survive."""
+    """The same; the process dies at the eighth run, as if it was killed, except those that survive."""
     if sol.p[-1, 0] < -3.11 and "ZERODRIFT_SURVIVES" not in os.environ:
         os._exit(9)
     return lowest(sol)

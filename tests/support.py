@@ -181,7 +181,7 @@ def assert_same_bits(one, other, rows=slice(None)):
 
 
 def handed(**changed):
-    """The core's own settings, right but for what is changed; `correction` has the parameters of some by their names."""
+    """The core's own settings, right except what is changed; `correction` has the parameters of some by their names."""
     given = {"projection": {}} | changed.pop("correction", {})
     corrections = {name: [values.get(parameter.name, parameter.initial[0]) for parameter in zd.corrections()[name].parameters]
                    for name, values in given.items()}

@@ -29,7 +29,7 @@ def test_one_holder_and_no_file_afterwards(tmp_path):
 
 
 def test_many_threads_hold_it_one_after_the_other(tmp_path):
-    """A file that is removed as another thread opens it is no lock: there would be two holders."""
+    """A file that is removed as another thread opens it is not a lock: there would be two holders."""
     holders, most, refused = [], [], []
 
     def work():

@@ -13,8 +13,10 @@ from vocabulary import PAGES, PYTHON, C, texts
 PLACES = (PYTHON, C, PAGES, "README.md", "tests")
 GLOSSARY = "notebooks/glossary.md"      # it names the older words
 REFUSED = (
-    "general road", "direct road", r"(?<!\ba )\broads?\b", "rows that count", r"what is left of a", "natural units", "somebody", "nobody",
-    r"\b(is|are|was|were|be|been) told", r"\b(is|are|was|were) no\b(?! (longer|more|less|slower|faster|larger|smaller|later))",
+    "general road", "direct road", r"(?<!\ba )\broads?\b", "rows that count", r"what is left of a", "natural units", "somebody",
+    "nobody",
+    r"\b(is|are|was|were|be|been) told",
+    r"(?<!there )\b(is|are|was|were) no\b(?! (longer|more|less|slower|faster|larger|smaller|later))",
     r"\bbut for\b", r"\bfollows? from others", "chosen steps", "steps are chosen", r"\bsaved rows?\b", r"\blight parts?\b",
     "lengths win", "need no word", r"\b(is|are|was|were) asked\b", r"\bglances?\b", "lookout", r"\bblame",
 )

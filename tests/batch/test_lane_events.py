@@ -1,4 +1,4 @@
-"""Events of runs in vector lanes: where `simulate` finds them but for rounding, with bits that do not depend on neighbours."""
+"""Events of runs in vector lanes: where `simulate` finds them up to rounding, with bits that do not depend on neighbours."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ COURSES = {"rk4": {"step": 0.01}, "seldom": {"step": 0.01, "save_every": 7}, "wi
            # by 1e-6 and more from where shorter steps would have them
            "long": {"integrator": "dop853", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES},
            "longer": {"integrator": "dormand_prince", "rtol": 1e-4, "atol": 1e-4, "t_eval": TIMES}}
-ALIKE = 1e-9        # rounding grows over two seconds; the tolerance where steps are chosen by errors that it is part of
+ALIKE = 1e-9        # rounding grows over two seconds; the tolerance of adaptive steps, whose errors include it
 pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 
 

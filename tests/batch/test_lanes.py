@@ -1,4 +1,4 @@
-"""Runs side by side in vector lanes: those of `simulate` but for rounding, with bits that do not depend on their neighbours."""
+"""Runs side by side in vector lanes: those of `simulate` up to rounding, with bits that do not depend on their neighbours."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_runs_are_those_of_simulate_but_for_rounding(kind, course, unit):
     for run in (0, 7, 10):
         sol = zd.simulate(system, 0.4, v0=starts[run], **options)
         assert np.array_equal(list(part.times())[run], sol.t)
-        for name in names:      # rounding grows over a run, and where steps are chosen by errors that it is part of
+        for name in names:      # rounding grows over a run, and with adaptive steps, whose errors include it
             size = max(1.0, np.abs(sol[name]).max())
             assert np.abs(rows_of(part, name)[run] - sol[name]).max() < 1e-10 * size, name
 

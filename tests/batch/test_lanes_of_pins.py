@@ -1,4 +1,4 @@
-"""Many bodies joined by pins, side by side in vector lanes: runs that are those of `simulate` but for rounding."""
+"""Many bodies joined by pins, side by side in vector lanes: runs that are those of `simulate` up to rounding."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
 """What a call of `simulate` takes beyond its steps, on the paper's four-bar, and what the import takes.
 
 Run it with ``python tests/bench/bench_call.py``; it writes ``results/call.csv``. A call of few steps is timed in turn with one of
-more, ten of each in a row, and what a step adds is taken off; where steps are chosen, what the core took for all of them. The
+more, ten of each in a row, and what a step adds is taken off; with adaptive steps, what the core took for all of them. The
 least of many short rounds counts, as each of them may fall between what else the machine does.
 """
 
@@ -20,7 +20,7 @@ from measuring import least, record, timed
 
 FEW, MANY, STEP = 10, 110, 0.01
 ROUNDS, IN_A_ROW = 300, 10
-RTOL = 1e-6     # where steps are chosen
+RTOL = 1e-6     # with adaptive steps
 
 
 def in_a_row(call):

@@ -1,4 +1,4 @@
-"""What rows and events between chosen steps cost, on the paper's four-bar over 8 s.
+"""What rows and events between adaptive steps cost, on the paper's four-bar over 8 s.
 
 Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few rows and with many are made in
 turn, and of each the least time of the core counts: for 161 rows, what they add to the run that saves its start and end alone;

@@ -9,7 +9,7 @@ import numpy as np
 import zerodrift as zd
 
 MOST = 60       # bodies, some
-OTHERS = {2: ["prismatic"], 3: ["prismatic", "cylindrical", "universal", "spherical"]}     # joints that are no hinges
+OTHERS = {2: ["prismatic"], 3: ["prismatic", "cylindrical", "universal", "spherical"]}     # joints that are not hinges
 
 
 class Assembly:
@@ -24,7 +24,7 @@ class Assembly:
         self.unequal = rng.choice([0.0, 0.5, 2.0])          # natural logarithms of masses differ by so much
         self.along = rng.choice([0.2, 0.7, 0.95])           # how often a body hangs on the one before it
         self.to_ground = rng.choice([0.0, 0.1, 0.4])        # how often it hangs on, or a loop goes to, the ground
-        self.other_joints = rng.choice([0.0, 0.0, 0.25])    # how often a joint is no hinge
+        self.other_joints = rng.choice([0.0, 0.0, 0.25])    # how often a joint is not a hinge
         closing = rng.choice([0.0, 0.2, 0.7])
         count = int(MOST ** rng.uniform(0, 1) if dimension == 2 else (MOST / 2) ** rng.uniform(0, 1)) + 1
         while len(self.bodies) <= count:

@@ -8,7 +8,7 @@ from support import assert_close
 
 
 def hinges(third=1.0, across=(0.0, 0.0, 1.0)):
-    """A four-bar of full hinges in space, its rocker's end at this x: three of its twenty rows follow from others."""
+    """A four-bar of full hinges in space, its rocker's end at this x: three of its twenty rows are redundant."""
     corners = np.array([[0, 0, 0], [0, 0.3, 0], [third, 0.3 if third == 1 else 0.6, 0], [1, 0, 0]], dtype=float)
     m = zd.Mechanism("hinges", dimension=3)
     a, b, c = (m.link(name, corners[i], corners[i + 1], mass=1.0 + i) for i, name in enumerate(("crank", "coupler", "rocker")))
@@ -19,7 +19,7 @@ def hinges(third=1.0, across=(0.0, 0.0, 1.0)):
 
 
 def cranks(count=3):
-    """A bar on so many parallel cranks in the plane: all but two give a row that follows from others."""
+    """A bar on so many parallel cranks in the plane: all but two give a redundant row."""
     m = zd.Mechanism("cranks")
     links = [m.link(f"crank{i}", (i, 0.0), (i + 0.5, 0.8), mass=1.0) for i in range(count)]
     bar = m.link("bar", (0.5, 0.8), (count - 0.5, 0.8), mass=2.0)
@@ -36,7 +36,7 @@ SCENES = {"hinges": lambda: hinges(0.9), "Bennett's linkage": zd.models.bennett,
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_kept_choice_gives_what_one_made_anew_does(name, formulation):
-    """Multipliers of least effect, of each saved row, where `zd.acceleration` chooses by itself: however far the mechanism has
+    """Multipliers of least effect, of each sample, where `zd.acceleration` chooses by itself: however far the mechanism has
     moved since its rows were chosen. To the share of rounding that products of rows keep.
     """
     system = SCENES[name]().system("absolute")

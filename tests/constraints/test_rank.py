@@ -1,4 +1,4 @@
-"""Constraints that follow from others wherever the system goes, and masses that are singular."""
+"""Constraints that are redundant wherever the system goes, and masses that are singular."""
 
 import numpy as np
 import pytest

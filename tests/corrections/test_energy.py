@@ -12,7 +12,7 @@ from support import SYSTEMS, assert_close, motion, with_energy
 
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning")
 def test_energy_correction_leaves_round_off(system, formulation, integrator):
-    """After every step, but for those that are counted as left out."""
+    """Round-off remains after every step, except after those that are counted as left out."""
     sol = motion(with_energy(system), 2.0, 100, formulation=formulation, integrator=integrator, energy=True)
     T, V = sol.kinetic_energy, sol.potential_energy
     allowed = tol.ENERGY * (T + np.abs(V) + np.abs(T[0] + V[0]))

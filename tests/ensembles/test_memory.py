@@ -24,7 +24,7 @@ def scarce(monkeypatch):
 
 
 def test_sizes_are_those_of_the_arrays():
-    """Of coordinates, vectors, components and solutions; not known where steps are chosen."""
+    """Of coordinates, vectors, components and solutions; not known with adaptive steps."""
     m = zd.models.four_bar()
     ens = zd.ensemble(m, 1.0, parameters={"crank.mass": [1.0, 2.0]}, step=0.01, outputs=["C.force", "C.force.x", "crank.angle"])
     assert ens._plan.sizes == tuple(ens[name].nbytes for name in ("C.force", "C.force.x", "crank.angle"))
@@ -66,7 +66,7 @@ def test_chosen_steps_stop_where_memory_gets_short(scarce):
         assert np.array_equal(ens["alpha1"][run], whole["alpha1"][run])
 
 
-@pytest.mark.parametrize("study", [STUDY, CHOSEN], ids=["fixed steps", "chosen steps"])
+@pytest.mark.parametrize("study", [STUDY, CHOSEN], ids=["fixed steps", "adaptive steps"])
 def test_a_store_may_be_larger_than_memory(scarce, tmp_path, study):
     """Its outputs stay in its files, some or all of them, and each is read when it is needed."""
     here = zd.ensemble(BAR, 1.0, **study)

@@ -360,7 +360,7 @@ static void simulate(input *in, const zd_system *system, const zd_settings *sett
     zd_run_free(run);
 }
 
-/* Within one row and another that is no end of its step: p and v become a state between them. */
+/* Within one row and another that is not an end of its step: p and v become a state between them. */
 static int states_between(const zd_system *system, const zd_settings *settings, double at, double *p, double *v, char *message, int size)
 {
     const double t[] = {settings->t0, settings->t1};

@@ -170,7 +170,7 @@ def without_jacobian(system, monkeypatch):
 
 @pytest.mark.parametrize("energy", [None, True])
 def test_expressions_bring_their_jacobian(stiff_governor, formulation, energy, monkeypatch):
-    """The run is the one by differences, but for what an iteration leaves; and each Jacobian takes fewer evaluations: of a state
+    """The run is the one by differences, except what an iteration leaves; and each Jacobian takes fewer evaluations: of a state
     (p, v) one instead of six or, with the energy that comes in, seven; in independent velocities two, and what finds p and v.
     """
     options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau", "formulation": formulation, "energy": energy}

@@ -159,7 +159,7 @@ class Plain:
         return np.concatenate([total[name] for name in self.names()])
 
     def accelerations(self, poses, v):
-        """(6 n,) in the drawing's axes; where rows follow from others, they are as determined as ever."""
+        """(6 n,) in the drawing's axes; where rows are redundant, they are as determined as ever."""
         C = self.jacobian(poses)
         change = (self.jacobian(self.moved(poses, H * v)) - self.jacobian(self.moved(poses, -H * v))) / (2 * H) @ v
         blocks = []

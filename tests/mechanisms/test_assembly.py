@@ -278,7 +278,7 @@ def test_redundant_rows_are_named_by_joint():
 
 
 def test_a_drawing_that_is_singular_is_told_from_redundancy():
-    """A four-bar stretched along a line: one row follows from others there, and nowhere near."""
+    """A four-bar stretched along a line: one row is redundant there, and nowhere near."""
     m = zd.Mechanism("flat", gravity=(0, -1))
     a, b, c = m.link("a", (0, 0), (1, 0), 1.0), m.link("b", (1, 0), (3, 0), 1.0), m.link("c", (3, 0), (4, 0), 1.0)
     for name, first, second in (("A", m.ground, a.start), ("B", a.end, b.start), ("C", b.end, c.start)):
@@ -394,7 +394,7 @@ def test_a_flat_parallelogram_is_told_by_the_names_of_its_rows_and_starts_beside
 
 
 def test_rows_that_all_but_vanish_in_a_stretched_drawing_are_no_violation():
-    """Two links that just reach: rounding of Phi over a row of 4e-8 m is no violation. (It is their only pose.)"""
+    """Two links that just reach: rounding of Phi over a row of 4e-8 m is not a violation. (It is their only pose.)"""
     m = zd.Mechanism("stretched")
     first, second = m.link("a", (0, 0), (0.6, 0.8), mass=1.0), m.link("b", (0.6, 0.8), (2, 0), mass=1.0, length=1.0)
     m.revolute("A", m.ground, first.start)

@@ -19,7 +19,7 @@ def started(tables, poses, rates, law=None, *, absolute=False, **options):
 
 
 def measures_along(system, sol, name):
-    """A measure at every saved row."""
+    """A measure at every sample."""
     rows = range(len(sol.t))
     vdot = [zd.acceleration(system, sol.p[i], sol.v[i], sol.t[i])[0] for i in rows]
     return np.array([system.measured(name, sol.t[i], sol.p[i], sol.v[i], vdot[i], sol.multipliers[i]) for i in rows])

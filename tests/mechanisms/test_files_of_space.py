@@ -16,7 +16,7 @@ TURNED = about((0.3, 0.6, -0.2), 0.7)      # so that no axis is one of the drawi
 
 
 def everything():
-    """A mechanism with every kind of joint and force, whose numbers are no round ones."""
+    """A mechanism with every kind of joint and force, whose numbers are not round ones."""
     m = zd.Mechanism("all sorts", dimension=3, gravity=(0.1, 0.2, -9.81), parameters={"k": 1 / 3})
 
     def box(name, *at):

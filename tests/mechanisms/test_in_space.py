@@ -66,7 +66,7 @@ def four_bar(turned=None):
 
 @pytest.mark.parametrize("wanted", ["schur", "nullspace", "independent"])
 def test_a_mechanism_of_the_plane_in_space(wanted):
-    """Reactions, too, but for those that nothing determines."""
+    """Reactions agree, too, except those that are not determined."""
     R = TILTED
     space, plane = four_bar(R), four_bar()
     sol, other = (zd.simulate(m, 0.4, formulation=wanted, integrator="dop853", step=1e-2)

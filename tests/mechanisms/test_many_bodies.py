@@ -198,7 +198,7 @@ def test_an_end_within_a_long_chain_is_held(make, n, held):
 
 @pytest.mark.parametrize("make", [chain, four_bars, doubled, star])
 def test_what_is_printed_is_what_dense_matrices_say(make, few):
-    """But for reactions that are not determined, and of the rows that follow from others which of those that do."""
+    """Except reactions that are not determined, and of the redundant rows which of those that do."""
     dense = str(make(4)).splitlines()
     few()
     found = str(make(4)).splitlines()

@@ -1,5 +1,5 @@
 """Rows of parallelograms that swing through the line in which all links lie: digits that are lost there are told, also where rows
-follow from others.
+are redundant.
 """
 
 import numpy as np

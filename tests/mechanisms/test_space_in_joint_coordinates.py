@@ -41,7 +41,7 @@ def moving(seed, bodies, loops, on_ground=None):
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3, 4, 6, 9, 11, 22, 27, 31])
 def test_joint_coordinates_equal_absolute_ones(seed):
-    """Trees and up to three loops, rolling and gliding; where rows follow from others, reactions are not determined."""
+    """Trees and up to three loops, rolling and gliding; where rows are redundant, reactions are not determined."""
     m = moving(seed, 2 + seed % 4, seed % 4, [None, *ON_GROUND, "blade"][seed % 5])
     formulation = FORMULATIONS[seed % len(FORMULATIONS)]
     found = compared(m, formulation=formulation)

@@ -123,7 +123,7 @@ def test_what_a_held_value_moves_is_named():
 
 
 def test_a_driven_shaft_with_a_universal_joint_is_not_locked():
-    """Two shafts at 0.5 rad through Hooke's joint: tan(out) = tan(in) / cos 0.5; three rows follow from others, and all moves."""
+    """Two shafts at 0.5 rad through Hooke's joint: tan(out) = tan(in) / cos 0.5; three rows are redundant, and all moves."""
     m = zd.Mechanism("shafts", dimension=3)
     one, other = (m.body(name, 1.0, (0.1, 0.1, 0.1)) for name in ("one", "other"))
     m.revolute("in", m.ground, one, axis=(1, 0, 0), at=(0, 0, 0))

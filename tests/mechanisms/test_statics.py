@@ -40,9 +40,10 @@ def test_a_panel_with_a_bar_too_many(dimension, layout, formulation):
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 @pytest.mark.parametrize("bays", [4, 12])
 def test_nodes_of_a_cantilever_are_in_balance(bays, layout, formulation):
-    """But for roundings of the largest force, as many as the condition of S = C M^-1 C^T, where M is one.
+    """Except roundings of the largest force, as many as the condition of S = C M^-1 C^T, where M is one.
 
-    Twelve bays, more than 40 rows, are solved in blocks with the rows that count, whose condition is a hundred times that of all.
+    Twelve bays, more than 40 rows, are solved in blocks with the independent rows, whose condition is a hundred times that of
+    all.
     """
     system = truss(bays).system(layout)
     sol = zd.simulate(system, 0.05, step=0.01, formulation=formulation)

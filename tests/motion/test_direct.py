@@ -1,4 +1,4 @@
-"""Steps along the direct road are those of the general one to rounding, and in any doubt they take that."""
+"""Steps on the closed-form path agree with those on the matrix path to rounding, which repeats doubtful ones."""
 
 import functools
 
@@ -38,7 +38,7 @@ STABILIZATIONS = {
 
 
 def both(moving, span=SHORT, **options):
-    """The motion along the general road and along the direct one."""
+    """The motion along the matrix path and along the direct one."""
     return [zd.simulate(moving, span, direct=direct, on_failure="return", **options) for direct in (False, None)]
 
 
@@ -142,7 +142,7 @@ def moving(name):
 @pytest.mark.parametrize("equations", INDEPENDENT)
 @pytest.mark.parametrize("name", MOVING)
 def test_both_roads_integrate_the_same_independent_velocities(name, equations, stabilization):
-    """And choose others at the same steps, each of which the general road makes."""
+    """And choose others at the same steps, each of which the matrix path makes."""
     options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization], "formulation": equations}
     if stabilization == "projection" and name not in ("driven_four_bar", 4):     # where all motion is enforced, or nearly
         options["energy"] = True
@@ -213,7 +213,7 @@ def with_a_row_apart(seed, apart):
 @pytest.mark.parametrize("equations", [*DEPENDENT, *INDEPENDENT])
 @pytest.mark.parametrize("seed", [0, 18, 20])       # driven, with a nonholonomic row and one held by time; one; the other
 def test_both_roads_agree_however_far_rows_are_apart(seed, equations, apart):
-    """What is nearly the same twice is ranked on the general road, and so is what is the same."""
+    """What is nearly the same twice is ranked on the matrix path, and so is what is the same."""
     of = with_a_row_apart(seed, apart)
     general, direct = both(of, 0.3, step=0.01, formulation=equations)
     assert general.success
@@ -263,7 +263,7 @@ def test_bifurcations_are_judged_alike(name, on_singular, options):
 @pytest.mark.parametrize("equations", INDEPENDENT)
 @pytest.mark.parametrize("name", ["parallelogram", "nearly", "near"])
 def test_bifurcations_are_judged_alike_in_independent_velocities(name, equations):
-    """The next to one is too hard for such steps in these: on both roads, the energy is off by a fifth of the kinetic energy."""
+    """The next to one is too hard for such steps in these: on both paths, the energy is off by a fifth of the kinetic energy."""
     general, direct = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, step=1 / 137, on_singular="continue", formulation=equations)
     assert direct.success == general.success == (name != "nearly")
     assert direct.stats["repartitions"] == general.stats["repartitions"]
@@ -349,7 +349,7 @@ def test_a_single_step_does_without_them_too(member):
 
 
 def test_a_value_between_steps_does_without_them_too():
-    """Neither the polynomial's value nor the shorter step can be landed: so it is made on the general road."""
+    """Neither the polynomial's value nor the shorter step can be landed: so it is made on the matrix path."""
     options = {"integrator": "dop853", "rtol": 1e-8, "t_eval": [0.1, 0.115, 0.2]}
     sol = zd.simulate(Failing("land", lambda t: t == 0.115).system, 0.2, **options)
     assert sol.stats["direct_steps"] == sol.stats["steps"]

@@ -174,7 +174,7 @@ def assert_on_constraints(system, times, p, v):
 
 @pytest.mark.parametrize("method", INTERPOLATED)
 def test_the_same_bits_where_an_event_has_ended_the_run(bar, method):
-    """Its last step ends at the event, and is no part of a longer one that was interpolated."""
+    """Its last step ends at the event, and is not a part of a longer one that was interpolated."""
     options = {"integrator": method, "rtol": 1e-6, "atol": 1e-6,
                "events": [zd.Event(lambda t, p, v: p[0] - 1.0, terminal=True), lambda t, p, v: p[0] - 0.8]}
     sol = zd.simulate(bar, 8.0, **options)

@@ -178,7 +178,7 @@ def test_a_system_without_measures_has_no_outputs(bar):
         created(bar)
 
 
-# ---- systems that are no mechanisms ----
+# ---- systems that are not mechanisms ----
 
 MEASURED = """
 /* data: mass, gravity, length and, where it fails, a time */

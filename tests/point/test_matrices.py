@@ -14,7 +14,7 @@ from zerodrift._gateway.functions import load_library
 
 STEPS = dict(step=0.01)
 SPAN = 0.2
-# Both roads end within rounding of the exact solution of each linear system; what a step does with it, the next ones multiply.
+# Both paths end within rounding of the exact solution of each linear system; what a step does with it, the next ones multiply.
 SAME = 1e-10
 RODS = {"open chain": chain(6), "closed chain": chain(5, closed=True), "four-bars": four_bars(3)}
 
@@ -267,7 +267,7 @@ def test_a_kind_in_c_declares_its_structure():
 
 @needs_compiler
 def test_products_that_a_system_brings_are_what_the_core_multiplies_by():
-    """C v where velocities are corrected, and for each saved row; M x of implicit methods. Held coordinates, where C has more
+    """C v where velocities are corrected, and for each sample; M x of implicit methods. Held coordinates, where C has more
     rows, do without.
     """
     library = load_library(bodies_library())

@@ -71,7 +71,7 @@ def test_a_run_from_a_saved_state_has_the_same_bits(which, formulation, method):
     rest = zd.simulate(tops()[which], (whole.t[k], 1.0), whole.p[k], whole.v[k], **options)
     for name in ("t", "p", "v"):
         assert getattr(whole, name)[k:].tobytes() == getattr(rest, name).tobytes(), name
-    # A start is on the general road, and has the multipliers of that, which differ by a rounding from those in closed form.
+    # A start is on the matrix path, and has the multipliers of that, which differ by a rounding from those in closed form.
     assert whole.multipliers[k + 1:].tobytes() == rest.multipliers[1:].tobytes()
 
 

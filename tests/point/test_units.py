@@ -16,7 +16,7 @@ POWERS_OF_TEN = {"micrometres": Units(length=1e6), "kilometres": Units(length=1e
 CHOSEN = {"rtol": 1e-7, "atol": 1e-300, "integrator": "dormand_prince"}     # atol has the units of the state
 WAYS = {"rk4": {}, "euler": {"integrator": "euler"}, "energy": {"integrator": "dop853", "energy": True}, "chosen": CHOSEN,
         "baumgarte": {"stabilization": zd.Baumgarte()}, "identity": {"stabilization": zd.Projection(metric="identity")}}
-STEPS_CHOSEN = 1e-6         # where steps are chosen at rtol 1e-7: what round-off in estimates makes of them
+STEPS_CHOSEN = 1e-6         # with adaptive steps at rtol 1e-7: what round-off in estimates makes of them
 
 
 def assert_same(one, other):

@@ -161,7 +161,7 @@ def test_a_step_that_is_stable_is_not_called_unstable(bar):
 @pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
 @pytest.mark.parametrize("step", [None, 0.01])
 def test_rows_at_turning_points_say_nothing_of_the_kinetic_energy(method, step):
-    """Half a turn apart there is none: "off by 7.2e+10 of the largest kinetic energy" was said of chosen steps."""
+    """Half a turn apart there is none: "off by 7.2e+10 of the largest kinetic energy" was said of adaptive steps."""
     oscillator = zd.systems.oscillator(mass=1.0, stiffness=OMEGA**2)
     control = {"rtol": 1e-6, "atol": 1e-9} if step is None else {"step": step}
     with warnings.catch_warnings():

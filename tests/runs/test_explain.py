@@ -50,7 +50,7 @@ def test_a_run_that_blows_up_may_return(bar):
 
 @pytest.mark.parametrize("gains", [zd.Baumgarte(1e300, 0), zd.Baumgarte(1e155, 1e300)], ids=str)
 def test_a_run_that_blows_up_within_a_step(bar, gains):
-    """The first stage that is no number fails in some factorization, but what is named is the cause."""
+    """The first stage that is not a number fails in some factorization, but what is named is the cause."""
     failed(zd.Diverged, r"^at t = 0\.05 \(step 1 of 20\): the state left the range of doubles",
            lambda: motion(bar, 1.0, 20, stabilization=gains))
 
@@ -155,7 +155,7 @@ def test_every_error_is_one_of_ours():
 
 
 def in_line(cells):
-    """Cranks and couplers of a row of parallelograms, drawn along one line: as many rows follow from others there."""
+    """Cranks and couplers of a row of parallelograms, drawn along one line: as many rows are redundant there."""
     m = zd.Mechanism("in line", gravity=(0, 0))
     cranks = [m.link(f"crank{i}", (2 * i, 0), (2 * i + 1, 0), mass=1.0) for i in range(cells + 1)]
     for i, crank in enumerate(cranks):

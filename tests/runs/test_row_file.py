@@ -24,8 +24,8 @@ linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits 
 WAYS = {
     "steps": {"step": 0.01}, "fewer": {"step": 0.01, "save_every": 7, "energy": True},
     "times": {"step": 0.01, "t_eval": np.linspace(0, 2, 777)},
-    "chosen steps": {"rtol": 1e-8, "integrator": "dop853"},
-    "times in chosen steps": {"rtol": 1e-8, "integrator": "dop853", "t_eval": np.linspace(0, 2, 777)},
+    "adaptive steps": {"rtol": 1e-8, "integrator": "dop853"},
+    "times in adaptive steps": {"rtol": 1e-8, "integrator": "dop853", "t_eval": np.linspace(0, 2, 777)},
     "events": {"rtol": 1e-8, "integrator": "dormand_prince", "t_eval": np.linspace(0, 2, 77),
                "events": lambda t, p, v: np.sin(p[0])},
 }
@@ -71,13 +71,13 @@ def test_bits_are_those_of_a_run_in_memory(bar, tmp_path, monkeypatch, way, bloc
     assert repr(again).splitlines()[3:] == repr(here).splitlines()[3:]
 
 
-@pytest.mark.parametrize("way", ["steps", "chosen steps", "cut short"])
+@pytest.mark.parametrize("way", ["steps", "adaptive steps", "cut short"])
 @pytest.mark.parametrize("name", ["four_bar", "oscillator", "mechanism"])
 def test_values_between_rows_have_the_bits_of_a_run_in_memory(tmp_path, name, way):
     """The core reads the columns in the file; a measure behind them widens its rows."""
     system = zd.models.four_bar() if name == "mechanism" else getattr(zd.systems, name)()
     options = {"steps": {"step": 0.01}, "cut short": {"step": 0.01, "events": [ends]},
-               "chosen steps": {"rtol": 1e-8, "integrator": "dop853", "energy": name != "mechanism"}}[way]
+               "adaptive steps": {"rtol": 1e-8, "integrator": "dop853", "energy": name != "mechanism"}}[way]
     options |= {"outputs": ["C.position"]} if name == "mechanism" and way == "steps" else {}
     here, there = (zd.simulate(system, 1.0, save_to=to, **options) for to in (None, tmp_path / "run"))
     times = np.concatenate([np.linspace(0, here.t[-1], 23), here.t[:3], here.t[-1:]])

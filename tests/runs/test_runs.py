@@ -65,8 +65,8 @@ def test_threads_with_different_settings_do_not_meet(bar):
 
 
 def test_looking_at_every_row_costs_nothing(system, formulation):
-    """Multipliers are recorded from what the next step needs anyway; after a step that has left the direct road, the next one
-    need not need it.
+    """Multipliers are recorded from what the next step needs anyway; after a step that has left the closed-form path, the
+    next one need not need it.
     """
     full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
     left = full["steps"] - full["direct_steps"] if full["direct_steps"] else 0

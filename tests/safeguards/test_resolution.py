@@ -11,7 +11,7 @@ from every_model import MODELS
 from rotating_bodies import about_a_point
 from spinning_body import body, half_turns
 
-OMEGA = 20.0        # of the light part
+OMEGA = 20.0        # of the low-inertia component
 UNTOLD = 0.01       # rad: who is off by less is not warned of,
 LOST = 0.5          # and who is off by more is
 

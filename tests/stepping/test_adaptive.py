@@ -199,7 +199,7 @@ def test_bounds_that_are_none(bar, value, error):
 
 @pytest.mark.parametrize("size", [1e160, 1e200, 1e300])
 def test_steps_that_cannot_be_small_enough_end_the_run(size):
-    """Accelerations whose square is no double asked for a first step of zero, and then another."""
+    """Accelerations whose square is not a double asked for a first step of zero, and then another."""
     system = zd.System(1, mass=[[1.0]], force=[size], p0=[0.0], v0=[1.0])
     with pytest.raises((zd.StepFailed, zd.Diverged)):
         zd.simulate(system, 1.0, rtol=1e-6, integrator="dop853", p0=[1.0])

@@ -13,10 +13,10 @@ import itertools
 import warnings
 
 import numpy as np
-from every_model import IN_SPACE, MECHANISMS, MODELS
-from random_symbolic import random_system
 
 import zerodrift as zd
+from every_model import IN_SPACE, MECHANISMS, MODELS
+from random_symbolic import random_system
 
 RUNS = tuple({"formulation": formulation, **how} for formulation, how in itertools.product(
     ("augmented", "nullspace", "schur", "mixed", "independent"),

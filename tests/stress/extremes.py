@@ -114,7 +114,7 @@ def large_steps():
 
 
 def bifurcations():
-    """Parallelograms, and what is nearly one, from anywhere over half a turn and more, against chosen steps."""
+    """Parallelograms, and what is nearly one, from anywhere over half a turn and more, against adaptive steps."""
     rng = np.random.default_rng(11)
     for low, high in ((-np.inf, -np.inf), (-12, -8), (-8, -6), (-6, -4), (-4, -2), (-2, -1)):
         counts = Counter()

@@ -154,7 +154,7 @@ def main(count):
         counts["all"].update(names)
     lines = ["| integrator | " + " | ".join(COLUMNS) + " |", "|" + " --- |" * (len(COLUMNS) + 1)]
     lines += [f"| {name} | " + " | ".join(str(found[column]) for column in COLUMNS) + " |" for name, found in counts.items()]
-    text = f"## {count} random runs of mechanisms with a light part\n\n" + "\n".join(lines) + "\n"
+    text = f"## {count} random runs of mechanisms with a low-inertia component\n\n" + "\n".join(lines) + "\n"
     print(text)
     RESULTS.write_text(text, encoding="utf-8")
 

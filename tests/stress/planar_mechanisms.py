@@ -40,8 +40,8 @@ def outcome(seed):
         agrees, motion, reaction, _ = compared(seed, layout, CHOSEN)
     except zd.ZerodriftError as error:
         return f"{layout}: {type(error).__name__}", (seed, str(error).split(";")[0][:110])
-    told += f"; chosen steps: motion {motion:.2g}, reactions {reaction:.2g}"
-    return f"{layout}: {'agrees with chosen steps' if agrees else 'differs'}", (seed, told)
+    told += f"; adaptive steps: motion {motion:.2g}, reactions {reaction:.2g}"
+    return f"{layout}: {'agrees with adaptive steps' if agrees else 'differs'}", (seed, told)
 
 
 def main():

@@ -1,4 +1,4 @@
-/* The paper's four-bar over eight seconds in every formulation and on both roads, as the bits of its last state: the same program is
+/* The paper's four-bar over eight seconds in every formulation and on both paths, as the bits of its last state: the same program is
  * compiled for several systems and run where they are, or are emulated.
  */
 #include <inttypes.h>
@@ -25,7 +25,7 @@ static int run(const zd_kind *kind, int formulation, const char *integrator, int
     int n = 0, status;
     for (int i = 0; i < kind->parameters; i++)
         for (int j = 0; j < kind->parameter[i].size; j++) {
-            parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : NAN;     /* NaN: follows from others */
+            parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : NAN;     /* NaN: is redundant */
         }
     if (kind->prepare(parameters, constants)) return 1;
     zd_system system = kind->system;

@@ -68,7 +68,7 @@ def test_the_joints_framework(formulation):
 
 
 def test_kanes_method_with_dependent_coordinates_and_speeds():
-    """What it eliminates comes back, and rates of its configuration constraints are no constraints of their own."""
+    """What it eliminates comes back, and rates of its configuration constraints are not constraints of their own."""
     framework = four_bar()
     framework.form_eoms()
     kane = zd.from_mechanics(framework.eom_method, parameters=VALUES, **START)

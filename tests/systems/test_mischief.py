@@ -178,7 +178,7 @@ def each(change):
 
 
 def as_buffer(value):
-    """What NumPy can read, but is no array."""
+    """What NumPy can read, but is not an array."""
     array = np.array(value)
     return value if array.dtype == object else memoryview(array)
 

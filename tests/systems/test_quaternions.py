@@ -98,7 +98,7 @@ def test_independent_coordinates_say_what_they_need():
 
 
 def test_independent_coordinates_need_a_velocity_for_each_that_is_no_surplus():
-    """A rotor in the body, whose angle is no coordinate: as many coordinates as velocities, and one of them is surplus."""
+    """A rotor in the body, whose angle is not a coordinate: as many coordinates as velocities, and one of them is surplus."""
     system = zd.System(["e0", "e1", "e2", "e3"], mass=np.eye(4), kinematics=lambda p: np.hstack([half(p), np.zeros((4, 1))]),
                        quaternions=[0], p0=[1.0, 0, 0, 0], v0=[1.0, 2, 3, 4])
     assert list(zd.formulations(system)) == SUITED

@@ -157,7 +157,7 @@ def test_arrays_that_change_later_do_not_change_the_system():
         system.parameters["pull"][0] = 1.0
 
 
-# ---- what is no callable, and no value ----
+# ---- arguments that are not callables, results that are not values ----
 
 
 @pytest.mark.parametrize(("force", "error", "message"), [

@@ -43,7 +43,7 @@ def test_two_joints_of_different_bends_and_one_with_a_phase():
 
 @pytest.mark.parametrize("given", [{}, {"first_twist": 1.2, "second_twist": 0.7, "angle": 2.0}])
 def test_bennetts_relation(given):
-    """And it is held by rows of which three follow from others."""
+    """And it is held by rows of which three are redundant."""
     m = zd.models.bennett(**given)
     angle, (alpha, beta) = given.get("angle", 1.0), (given.get("first_twist", 0.5), given.get("second_twist", 1.1))
     assert "3 of 20 rows follow from others" in str(m)
