@@ -1,9 +1,44 @@
+import logging
+import os
 import tarfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from setuptools import setup
+from setuptools.command.build_ext import build_ext
 from setuptools.command.build_py import build_py
 from setuptools.command.sdist import sdist
+
+
+class BuildExtension(build_ext):
+    """Compiles the files of the core side by side, in one compiler process for each processor of this process.
+
+    The option `--parallel` of `build_ext` or the variable `MAX_JOBS` sets another number. Commands, flags and the order of the
+    objects when linked are those of the compiler class, of any platform, whose `compile` is called for one file at a time.
+    """
+
+    def build_extensions(self):
+        compile_all = self.compiler.compile
+
+        def compile_in_parallel(sources, **options):
+            largest_first = sorted(sources, key=os.path.getsize, reverse=True)      # so that no long one is left at the end
+            objects = dict.fromkeys(sources)
+            with ThreadPoolExecutor(self.processes()) as pool:
+                for count, (source, compiled) in enumerate(zip(largest_first, pool.map(
+                        lambda source: compile_all([source], **options), largest_first), strict=True), start=1):
+                    objects[source], = compiled
+                    self.announce(f"compiled {count} of {len(sources)} files: {source}", level=logging.INFO)
+            return list(objects.values())
+
+        if not getattr(self.compiler, "initialized", True):
+            self.compiler.initialize()      # MSVC finds its programs once, before the threads need them
+        self.compiler.compile = compile_in_parallel
+        super().build_extensions()
+
+    def processes(self) -> int:
+        """Number of compiler processes at a time, at least one."""
+        available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return max(1, int(self.parallel or os.environ.get("MAX_JOBS") or available))
 
 
 class BuildPy(build_py):
@@ -41,6 +76,6 @@ def impersonal(member: tarfile.TarInfo) -> tarfile.TarInfo:
 
 setup(
     cffi_modules=["python/build_core.py:ffibuilder"],
-    cmdclass={"build_py": BuildPy, "sdist": SourceDistribution},
+    cmdclass={"build_ext": BuildExtension, "build_py": BuildPy, "sdist": SourceDistribution},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
 )
