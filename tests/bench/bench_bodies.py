@@ -1,9 +1,9 @@
-"""What a step costs as bodies grow in number: ``python tests/bench/bench_bodies.py``.
+"""Cost of a step against the number of bodies: ``python tests/bench/bench_bodies.py``.
 
 Rows of N parallelograms that swing as one, in absolute coordinates: as mechanisms, and as compiled systems that only fill
-blocks. The floor is ``planar_floor.c``, which makes the same steps by hand, RK4 on (13) with one position iteration and one
-velocity correction. It is compiled with plain flags and runs in turn with the others. All times are those of the processor, the
-least of many short windows.
+blocks. The floor is ``planar_floor.c``, a hand-written program of the same steps: RK4 on (13) with one position iteration and one
+velocity correction. It is compiled with plain flags and runs in turn with the others. Times are processor times, the minimum of
+many short windows.
 """
 
 import ctypes

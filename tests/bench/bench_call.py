@@ -1,8 +1,8 @@
-"""What a call of `simulate` takes beyond its steps, on the paper's four-bar, and what the import takes.
+"""Overhead of a call of `simulate` beyond its steps, on the paper's four-bar, and time of the import.
 
-Run it with ``python tests/bench/bench_call.py``; it writes ``results/call.csv``. A call of few steps is timed in turn with one of
-more, ten of each in a row, and what a step adds is taken off; with adaptive steps, what the core took for all of them. The
-least of many short rounds counts, as each of them may fall between what else the machine does.
+Run it with ``python tests/bench/bench_call.py``; it writes ``results/call.csv``. Calls with few and with many steps are timed in
+turn, ten of each in a row; the slope is the time of a step and is subtracted. With adaptive steps the time of the core is
+subtracted. Each time is the minimum of many short rounds, the least disturbed by other processes.
 """
 
 import functools

@@ -1,10 +1,10 @@
-"""What a step costs in joint and in absolute coordinates, counted and measured: ``python tests/bench/bench_coordinates.py``.
+"""Cost of a step in joint and in absolute coordinates, predicted and measured: ``python tests/bench/bench_coordinates.py``.
 
-Mechanisms are chains, rows, stars and trees of several sizes, all of `zd.models`, and random ones, some of which are not in the
-fit. Weights of `zerodrift/mechanisms/cost.py` are printed as they would be if fitted to what is measured here, with the relative
-errors that are left. Time is the processor's, of a step of rk4 in schur, least of interleaved rounds; steps are the
-longest up to 5 ms that are made whole, with an iteration of the positions at most. What takes more than 20 ms a step in either
-is left out, as a chain of a thousand links in joint coordinates.
+Mechanisms: chains, rows, stars and trees of several sizes, all of `zd.models`, and random ones, some of which are not in the fit.
+The weights of the cost model, fitted to these measurements, are printed with the relative errors of the fit. Times are processor
+times of a step of rk4 in schur, the minimum of interleaved rounds; the step size is the longest up to 5 ms that is not subdivided
+and needs at most one iteration of the positions. Mechanisms with more than 20 ms a step in either layout are left out, such as a
+chain of a thousand links in joint coordinates.
 """
 
 import sys
@@ -98,7 +98,7 @@ def fitted(parts, times):
 
 
 def row_of(name, mechanism, times):
-    """What is told of a mechanism, as HEADER says."""
+    """Entry of the table for one mechanism, in the columns of HEADER."""
     counted = cost.cost(mechanism.system("joint")._tables, exact=True)
     lost = times[counted.taken == "absolute"] / min(times)
     return (name, mechanism.dimension, len(mechanism.bodies), *(f"{1e6 * time:.3g}" for time in times),

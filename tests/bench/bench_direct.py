@@ -1,7 +1,7 @@
-"""What steps on the direct road cost, beside the four-bar eliminated by hand and beside heyoka.py's best, in one run.
+"""Cost of steps on the closed-form path, compared in one run with a four-bar eliminated by hand and with heyoka.py's best.
 
-Run it with ``python tests/bench/bench_direct.py``; it needs a C compiler and SymPy, and heyoka.py for the rows beside that. It
-writes ``results/direct.csv``. Problems and settings are those of ``peers``, of ours those with DOP853.
+Run it with ``python tests/bench/bench_direct.py``; it needs a C compiler and SymPy, and heyoka.py for the comparison with that.
+It writes ``results/direct.csv``. Problems and settings are those of ``peers``; zerodrift's are those with DOP853.
 """
 
 import ctypes

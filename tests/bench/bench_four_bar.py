@@ -1,4 +1,4 @@
-"""What the core and `simulate` cost on the paper's four-bar: ratios and differences within one run.
+"""Cost of the core and of `simulate` on the paper's four-bar: ratios and differences within one run.
 
 Run it with ``python tests/bench/bench_four_bar.py``; it needs a C compiler, and writes ``results/four_bar.csv``.
 """
@@ -99,7 +99,7 @@ def cheapest(errors, contestants, exact, rounds=10):
 
 
 def costs_of_errors(errors, span=8.0):
-    """Of calls of `simulate`, energy uncorrected and every row saved, and of the floors."""
+    """Times at given errors: of calls of `simulate`, without energy correction and with every step saved, and of the floors."""
     bar = zd.systems.four_bar()
     exact = zd.reference(bar, span, error=None).solution
 

@@ -1,15 +1,15 @@
-"""What runs cost that go side by side in vector lanes: beside a step by hand in the same lanes, beside heyoka.py's batches of
-eight, and what a run takes beyond its steps.
+"""Cost of runs in SIMD lanes, compared with a hand-written step in the same lanes and with heyoka.py's batches of eight, and the
+overhead of a run beyond its steps.
 
-Run it with ``python tests/bench/bench_lanes.py``; it needs a C compiler, and heyoka.py for the rows beside that. It writes
+Run it with ``python tests/bench/bench_lanes.py``; it needs a C compiler, and heyoka.py for the comparison with that. It writes
 ``results/lanes.csv``. All but the row of threads is processor time of one thread, least of interleaved rounds, of ensembles of
 the paper's four-bar over 8 s whose speeds differ.
 
-What a run takes beyond its steps is what runs of 1, 2, 4 and 8 steps take more than so many steps: the mean of the four. A step
-is that of runs of 72: a call of any of these is over within some milliseconds, so that the least of some in a row is undisturbed;
-in the time of 800 steps the machine may be slow in every round, and what is subtracted would be too much. A straight line through
-the four, extrapolated to no step, would be as steady, but its slope would swallow looks at the first steps, which are closer than
-later ones and belong to what a run costs.
+The overhead of a run is the mean over runs of 1, 2, 4 and 8 steps of their time less that of so many steps. The time of a step is
+that of runs of 72: such a call ends within some milliseconds, so that the minimum of several is undisturbed, whereas during 800
+steps the machine may be slow in every round, and too much would be subtracted. A line through the four, extrapolated to zero
+steps, would be as steady, but its slope would include the rank checks of the first steps, which are more frequent than later ones
+and belong to the overhead.
 """
 
 import ctypes
@@ -96,7 +96,7 @@ def floor(folder, unit, *flags):
 
 
 def beyond_steps(seconds):
-    """What a run takes beyond its steps, from what all runs take of each number of steps: see above."""
+    """Overhead of a run beyond its steps, s, from the times of all runs by number of steps, as described above."""
     step = (seconds[MORE] - seconds[SHORT[-1]]) / (MORE - SHORT[-1])
     return np.mean([seconds[n] - n * step for n in SHORT]) / RUNS
 
@@ -136,7 +136,7 @@ def error_of(values, exact):
 
 
 def fastest(options, solve, exact, target):
-    """Of settings that keep to the target, that which takes least."""
+    """The fastest of the settings whose error is within the target."""
     kept = [option for option in options if error_of(solve(option), exact) <= target]
     times = least(3, *(cpu(functools.partial(solve, option)) for option in kept))
     return kept[int(np.argmin(times))]

@@ -20,7 +20,7 @@ BAR = zd.systems.four_bar()
 
 
 def seconds(count, steps):
-    """What so many runs take."""
+    """Time of an ensemble of `count` runs, s."""
     start = time.perf_counter()
     ens = zd.ensemble(BAR, steps * STEP, parameters={"gravity": np.linspace(9.7, 9.9, count)}, step=STEP, t_eval=[steps * STEP],
                       outputs=["alpha1"], threads=THREADS)

@@ -1,7 +1,7 @@
-"""What a mechanism from bodies and joints costs beside the same one built in, and what it takes to describe one of 100 links.
+"""Cost of a mechanism made of bodies and joints relative to the built-in system, and time to describe one of 100 links.
 
-Run it with ``python tests/bench/bench_mechanism_speed.py``; it needs SymPy and a C compiler. Ratios are of the least times of
-runs taken in turn, of the paper's four-bar, 2000 steps each with projection. It writes ``results/mechanism_speed.csv``.
+Run it with ``python tests/bench/bench_mechanism_speed.py``; it needs SymPy and a C compiler. Ratios are of the minimum times of
+interleaved runs of the paper's four-bar, 2000 steps each with projection. It writes ``results/mechanism_speed.csv``.
 """
 
 import sys

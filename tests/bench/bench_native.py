@@ -1,6 +1,6 @@
-"""What a compiled system of one's own costs, as ratios to the built-in one within one run.
+"""Cost of a user's compiled system, as ratios to the built-in one within one run.
 
-Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and numba for one row. It writes
+Run it with ``python tests/bench/bench_native.py``; it needs a C compiler, and numba for one entry. It writes
 ``results/native.csv``.
 """
 
@@ -25,7 +25,7 @@ def seconds(system, steps):
 
 
 def ratio(mine, other, steps=20000):
-    """Of their least times."""
+    """Ratio of the minimum times of two systems."""
     first, second = least(ROUNDS, *(functools.partial(seconds, system, steps) for system in (mine, other)))
     return first / second
 

@@ -1,11 +1,11 @@
-"""What the programs of symbolic systems cost when they are first wanted, with an empty cache: terms, and direct functions.
+"""Time to derive and compile the code of symbolic systems with an empty cache: terms, and closed-form functions.
 
 Run it with ``python tests/bench/bench_programs.py [ROUNDS]``; it needs SymPy and a C compiler, and writes
-``results/programs.csv``. Another version is measured with its own package in PYTHONPATH and with ``--name``, and its rows stand
-beside those of others. Seconds are of the processor, with the compiler's, the least of the rounds; the last two columns are of
-the clock, which other work on the machine lengthens. Direct functions are those of one formulation, for the machine's vector
-unit; they are written while the compiler is at work on the terms, which counts for them. Where the compiler is a cache's, let CC
-name that behind it.
+``results/programs.csv``. Another version is measured with its own package in PYTHONPATH and with ``--name``; its entries are
+added to the table. Seconds are processor time, the compiler's included, the minimum of the rounds; the last two columns are wall
+clock, which other work on the machine lengthens. Closed-form functions are those of one formulation for the machine's vector
+unit; they are written while the compiler works on the terms, and that time is counted for them. CC must name the compiler itself,
+not a compiler cache.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""What a system written in Python costs beyond its own callables: the split of a run's time, as ratios within one run.
+"""Cost of a system written in Python beyond its own callables: the split of a run's time, as ratios within one run.
 
 Run it with ``python tests/bench/bench_python_system.py``; it writes ``results/python_system.csv``.
 """
@@ -30,7 +30,7 @@ def counted(calls, name, function):
 
 
 def calls_of_a_run(**options):
-    """How often a run calls each callable."""
+    """Number of calls of each callable in a run."""
     calls = Counter()
     system = four_bar(**{name: counted(calls, name, function) for name, function in CALLABLES.items()})
     calls.clear()

@@ -1,10 +1,10 @@
-"""What rows and events between adaptive steps cost, on the paper's four-bar over 8 s.
+"""Cost of samples and events between adaptive steps, on the paper's four-bar over 8 s.
 
-Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few rows and with many are made in
-turn, and of each the least time of the core counts: for 161 rows, what they add to the run that saves its start and end alone;
-for a row, by how much 16,001 rows take longer than 161; both at a tolerance of 1e-9. For some hundred events, what each of them
-adds, with all looks at its function, in processor time of the call, as functions of Python wait for other threads. On the direct
-road and on the general one, which some systems and formulations have to take.
+Run it with ``python tests/bench/bench_rows.py``; it writes ``results/rows.csv``. Runs with few and with many samples are made in
+turn, and the minimum time of the core counts for each: the increase due to 161 samples over a run that saves its start and end
+alone, and the time per sample from 16,001 samples against 161, both at a tolerance of 1e-9. For some hundred events: the increase
+per event, all evaluations of its function included, in processor time of the call, as functions of Python wait for other threads.
+On the closed-form path and on the matrix path, which some systems and formulations need.
 """
 
 import functools
@@ -26,7 +26,7 @@ ROADS = {"direct": None, "general": False}
 
 
 def seconds(system, rows, tolerance=RTOL, **options):
-    """Of the core, in one run with so many rows."""
+    """Function that returns the core's time of one run with `rows` samples, s."""
     times = np.linspace(0, SPAN, rows)
     return lambda: zd.simulate(system, SPAN, t_eval=times, rtol=tolerance, atol=tolerance, **options).stats["seconds"]
 
@@ -48,7 +48,7 @@ WATCHED = {
 
 
 def processor_seconds(system, tolerance, **options):
-    """Of a call that saves the start and the end."""
+    """Function that returns the processor time of a call that saves the start and the end, s."""
     def call():
         start = time.thread_time()
         zd.simulate(system, SPAN, t_eval=[0, SPAN], rtol=tolerance, atol=tolerance, **options)

@@ -1,8 +1,8 @@
-"""What a step in space costs as bodies grow in number: ``python tests/bench/bench_space.py``.
+"""Cost of a step in space against the number of bodies: ``python tests/bench/bench_space.py``.
 
-Chains of N rigid bodies whose both ends are held, of spherical joints or of revolute ones with axes in all directions, coiled
-up so that places stay small: RK4 by ``schur`` with the default corrections, in steps of 1 ms. All times are those of the
-processor, the least of many short windows, in turn.
+Chains of N rigid bodies with both ends fixed, of spherical joints or of revolute ones with axes in all directions, coiled up so
+that coordinates stay small: RK4 by ``schur`` with the default corrections, in steps of 1 ms. Times are processor times, the
+minimum of many short interleaved windows.
 """
 
 import platform
@@ -20,7 +20,7 @@ AT_MOST = {"spherical": 1.0, "revolute": 2.25}      # microseconds for a body an
 
 
 def place(k):
-    """Where joint k is: on a coil, a little off it."""
+    """Position of joint k, m: near a coil."""
     return np.array([3.2 * np.cos(0.25 * k), 3.2 * np.sin(0.25 * k), 1e-3 * k + 0.3 * np.cos(0.9 * k)])
 
 

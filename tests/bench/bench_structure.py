@@ -1,7 +1,8 @@
-"""What a declared structure saves: ``python tests/bench/bench_structure.py [formulation ...]``.
+"""Time and memory saved by a declared structure: ``python tests/bench/bench_structure.py [formulation ...]``.
 
 Chains of rods and rows of parallelograms in absolute coordinates, compiled once with packed matrices and once with dense ones.
-Time is that of a corrected step of rk4, least of interleaved rounds; memory what a run takes, as glibc tells (2.33 and later).
+Time is that of a corrected step of rk4, the minimum of interleaved rounds; memory is that of a run, reported by glibc (2.33 and
+later).
 """
 
 import ctypes

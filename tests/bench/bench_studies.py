@@ -1,8 +1,8 @@
-"""What studies of one motion take by the core's batch call and in threads, beside the same by `simulate`, one run after another.
+"""Time of studies of one motion by the core's batch call and in threads, compared with calls of `simulate` one after another.
 
-Run it with ``python tests/bench/bench_studies.py``. It writes ``results/studies.csv``. Both ways are taken in turn, in one
-process, and give the same rows. As threads on a busy machine wait for others, what they take is told as processor time: that of
-all of them together, and that of the longest with what this thread does, which is their time on as many free cores.
+Run it with ``python tests/bench/bench_studies.py``. It writes ``results/studies.csv``. Both ways are timed in turn, in one
+process, and give the same results. Threads are measured by processor time, as they wait for others on a busy machine: the sum
+over all threads, and the longest thread plus the main thread, which is their wall-clock time on as many free cores.
 """
 
 import functools

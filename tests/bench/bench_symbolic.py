@@ -34,7 +34,7 @@ OPTIONS = {"step": STEP, "energy": True, "save_every": STEPS}
 
 
 def chain(n, lengths, masses, ground, relative=False):
-    """Of n slender links on a row of pin joints, the last held at (ground, 0); angles from the x axis, or from link to link."""
+    """Chain of n slender links with pin joints, its end fixed at (ground, 0); angles from the x axis, or between links."""
     angles, names, m = dynamicsymbols(f"a1:{n + 1}"), sp.symbols(f"l1:{n + 1}"), sp.symbols(f"m1:{n + 1}")
     g, l0 = sp.symbols("g l0")
     kinetic = potential = x = y = angle = sp.S.Zero

@@ -1,4 +1,4 @@
-"""Whether `zd.tune` meets its target on every built-in system, and how what it picks compares with an exhaustive sweep.
+"""Error of the settings that `zd.tune` chooses for every built-in system, and their time relative to an exhaustive sweep's best.
 
 Run it with ``python tests/bench/bench_tune.py``; it writes ``results/tune.csv``.
 """
@@ -54,7 +54,7 @@ def compared(name):
 
 
 def described(row):
-    """How, and in how many steps."""
+    """Method, number of steps and kind of steps, as text."""
     setting = row.setting
     kind = "fixed" if setting.tolerance is None else "chosen"
     return f"{setting.formulation} {setting.integrator} {row.steps} {kind}"

@@ -33,7 +33,7 @@ AT = (1e-3, 1e-6, 1e-9)     # errors at which methods are compared
 
 
 class Row(NamedTuple):
-    """What one setting of one method costs and gives."""
+    """Cost and error of one setting of one method."""
 
     problem: str
     peer: str

@@ -41,7 +41,7 @@ static inline void look(const real *p, pose *a)
     for (int i = 0; i < 3; i++) turn(p[i], &a->s[i], &a->c[i]);
 }
 
-static double diagonal[3];      /* of M: nobody may know that it is constant */
+static double diagonal[3];      /* of M; not const, so that the compiler cannot fold it */
 
 static inline void forward(const pose *a, real *x)
 {

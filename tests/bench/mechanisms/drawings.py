@@ -1,7 +1,7 @@
-"""What all are asked to simulate: four planar mechanisms, as bodies and joints in one drawing.
+"""Benchmark problems for all programs: four planar mechanisms, as bodies and joints in one reference configuration.
 
-Every body's frame stands at its centre of mass and is parallel to the drawing's at the start, so that a point is one pair of
-numbers for everybody. All start at rest. Compared are the bodies' centres of mass and angles.
+Every body's frame has its origin at the centre of mass and is parallel to the global axes at the start, so that a point has the
+same coordinates in every program. All start at rest. Compared are the bodies' centres of mass and angles.
 """
 
 from typing import NamedTuple
@@ -155,7 +155,7 @@ def _turned(angle, x, y=0.0):
 
 
 def _meeting(a, r, b, s):
-    """Where circles of radius r about a and s about b meet, to the left of the way from a to b."""
+    """Intersection of the circles of radius r about a and s about b, to the left of the direction from a to b."""
     along = b - a
     d = np.hypot(*along)
     x = (d**2 + r**2 - s**2) / (2 * d)

@@ -1,17 +1,17 @@
-"""How time grows with the number of bodies: rows of N four-bars and chains of N links, beside MuJoCo, Exudyn and Pinocchio.
+"""Growth of time with the number of bodies: rows of N four-bars and chains of N links, also in MuJoCo, Exudyn and Pinocchio.
 
 Run it with ``python tests/bench/mechanisms/growth.py``; it writes ``growth.csv`` and ``growth_exponents.csv`` in
-``tests/bench/results``. What is not installed is named and left out.
+``tests/bench/results``. Programs that are not installed are named and left out.
 
-* **A step**: 1 ms of a row of four-bars, 0.1 ms of a chain, without the model's making, from Python. zerodrift's is RK4, and
-  corrects positions to 1e-12 and velocities. MuJoCo's and Pinocchio's RK4 correct nothing, and MuJoCo's constraints are soft;
-  its implicitfast is of order one, with one evaluation a step where RK4 has four. Exudyn's steps are of order two.
-* **An error**: rows of four-bars that hang and are let go at sixty degrees, for a second. All hangers turn alike, so the motion
-  is that of one pendulum, which is known to 1e-12 for every N. Time is that of the coarsest setting of a sweep that reaches the
-  error at all of 20 outputs in all places and angles; none where none does within 10 s.
+* **A step**: 1 ms of a row of four-bars, 0.1 ms of a chain, without the making of the model, from Python. zerodrift's is RK4 with
+  corrections of positions to 1e-12 and of velocities. MuJoCo's and Pinocchio's RK4 correct nothing, and MuJoCo's constraints are
+  soft; its implicitfast is of order one, with one evaluation a step where RK4 has four. Exudyn's steps are of order two.
+* **An error**: rows of hanging four-bars released at sixty degrees, for a second. All hangers turn alike, so the motion is that
+  of one pendulum, known to 1e-12 for every N. Time is that of the coarsest setting of a sweep whose error in all positions and
+  angles is within the target at each of 20 outputs; none where no setting meets it within 10 s.
 
-Times are those of the processor, those of steps the least of rounds in which all methods take their turn. The exponent is the
-slope of log time over log N from N = 10 on.
+Times are processor times; those of steps are the minimum of interleaved rounds of all methods. The exponent is the slope of
+log time over log N from N = 10 on.
 """
 
 import argparse
@@ -43,7 +43,7 @@ A_STEP = {              # the setting of each method of which a step is timed, w
 
 
 def exact(drawing):
-    """What the bodies of a swing move and turn, (k, n, 3): those of one pendulum."""
+    """Displacements and rotations of the bodies of a swing, (k, n, 3), m and rad, from the motion of one pendulum."""
     hangers = (len(drawing.bodies) + 1) // 2
     masses = drawing.bodies[0].mass, drawing.bodies[-1].mass
     length, start = 0.5, math.pi / 3

@@ -27,7 +27,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """What the bodies moved and turned, (k, n, 3), and seconds of the call of its solver."""
+    """Displacements and rotations of the bodies, (k, n, 3), and time of the call of Exudyn's solver, s."""
     name, algebra, steps = setting
     container = exu.SystemContainer()
     mbs = container.AddSystem()

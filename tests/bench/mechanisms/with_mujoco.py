@@ -23,7 +23,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """What the bodies moved and turned, (k, n, 3), and seconds."""
+    """Displacements and rotations of the bodies, (k, n, 3), and time, s."""
     integrator, constant, steps = setting
     h = drawing.t_end / drawing.count / steps
     model = mujoco.MjModel.from_xml_string(described(drawing, integrator, h, constant * h))

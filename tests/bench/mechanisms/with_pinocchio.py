@@ -20,7 +20,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """What the bodies moved and turned, (k, n, 3), and seconds."""
+    """Displacements and rotations of the bodies, (k, n, 3), and time, s."""
     _, steps = setting
     model, joint_of, constraints = _build(drawing)
     data, held = model.createData(), pin.StdVec_RigidConstraintData()
@@ -48,7 +48,7 @@ def solve(drawing, setting):
 
 
 def _step(acceleration, q, v, h):
-    """Of RK4."""
+    """Step of RK4."""
     a1 = acceleration(q, v)
     v2 = v + h / 2 * a1
     a2 = acceleration(q + h / 2 * v, v2)
@@ -60,7 +60,7 @@ def _step(acceleration, q, v, h):
 
 
 def _place(frame, lever):
-    """Where a mass centre is, and the angle."""
+    """Position of a mass centre (x, y), m, and angle of the body, rad."""
     x, y, _ = frame.act(lever)
     return x, y, np.arctan2(frame.rotation[1, 0], frame.rotation[0, 0])
 

@@ -20,7 +20,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """What the bodies moved and turned, (k, n, 3), and seconds."""
+    """Displacements and rotations of the bodies, (k, n, 3), and time, s."""
     iterations, steps = setting
     h = drawing.t_end / drawing.count / steps
     space, bodies = _build(drawing, iterations, h)

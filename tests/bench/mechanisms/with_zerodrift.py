@@ -52,14 +52,14 @@ def sweeps(drawing):
 
 
 def growth_sweeps():
-    """Those in the coordinates that are taken where nothing is said, for many bodies."""
+    """Settings for many bodies, in the default layout of coordinates."""
     return {"zerodrift, rk4": [(None, "schur", "rk4", k, None) for k in STEPS],
             "zerodrift, dop853": [(None, "schur", "dop853", k, None) for k in STEPS],
             "zerodrift, dop853, chosen steps": [(None, "schur", "dop853", None, tol) for tol in TOLERANCES]}
 
 
 def solve(drawing, setting):
-    """What the bodies moved and turned, (k, n, 3), and seconds of `simulate` and of reading that."""
+    """Displacements and rotations of the bodies, (k, n, 3), and time of `simulate` and of their evaluation, s."""
     coordinates, formulation, integrator, steps, tolerance = setting
     system = system_of(drawing, coordinates)
     fine = ({"step": drawing.t_end / drawing.count / steps, "save_every": steps} if steps
@@ -71,7 +71,7 @@ def solve(drawing, setting):
 
 
 def motion(drawing, solution):
-    """What the bodies moved and turned, (k, n, 3)."""
+    """Displacements and rotations of the bodies, (k, n, 3)."""
     moved = np.empty((len(solution.t), len(drawing.bodies), 3))
     if solution.system.layout == "absolute":        # whose coordinates these are: mass centre and angle of each body
         moved[:] = solution.p.reshape(moved.shape)

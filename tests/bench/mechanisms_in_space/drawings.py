@@ -1,7 +1,7 @@
-"""What all are asked to simulate: two mechanisms in space, as bodies, joints and springs in one drawing.
+"""Benchmark problems for all programs: two mechanisms in space, as bodies, joints and springs in one reference configuration.
 
-Every body's frame stands at its centre of mass and is parallel to the drawing's at the start. All start at rest. Compared are the
-places of the mass centres, in m, and the nine cosines of each body's axes.
+Every body's frame has its origin at the centre of mass and is parallel to the global axes at the start. All start at rest.
+Compared are the positions of the mass centres, in m, and the nine direction cosines of each body's axes.
 """
 
 from typing import NamedTuple
@@ -21,7 +21,7 @@ class Body(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """Of two bodies, or of the ground and a body: what closes a loop comes last, and its second body is in the tree already."""
+    """Joint between two bodies, or ground and a body. Joints that close loops come last, when both bodies are in the tree."""
 
     kind: str               # revolute, prismatic, universal, spherical
     first: str | None
@@ -70,7 +70,7 @@ class Drawing(NamedTuple):
         return np.linspace(0, self.t_end, self.count + 1)
 
     def center(self, name):
-        """Of a body, or the origin."""
+        """Mass centre of a body, or the origin for the ground (None), (3,) m."""
         return np.zeros(3) if name is None else next(body.center for body in self.bodies if body.name == name)
 
 

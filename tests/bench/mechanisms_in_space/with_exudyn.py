@@ -29,7 +29,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds of the call of its solver."""
+    """Positions and rotation matrices of the bodies, (k, n, 12), and time of the call of Exudyn's solver, s."""
     name, algebra, steps = setting
     container = exu.SystemContainer()
     mbs = container.AddSystem()

@@ -23,7 +23,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds."""
+    """Positions and rotation matrices of the bodies, (k, n, 12), and time, s."""
     integrator, constant, steps = setting
     h = drawing.t_end / drawing.count / steps
     model = mujoco.MjModel.from_xml_string(described(drawing, integrator, h, constant * h))

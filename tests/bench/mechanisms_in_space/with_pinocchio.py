@@ -27,7 +27,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds."""
+    """Positions and rotation matrices of the bodies, (k, n, 12), and time, s."""
     method, fine = setting
     model, joint_of, levers, constraints = _build(drawing)
     data, held = model.createData(), pin.StdVec_RigidConstraintData()
@@ -61,7 +61,7 @@ def _by_rk4(acceleration, count, drawing, steps):
 
 
 def _step(acceleration, q, v, h):
-    """Of RK4."""
+    """Step of RK4."""
     a1 = acceleration(q, v)
     v2 = v + h / 2 * a1
     a2 = acceleration(q + h / 2 * v, v2)
@@ -103,7 +103,7 @@ def _springs(drawing, model, data, joint_of, levers):
 
 
 def _is_along_slider(drawing, spring):
-    """Whether it acts on a slider from the point about which the slider's guide turns, along its axis."""
+    """True if the spring acts on a slider along its axis, from the point about which the slider's guide turns."""
     of = {joint.second: joint for joint in drawing.joints if not joint.closes}
     slide = of[spring.second]
     guide = of.get(slide.first)

@@ -48,7 +48,7 @@ def sweeps(drawing):
 
 
 def solve(drawing, setting):
-    """Where the bodies are and how they are turned, (k, n, 12), and seconds of `simulate`, with that recorded, and of reading."""
+    """Positions and rotation matrices of the bodies, (k, n, 12), and time of `simulate` with their output and of reading, s."""
     coordinates, integrator, steps, tolerance = setting
     system = system_of(drawing, coordinates)
     fine = ({"step": drawing.t_end / drawing.count / steps, "save_every": steps} if steps
@@ -60,7 +60,7 @@ def solve(drawing, setting):
 
 
 def motion(drawing, solution):
-    """Where the bodies are, (k, n, 12)."""
+    """Positions and rotation matrices of the bodies, (k, n, 12)."""
     return np.stack([np.hstack([solution[f"{body.name}.position"], solution[f"{body.name}.rotation"].reshape(-1, 9)])
                      for body in drawing.bodies], axis=1)
 

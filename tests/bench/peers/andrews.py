@@ -105,7 +105,7 @@ def _following(C, crank, b):
 
 
 def _rate(what, p, v):
-    """Of expressions in p and v, with v held."""
+    """Time derivatives of expressions in p at constant v."""
     return [sum(sp.diff(each, angle) * rate for angle, rate in zip(p, v, strict=True)) for each in what]
 
 

@@ -104,7 +104,7 @@ def dot(a, b):
 
 
 def is_zero(x):
-    """Whether it is the number zero, and nothing that is computed."""
+    """True if x is the literal number zero, not a computed expression."""
     return isinstance(x, int | float) and x == 0
 
 

@@ -1,4 +1,4 @@
-"""What all are asked to solve: chains of uniform rods between two fixed points, in a plane, under gravity.
+"""Benchmark problems for all programs: chains of uniform rods between two fixed points, in a plane, under gravity.
 
 The paper's four-bar is such a chain of three rods. Coordinates are the absolute angles of the rods from the x axis.
 """
@@ -54,7 +54,7 @@ class Chain:
         return GRAVITY * (self.masses / 2 + beyond) * self.lengths
 
     def midpoints(self, p):
-        """Of the rods, (n, 2)."""
+        """Midpoints of the rods, (n, 2) m."""
         rods = self.lengths[:, None] * np.stack([np.cos(p), np.sin(p)], axis=1)
         return rods.cumsum(axis=0) - rods / 2
 

@@ -1,7 +1,7 @@
 """Exudyn: planar rigid bodies and revolute joints, with each kind of integrator it has.
 
 The implicit ones are the trapezoidal rule with constraints of index 2, the generalized-alpha method with constraints of index 3
-and Newmark's with those of index 2, all with modified Newton iterations and the dense solver. The explicit ones are asked, too.
+and Newmark's with those of index 2, all with modified Newton iterations and the dense solver. The explicit ones are run as well.
 """
 
 import time

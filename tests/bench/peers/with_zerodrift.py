@@ -18,7 +18,7 @@ STEPS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)     # between output
 
 
 def kinds(chain):
-    """How zerodrift may have the chain: functions that make the system, by what to call that."""
+    """Kinds of systems by which zerodrift can describe the chain: name to factory."""
     if chain.name == "four-bar":
         return {"built in": lambda chain: zd.systems.four_bar()} | ({"compiled": compiled_system} if sympy else {})
     if chain.name == "Andrews":
