@@ -1,8 +1,8 @@
 """Random motions that are known to thirty digits: closed forms, and Taylor series of minimal equations by `taylor`.
 
-What `zd.reference` certifies is compared with them, by studies/test_reference_of_known_motions.py for a few, and by
-stress/certificates.py for as many as it is told to. A family draws its numbers, and says the system, its start, how long, and
-what is exact at a time.
+The certificates of `zd.reference` are compared with them, by studies/test_reference_of_known_motions.py for a few, and by
+stress/certificates.py for any number. A family draws its numbers and returns the system, its start, the duration, and the exact
+state as a function of time.
 """
 
 from time import perf_counter
@@ -41,7 +41,7 @@ def draw(name, seed):
 
 
 def compare(name, seed, **options):
-    """What is certified of a random motion, and what is true."""
+    """Certified and true errors of a random motion."""
     motion, times = draw(name, seed)
     begin = perf_counter()
     ref = zd.reference(motion.system, motion.end, t_eval=times, **(motion.options | options))

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def crossing(a, b, from_a, from_b, side):
-    """Where circles about a and b meet; side 1 is left of the way from a to b."""
+    """Intersection of circles about a and b; side 1 is left of the direction from a to b."""
     apart = abs(b - a)
     x = (apart**2 + from_a**2 - from_b**2) / (2 * apart)
     return a + (x + side * 1j * np.sqrt(from_a**2 - x**2)) * (b - a) / apart
@@ -27,6 +27,6 @@ def four_bar_by_circles(crank, lengths, side):
 
 
 def complex_of(sol, name):
-    """Where a point is in a motion, (k,)."""
+    """Positions of a point in a motion as complex numbers, (k,) m."""
     x, y = sol[f"{name}.position"].T
     return x + 1j * y

@@ -25,7 +25,7 @@ ABSENT = {name for name in EXTRAS if importlib.util.find_spec(name) is None}
 
 
 def pytest_configure():
-    """What tests compile is not looked for, nor kept, among what the user has compiled. Ctrl-C is heard, whoever started them."""
+    """Separate the compile cache of the tests from the user's, and let Ctrl-C interrupt also in the background."""
     signal.signal(signal.SIGINT, signal.default_int_handler)    # processes in the background begin with it ignored
     folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
     os.environ["ZERODRIFT_CACHE"] = folder

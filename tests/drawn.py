@@ -47,7 +47,7 @@ def _third(m):
 
 
 def collection(ax, kind):
-    """What draws all parts of a kind."""
+    """The collection of the axes that draws all parts of a kind."""
     (found,) = [each for each in ax.collections if each.get_label() == f"_{kind}"]
     return found
 

@@ -1,7 +1,7 @@
-"""What is known of the motions of `zd.models` from elsewhere: closed forms, equations by hand, and files of references.
+"""Motions of `zd.models` from independent sources: closed forms, equations by hand, and files of references.
 
-Each function has a model's name, takes a motion of it, and the model's arguments where they differ, and returns the largest
-deviation, in m or rad. Nothing here is computed by what is compared.
+Each function has a model's name, takes a motion of it and the model's arguments where they differ, and returns the largest
+deviation, in m or rad. Nothing here is computed by the code under test.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from reference_files import definition, number, table
 
 
 def points_off(sol, expected):
-    """How far points are from complex numbers by name, the most."""
+    """Largest distance of points from the expected complex numbers by name, m."""
     return max(np.abs(complex_of(sol, name) - place).max() for name, place in expected.items())
 
 

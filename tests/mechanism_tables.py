@@ -1,4 +1,4 @@
-"""Mechanisms as the core is told them, without the front: systems from tables, and random ones at states that satisfy them."""
+"""Mechanisms as tables of the core, without `zd.Mechanism`: systems from tables, and random ones at consistent states."""
 
 from dataclasses import dataclass
 
@@ -73,7 +73,7 @@ def pose_measures(bodies):
 
 @dataclass
 class Drawing:
-    """Where the mass centres are; the ground is pose 0."""
+    """Reference configuration: poses (x, y, angle) of the mass centres; pose 0 is the ground's."""
 
     poses: list
 
@@ -172,7 +172,7 @@ def random_mechanism(seed, bodies=5, loops=0, damped=True, names=TREE):
 
 
 def determined(system):
-    """Whether the constraints of a system in absolute coordinates are independent, and leave some freedom."""
+    """True if the constraints of a system in absolute coordinates are independent and leave some freedom."""
     C = system.evaluate().C
     return C is None or (len(C) < system.nv and np.linalg.svd(C)[1].min() > 0.02)
 

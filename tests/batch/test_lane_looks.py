@@ -82,7 +82,7 @@ def test_what_single_runs_warn_of_is_seen_in_lanes(springy, options, name, value
 
 
 def test_energy_that_is_off_between_the_ends_is_looked_at_again():
-    """The run is made by itself, as nobody but its rows tell whether it deserves a warning: here at its end it does not."""
+    """Such a run is repeated individually: only its samples show whether it deserves a warning, and here its end does not."""
     bar = zd.systems.four_bar()
     options = {"step": 0.04, "integrator": "heun", "stabilization": None}
     with unwarned():

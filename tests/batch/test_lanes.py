@@ -90,7 +90,7 @@ def test_vector_units_give_the_same_bits(course):
 
 @pytest.mark.parametrize(("every", "corrected"), [(1, 41), (3, 14), (7, 6), (40, 2), (41, 1), (50, 1)])
 def test_corrections_are_counted_and_made_at_the_last_step(every, corrected):
-    """Of 41 steps, in lanes that are at different ones: runs are refilled."""
+    """Runs of 41 steps, in lanes at different steps: a lane takes the next run when its own has ended."""
     system, stabilization = zd.systems.four_bar(), zd.Projection(every=every)
     ens = zd.ensemble(system, 0.41, v0=starts_of(system), step=0.01, stabilization=stabilization, outputs=["alpha1"])
     assert "11 in vector lanes" in repr(ens)
@@ -114,7 +114,7 @@ def test_a_run_that_changes_its_order_of_elimination_stays_in_its_lane():
 
 
 def test_what_lanes_cannot_make_is_what_simulate_makes():
-    """Steps that are too long to be believed: the run takes the ordinary road from its start."""
+    """Steps that are too long to be accepted: the run is made individually from its start."""
     system = zd.systems.four_bar()
     starts = np.array([1.0, 40.0])[:, None] * system.v0
     part = made(plan_of(system, 0.5, v0=starts, names=["alpha1"], step=0.02))

@@ -1,4 +1,4 @@
-"""The cheap looks that believe that all rows count, against the full decision and orientations in NumPy, on random matrices."""
+"""Quick checks that all constraints are independent, against the full decision and orientations in NumPy; random matrices."""
 
 import subprocess
 
@@ -17,7 +17,7 @@ pytestmark = needs_compiler
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory, core_objects):
-    """What says what both looks say; it includes the file of 'schur' itself."""
+    """Program that prints the results of both quick checks; it includes the source file of 'schur'."""
     others = [path for unit, path in core_objects.items() if unit != "formulations/schur"]
     return linked(tmp_path_factory.mktemp("looks") / "looks", ROOT / "tests" / "native" / "looks.c", others)
 
@@ -41,7 +41,7 @@ def path_of_matrices(rng, n, m, pattern=1.0):
 
 
 def of_full_rank(C, start):
-    """Whether the full decision lets all rows count: they are orthogonalized, always the one next of which most is left."""
+    """True if the full decision finds all rows independent: orthogonalization by decreasing residual norm (pivoted QR)."""
     lengths = np.linalg.norm(C, axis=1)
     if not (lengths > RANK_TOLERANCE * start).all():
         return False

@@ -37,7 +37,7 @@ def test_energy_correction_every_k_th_step(bar):
 
 
 def test_energy_corrections_left_out_are_counted_and_said():
-    """An oscillator at a turning point has no kinetic energy to scale: steps are chosen to meet each one exactly."""
+    """An oscillator at a turning point has no kinetic energy to scale; steps of this size meet each turning point exactly."""
     oscillator = SYSTEMS["oscillator"]
     half_period = np.pi / np.sqrt(10)
     with pytest.warns(zd.CorrectionWarning, match=r"\d+ of 60 energy corrections were left out"):

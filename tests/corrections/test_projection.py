@@ -13,7 +13,7 @@ def metric_of(name, M):
 
 
 def corrected(system, formulation, state, **options):
-    """What a formulation makes of a violated state; skips what it does not correct as its state cannot violate it."""
+    """State after the projection of a violated state; skips formulations whose state cannot violate the constraints."""
     t, p, v = state
     again = zd.project(system, p, v, t, formulation=formulation, projection=zd.Projection(**options))
     if all(np.array_equal(a, b) for a, b in zip(again, (p, v), strict=True)):

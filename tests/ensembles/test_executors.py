@@ -32,7 +32,7 @@ def processes():
 
 
 def same(one, other):
-    """Whether two ensembles have the same bits."""
+    """True if two ensembles are bitwise the same."""
     return (np.array_equal(one["link.angle"], other["link.angle"], equal_nan=True) and one.messages == other.messages
             and np.array_equal(one.values, other.values))
 
@@ -140,7 +140,7 @@ def by_default(sol, held=LOCK):
     ({"system": refers}, "refers of .* refers to <unlocked"),
 ])
 def test_functions_that_refer_to_what_cannot_travel_are_named(processes, arguments, named):
-    """Before anything runs; cloudpickle sends functions of modules, too, that it is told to."""
+    """Refused before anything runs; cloudpickle also pickles functions of registered modules by value."""
     cloudpickle = pytest.importorskip("cloudpickle")
     cloudpickle.register_pickle_by_value(sys.modules[__name__])
     try:
@@ -296,8 +296,8 @@ if __name__ == "__main__":
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="processes of this system are not killed by signals")
 def test_a_cluster_whose_worker_is_killed(tmp_path):
-    """Of processes on one machine: another takes its runs. What is in the store is what threads make, and is not made again;
-    what died with the worker is, be it under way or done and not yet fetched.
+    """Another worker process takes the runs of the killed one. The store holds the results of threads, and stored runs are not
+    repeated; runs lost with the worker are, whether in progress or finished and not yet fetched.
     """
     pytest.importorskip("distributed", reason="needs dask's cluster: pip install 'zerodrift[cluster]'")
     counted, stored, script = tmp_path / "counted", tmp_path / "stored", tmp_path / "script.py"

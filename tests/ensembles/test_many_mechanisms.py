@@ -213,7 +213,7 @@ def test_measures_are_recorded_by_the_core_where_starts_vary(in_python):
 
 
 def test_masses_that_cross_are_made_by_the_core(in_python):
-    """Of a body that nothing joins to the ground, the heaviest is the root of its tree: then they differ in more than numbers."""
+    """The heaviest of bodies that are not joined to the ground is the root of the tree, so that the trees of the runs differ."""
     m = zd.Mechanism("two", gravity=(0, -9.81))
     a, b = m.link("a", (0, 0), (1, 0), mass=1.0), m.link("b", (1, 0), (2, 1), mass=1.0)
     m.revolute("pin", a.end, b.start)

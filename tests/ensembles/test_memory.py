@@ -24,7 +24,7 @@ def scarce(monkeypatch):
 
 
 def test_sizes_are_those_of_the_arrays():
-    """Of coordinates, vectors, components and solutions; not known with adaptive steps."""
+    """Sizes of coordinates, vectors, components and solutions; unknown with adaptive steps."""
     m = zd.models.four_bar()
     ens = zd.ensemble(m, 1.0, parameters={"crank.mass": [1.0, 2.0]}, step=0.01, outputs=["C.force", "C.force.x", "crank.angle"])
     assert ens._plan.sizes == tuple(ens[name].nbytes for name in ("C.force", "C.force.x", "crank.angle"))

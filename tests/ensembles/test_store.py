@@ -26,7 +26,7 @@ STUDY = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.a
 
 
 def same(one, other):
-    """Whether two ensembles are the same to the last bit."""
+    """True if two ensembles are bitwise the same."""
     return (np.array_equal(one["link.angle"], other["link.angle"], equal_nan=True) and one.messages == other.messages
             and np.array_equal(one.values, other.values, equal_nan=True) and np.array_equal(one.failed, other.failed))
 
@@ -289,7 +289,7 @@ def test_parameters_of_a_system_are_named(tmp_path):
 
 
 def test_the_vector_unit_of_the_beginning_stays(tmp_path, monkeypatch):
-    """Where it is left out; where the processor lacks it, that is said."""
+    """A study is continued with its first vector unit if none is given; a processor without it raises an error."""
     study = {"step": 0.1, "store": tmp_path / "study"}
     zd.ensemble(zd.systems.four_bar(), 0.3, vector="baseline", **study)
     assert not zd.ensemble(zd.systems.four_bar(), 0.3, **study).failed.any()

@@ -65,7 +65,7 @@ def test_corrections_keep_the_order(formulation, options):
 
 
 def direction(t, mass, inertia, arm, omega, gravity=9.81):
-    """Where a slender rod with one end fixed points: a spherical pendulum, by SciPy."""
+    """Direction of a slender rod with one end fixed, a spherical pendulum, integrated by SciPy."""
     length = np.linalg.norm(arm)
     pull = mass * gravity * length / (inertia[0] + mass * length**2)
     start = np.array(arm) / length
@@ -114,7 +114,7 @@ def test_between_steps(spinning, formulation):
 
 
 def test_events(spinning, formulation):
-    """Where the scalar passes through zero, as the closed form says."""
+    """Zero of the quaternion's scalar part, compared with the closed form."""
     sol = zd.simulate(spinning, 3.0, step=0.05, formulation=formulation, integrator="dop853", events=lambda t, p, v: p[0])
     assert len(sol.t_events[0]) == 1
     assert abs(attitude(sol.t_events[0])[0, 0]) < 1e-11

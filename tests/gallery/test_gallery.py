@@ -1,4 +1,4 @@
-"""Films of all models, the page that shows them, and a model that nobody has put into the table."""
+"""Films of all models, the page that shows them, and a model that is missing in the table."""
 
 import io
 import re
@@ -47,7 +47,7 @@ def test_a_film_moves(name):
 
 
 def test_the_lines_are_those_that_are_run():
-    """What is printed beside a film makes the same motion as what the film shows."""
+    """The code printed beside a film makes the motion of the film."""
     exhibit, names = gallery.exhibit("four_bars"), {}
     assert exhibit.lines[0] == "m = zd.models.four_bars()"
     exec("\n".join(["import zerodrift as zd", *exhibit.lines[:2]]), names)

@@ -39,6 +39,6 @@ def test_columns_of_a_table_are_read_in_place():
 @pytest.mark.parametrize("array", [TABLE[:, 1:].astype(np.float32), TABLE[:, ::2], TABLE[::-1, 1:], TABLE[:3, 1:], TABLE.T[:2],
                                    np.zeros((4, 17), np.uint8)[:, 1:].view(float)])
 def test_columns_of_other_memory_are_refused(array):
-    """Of other numbers, rows that are not contiguous or run backwards, another size, and unaligned memory."""
+    """Other types of numbers, rows that are not contiguous or run backwards, another size, and unaligned memory."""
     with pytest.raises(TypeError, match="expected 8 float64 values in contiguous rows"):
         _gateway.base.strided_doubles(array, 8)

@@ -1,4 +1,4 @@
-"""What gauges are used for, alike in the plane and in space: what is refused, which terms follow, what laws are handed."""
+"""Elements on marker quantities, alike in the plane and in space: refusals, resulting terms, arguments of user functions."""
 
 import numpy as np
 import pytest
@@ -83,11 +83,11 @@ def test_a_law_that_knows_no_time(room):
 
 
 def test_the_longest_law_has_room(room):
-    """A law of two gauges and one of six, which are told one after the other."""
-    told = []
+    """User functions of two marker quantities and of six, which are called one after the other."""
+    calls = []
 
     def law(number, t, x, xdot):
-        told.append((number, list(x), list(xdot)))
+        calls.append((number, list(x), list(xdot)))
         return [sum(x)]
 
     made = core(room, law, efforts=[Effort("law", 0, law=0, inputs=[0, 1]), Effort("law", 1, law=1, inputs=[1, 0] * 3)]).for_run()
@@ -96,8 +96,8 @@ def test_the_longest_law_has_room(room):
     terms = made.evaluate(0.0, p, v)
     np.testing.assert_allclose(terms["f"][:2], [0.7, 2.1], rtol=1e-15)
     assert terms["power"] == pytest.approx(0.7 * 1.0 + 2.1 * 2.0, rel=1e-15)
-    assert (0, [0.3, 0.4], [1.0, 2.0]) in told
-    assert (1, [0.4, 0.3] * 3, [2.0, 1.0] * 3) in told
+    assert (0, [0.3, 0.4], [1.0, 2.0]) in calls
+    assert (1, [0.4, 0.3] * 3, [2.0, 1.0] * 3) in calls
 
 
 def test_the_force_of_several_efforts(room):

@@ -142,7 +142,7 @@ def stiff_governor():
 
 
 def rate_of_swing(t, y):
-    """Of the same governor by hand, in minimal coordinates: turn, swing, momentum of the spin, and the rate of the swing."""
+    """Rates of the same governor by hand, in minimal coordinates: turn, swing, momentum of the spin, and rate of the swing."""
     _, swing, momentum, rate = y
     length, sine, cosine = 0.3, np.sin(swing), np.cos(swing)
     spin = momentum / (1 + 10 * length**2 * sine**2)

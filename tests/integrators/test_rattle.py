@@ -189,7 +189,7 @@ def test_energy_input_is_integrated_along():
 
 
 def test_steps_however_short(bar):
-    """Of a size at which Phi / h is nothing but rounding, as events and values between rows ask for."""
+    """Steps so short that Phi / h is only rounding; events and samples within a step need such."""
     for h in (1e-5, 1e-9, 1e-14):
         p, v = step(bar, 0.0, bar.p0, bar.v0, h)
         vdot, _ = zd.acceleration(bar, bar.p0, bar.v0)

@@ -69,7 +69,7 @@ def test_a_step_is_the_sum_of_the_series(linkage):
 @pytest.mark.parametrize("equations", MULTIPLIED)
 @pytest.mark.parametrize("rtol", [1e-4, 1e-7, 1e-10, 1e-13])
 def test_chosen_steps_keep_to_the_tolerance(linkage, equations, rtol):
-    """Of the built-in four-bar, by another method at its finest; what each step may err by, the motion multiplies."""
+    """Errors against the built-in four-bar by another method at its finest; the motion amplifies the errors of the steps."""
     exact = zd.simulate(zd.systems.four_bar(), 2.0, rtol=3e-14, atol=3e-14, integrator="dop853").p[-1]
     sol = zd.simulate(linkage, 2.0, rtol=rtol, atol=rtol, integrator="taylor", formulation=equations)
     assert np.abs(sol.p[-1] - exact).max() < 100 * rtol
@@ -145,7 +145,7 @@ def test_values_between_are_the_series(linkage):
 
 
 def test_events_between_steps(pendulum):
-    """Where the particle is lowest, each time as it passes there: the time is that of the same event by another method."""
+    """Each time at which the particle is lowest, compared with the same event by another method."""
     found = [zd.simulate(pendulum, 5.0, rtol=1e-13, atol=1e-13, integrator=method, events=[lambda t, p, v: p[0]])
              for method in ("taylor", "dop853")]
     times = [sol.t_events[0] for sol in found]
@@ -193,7 +193,7 @@ def test_parameters_change_and_pickles_keep_it():
 
 @pytest.mark.parametrize("steps", [{"step": 0.01}, {"rtol": 1e-10, "atol": 1e-10}], ids=["fixed", "chosen"])
 def test_runs_of_an_ensemble_are_those_that_simulate_makes(steps):
-    """Of one start, so that nothing of a run may be left for the next one."""
+    """All runs have one start, so that data left over from an earlier run would show."""
     gravity, times = np.linspace(5, 15, 5), np.linspace(0, 2, 5)
     system, options = swinging(w, parameters={w: 9.81}), {"integrator": "taylor", "t_eval": times, **steps}
     ens = zd.ensemble(system, 2.0, parameters={"w": gravity}, threads=1, **options)

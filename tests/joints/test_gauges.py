@@ -121,7 +121,7 @@ def test_the_tables_introduce_their_rows():
 
 @pytest.mark.parametrize("name", TREE)
 def test_rows_and_coordinate_of_a_tree_joint_make_three(name):
-    """What a joint of the tree leaves free is what it does not hold."""
+    """Constraints and coordinate of a tree joint add up to the three relative freedoms of two bodies in the plane."""
     assert len(KINDS[name].rows) + (KINDS[name].carrier != "fixed") == 3
 
 

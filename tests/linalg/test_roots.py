@@ -30,7 +30,7 @@ def pointer(array):
 
 
 def drawn(seed, count=200):
-    """Of any size that doubles have, those at both ends and powers of two, which have exact roots, among them."""
+    """Random numbers over the whole range of doubles, with both ends of it and powers of two, which have exact roots."""
     rng = np.random.default_rng(seed)
     exponents = np.concatenate([rng.uniform(-1074, 1023.9, count), np.arange(-1074, 1024, 37.0)])
     return np.append(2.0**exponents, [SMALLEST, LARGEST, 1.0])

@@ -38,7 +38,7 @@ class Number:
 
 
 class Bodies:
-    """What is known of all bodies at one state q, v (n,)."""
+    """Poses and velocities of all bodies at one state q, v (n,)."""
 
     def __init__(self, q, v):
         self.q, self.v, self.n = q, v, len(q)

@@ -175,7 +175,7 @@ class Plain:
 
 
 def _held(first, second, kind, local1, local2, axes):
-    """What a joint holds at zero, from the poses of its bodies."""
+    """Constraint residuals of a joint, from the poses of its bodies."""
     (at1, R1), (at2, R2) = first, second
     apart = at2 + R2.apply(local2) - at1 - R1.apply(local1)
     (a1, a2), (n1, n2) = [(R1.apply(one), R2.apply(other)) for one, other in axes]
@@ -212,7 +212,7 @@ class Compared:
         return zd.simulate(system, span, p, v, step=step, formulation=formulation)
 
     def accelerations(self, formulation):
-        """Of the largest acceleration: how far these are off, and what is left of mass times acceleration less all forces."""
+        """Error of the accelerations, and residual of mass times acceleration less all forces; each relative to its maximum."""
         expected, sol = self.plain.accelerations(self.plain.pose, self.v), self._run(formulation, 1e-6, 1e-6)
         found = np.concatenate([[*sol[f"{name}.center.acceleration"][0], *sol[f"{name}.angular_acceleration"][0]]
                                 for name in self.plain.names()])
@@ -220,7 +220,7 @@ class Compared:
         return np.abs(found - expected).max() / size, np.abs(self._unbalanced(sol, found)).max() / size
 
     def _unbalanced(self, sol, found):
-        """What forces, reactions among them, leave of mass times acceleration (6 n,)."""
+        """Residual of Newton-Euler: mass times acceleration less all forces, reactions included, (6 n,)."""
         plain = self.plain
         left = dict(zip(plain.names(), plain.loads(plain.pose, self.v).reshape(-1, 6).copy(), strict=True))
         for joint, (first, second, place) in plain.joints.items():
@@ -235,7 +235,7 @@ class Compared:
         return np.concatenate(list(left.values()))
 
     def motion(self, formulation, span=0.01, steps=2):
-        """How far places are off in the end, in m."""
+        """Largest error of the positions at the end, m."""
         sol, poses, v = self._run(formulation, span, span / steps), self.plain.pose, self.v
         for _ in range(steps):
             poses, v = self._step(poses, v, span / steps)

@@ -35,7 +35,7 @@ def mechanism(seed, in_space):
 
 
 def move_together(edges, one, other):
-    """Whether a closed loop contains both of two edges, (body, body) each, given by their numbers."""
+    """True if a closed loop contains both of two edges, (body, body) each, given by their numbers."""
     if one == other:
         return True
     bodies = {body for edge in edges for body in edge}
@@ -43,7 +43,7 @@ def move_together(edges, one, other):
 
 
 def _connected(edges, one, other, without):
-    """Whether a way leads from one edge to another that avoids a body, and does not pass along these edges."""
+    """True if a path leads from one edge to another that avoids a body and does not contain these edges."""
     found, left = {body for body in edges[one] if body != without}, True
     while left:
         left = [edge for i, edge in enumerate(edges) if i not in (one, other) and without not in edge
@@ -53,7 +53,7 @@ def _connected(edges, one, other, without):
 
 
 def outcome(seed, in_space, layout):
-    """How a start ends: a word, and the largest motion of what nothing forces; a speed or a place is held, by turns."""
+    """Result of a start as a word, and the largest motion of a body that need not move; a speed or a position is prescribed."""
     random = np.random.default_rng(seed)
     m, joints = mechanism(seed, in_space)
     able = [i for i, (joint, _) in enumerate(joints) if joint.kind in QUANTITIES]

@@ -22,7 +22,7 @@ SAME = 1e-11        # of the largest value of a measure: some ten steps of other
 
 @pytest.fixture(scope="module", autouse=True)
 def _quickly_compiled():
-    """What is compiled here is evaluated a few times."""
+    """Compile without optimization, as the code is evaluated only a few times."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(of_mechanisms.compiling, "library", functools.partial(compiling.library, optimized=("-O0",)))
         yield

@@ -40,7 +40,7 @@ def test_there_are_enough_of_them():
 
 @pytest.mark.parametrize(("joint", "absolute"), PAIRS)
 def test_accelerations_and_reactions_agree(joint, absolute):
-    """Those of tree joints are by a pass over the tree in the one, and multipliers in the other."""
+    """Reactions of tree joints come from a pass over the tree in joint coordinates, from multipliers in absolute ones."""
     there, here = zd.acceleration(joint, joint.p0, joint.v0), zd.acceleration(absolute, absolute.p0, absolute.v0)
     for measure in joint._core.measures:
         one = joint.measured(measure.name, 0, joint.p0, joint.v0, *there)

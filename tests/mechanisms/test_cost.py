@@ -1,4 +1,4 @@
-"""What a step costs by count, in joint and in absolute coordinates: which of them are taken, and who is told."""
+"""Predicted cost of a step in joint and in absolute coordinates, the choice between them, and where it is reported."""
 
 import re
 

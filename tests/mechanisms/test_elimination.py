@@ -60,7 +60,7 @@ def test_the_pseudoinverse_says_the_same(graph, redundant, contradict):
 
 @pytest.mark.parametrize("graph", GRAPHS)
 def test_squares_besides_are_least(graph):
-    """Of x, too: in a basis of what the rows leave free, they are those of a dense matrix."""
+    """With squares to minimize besides, x is that of a dense matrix in a basis of the null space of the rows."""
     rng = np.random.default_rng(4)
     for _ in range(10):
         n = int(rng.integers(7, 12))

@@ -18,7 +18,7 @@ t, x = sp.symbols("t x")
 
 
 def everything():
-    """A mechanism with every kind of element, turned so that no axis is one of the drawing's; its numbers are no round ones."""
+    """A mechanism with every kind of element, turned so that no axis is a global one, and with numbers that are not round."""
     m = zd.Mechanism("all sorts", gravity=(0.1, -9.81), parameters={"k": 1 / 3})
     arm = m.link("arm", (0, 0), (1, 0.3), mass=1.1, length=1.05)
     bar = m.link("bar", arm.end, (1.7, -0.4), mass=0.7, inertia=0.05)
@@ -66,7 +66,7 @@ def there_and_back(m, tmp_path):
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 def test_every_number_is_the_same_to_the_last_bit(layout, tmp_path):
-    """Tables hold everything that the core is told."""
+    """The tables are all that the core receives of a mechanism."""
     m = everything()
     mine, its = (system.system(layout)._measuring.tables for system in (m, there_and_back(m, tmp_path)))
     for name in mine._fields:

@@ -31,7 +31,7 @@ def by_their_rows(monkeypatch, kind):
 
 
 def public(element):
-    """What an element offers, its measures among them."""
+    """Public names of an element, its measures among them."""
     return {name for name in dir(element) if not name.startswith("_")}
 
 

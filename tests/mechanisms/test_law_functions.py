@@ -75,7 +75,7 @@ def systems(make, monkeypatch, layout=None):
 
 
 def called(monkeypatch):
-    """What the core asks Python for from now on."""
+    """List of the numbers of user functions that the core calls in Python from now on."""
     asked, call = [], Laws.__call__
     monkeypatch.setattr(Laws, "__call__", lambda self, number, *at: asked.append(number) or call(self, number, *at))
     return asked

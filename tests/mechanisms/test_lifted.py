@@ -51,7 +51,7 @@ def test_a_model_in_space_is_that_of_the_plane(name):
 
 
 def everything():
-    """What no model has: particles and bodies that are free, an actuator, forces that turn, constraints of one's own."""
+    """A mechanism with elements that no model has: free particles and bodies, an actuator, forces that turn, user constraints."""
     m = zd.Mechanism("all", gravity=(1.0, -9.81), parameters={"k": 3.0})
     arm = m.link("arm", (0, 0), (1, 0.5), mass=1.0)
     m.revolute("pin", m.ground, arm.start, damping=0.2)
@@ -115,7 +115,7 @@ def test_a_soft_joint():
 
 
 def test_what_cannot_be_lifted_is_named(monkeypatch):
-    monkeypatch.delitem(LIFTED, "bushing")      # as if it were a kind that somebody adds
+    monkeypatch.delitem(LIFTED, "bushing")      # stands for a new kind of element
     m = mounted()
     with pytest.raises(ValueError, match="'mount' cannot be lifted: a bushing has no counterpart in space"):
         m.lifted()

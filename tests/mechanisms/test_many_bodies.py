@@ -181,7 +181,7 @@ def test_of_many_contradictions_some_are_named():
 @pytest.mark.parametrize(("make", "n", "held"), [(chain, 340, {"link150.end.position.y": -0.5}),
                                                  (chain_of_balls, 170, {"link80.end.position.z": -0.5})])
 def test_an_end_within_a_long_chain_is_held(make, n, held):
-    """What is least in the mass metric bends few links, and these strongly."""
+    """The minimum displacement in the mass metric bends few links, and these strongly."""
     m = make(n)
     m.start(held)
     p0 = m.system("absolute").p0.reshape(n, -1)

@@ -1,4 +1,4 @@
-"""What is measured of bodies, points, joints and bushings: against differences, rigid bodies' kinematics and Newton's laws."""
+"""Measures of bodies, points, joints and bushings against differences, rigid bodies' kinematics and Newton's laws."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
-"""Rows of parallelograms that swing through the line in which all links lie: digits that are lost there are told, also where rows
-are redundant.
+"""Rows of parallelograms that swing through the line in which all links lie: the loss of digits there is reported, also where
+constraints are redundant.
 """
 
 import numpy as np
@@ -40,7 +40,9 @@ def swung(count, doubled=0, formulation="schur"):
 
 
 def test_long_chains_that_lose_digits_say_so():
-    """Of 200 in a row, beside the one angle of all cranks: until they first pass the line nothing is told, later both change."""
+    """200 parallelograms in a row against the equation of the one angle of all cranks: no warning and no error before the first
+    passage of the line, both after it.
+    """
     count = 200
     weight, inertia = (count + 1) / 2 + count, (count + 1) / 3 + count      # of uniform cranks and couplers, 1 m, 1 kg
     angle = zd.System(1, mass=np.eye(1), force=lambda p: -9.81 * weight / inertia * np.cos(p), p0=[np.pi / 2], v0=[SPEED])

@@ -60,7 +60,7 @@ def test_accelerations_and_reactions(seed, wanted):
 
 @pytest.mark.parametrize(("seed", "on_ground"), [(64, None), (124, None), (299, "disc"), (844, None), (924, None)])
 def test_rows_that_follow_from_others_do_not_hold_up_independent_coordinates(seed, on_ground):
-    """What follows from the rows that are solved has next to no gradient here: in units of that its rounding looks large."""
+    """Redundant constraints have nearly zero gradients here, so that their rounding is large in units of these."""
     case = Compared(seed, on_ground, loops=3, coordinates="joint")
     assert case.can_be
     assert max(case.accelerations("independent")) < NEAR

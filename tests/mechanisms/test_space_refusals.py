@@ -1,4 +1,4 @@
-"""What there is not in space, and what cannot be: sentences that name the element and say what is allowed."""
+"""Errors for what space does not have or allow: they name the element and say what is allowed."""
 
 import re
 

@@ -51,7 +51,7 @@ def test_steps_of_more_than_half_a_turn():
 
 
 def test_turns_are_counted_between_two_bodies():
-    """Of a body that tumbles, and a wheel on it that turns the other way: what the speed of the wheel adds up to."""
+    """The angle of a wheel on a tumbling body is the integral of the wheel's speed relative to it."""
     m = zd.Mechanism("gyrostat", dimension=3)
     body = m.body("body", 3.0, (0.4, 0.5, 0.6))
     wheel = m.body("wheel", 1.0, (0.1, 0.1, 0.2), rotation=R)
@@ -91,7 +91,7 @@ def test_a_torsion_pendulum_over_several_turns(formulation, damping):
 
 
 def coupled(m):
-    """What couples three wheels by their angles, in the plane or in space."""
+    """Three wheels coupled by their angles, in the plane or in space."""
     m.gear("teeth", "pin0", "pin1", ratio=-np.sqrt(2))
     m.coupler("law", lambda a, b: b - a - 0.1 * np.sin(a) ** 2, of={"a": "pin1.angle", "b": "pin2.angle"})
     m.torsion_spring("coil", "pin2", stiffness=0.2, damping=0.05)

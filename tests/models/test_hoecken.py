@@ -17,7 +17,7 @@ def test_the_path_is_that_of_a_right_angle(ground, coupler):
 @pytest.mark.parametrize(("ground", "coupler", "degrees", "length", "percent"), [
     (2.500, 3.250, 140, 3.623, 0.023), (2.200, 2.800, 180, 4.181, 0.096)])
 def test_it_is_as_straight_as_tabled(ground, coupler, degrees, length, percent):
-    """Of Norton's table: over so many degrees P goes so many cranks along x, and leaves its line by so many percent of that."""
+    """Norton's table: over so many degrees P moves so many crank lengths along x, straight to so many percent of that."""
     sol = zd.simulate(zd.models.hoecken(crank=1.0, ground=ground, coupler=coupler, speed=2 * np.pi), 1.0, step=1 / 720)
     x, y = sol["P.position"][360 - degrees:361 + degrees].T
     assert np.ptp(x) == pytest.approx(length, abs=6e-4)

@@ -1,4 +1,4 @@
-"""What every model of `zd.models` can do; the motion of each is compared in the file of its name."""
+"""Properties of every model of `zd.models`; the motion of each is compared in the file of its name."""
 
 import inspect
 import pickle
@@ -39,7 +39,7 @@ def test_pickling(model):
 
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_saved_and_read_it_is_the_same_to_the_last_bit(name, tmp_path):
-    """What a file says of it, where it starts, and the state after some steps; and the file of what was read is the same file."""
+    """Tables, start, and the state after some steps; and the model that was read is saved as the same file."""
     one = MECHANISMS[name]()
     other = zd.load(one.save(tmp_path / name))
     assert other.save(tmp_path / "again").read_bytes() == (tmp_path / f"{name}.json").read_bytes()
@@ -114,7 +114,7 @@ def test_arguments_that_nobody_knows_are_named(name):
 
 
 def test_without_sympy():
-    """What is needed is said, and only when it is needed."""
+    """The error names SymPy, and is raised only where SymPy is needed."""
     code = """if True:
         import sys
         sys.modules["sympy"] = None

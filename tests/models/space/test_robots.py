@@ -51,7 +51,7 @@ def test_a_delta_robot_by_its_inverse_kinematics_and_dynamics():
 
 
 def test_the_spatial_slider_crank_by_its_closed_form():
-    """Where the slider is, and the energy of all bodies from their velocities, which with the first determines the motion."""
+    """Position of the slider, and energy of all bodies from their velocities: together they determine the motion."""
     sol = zd.simulate(zd.models.spatial_slider_crank(), 2.0, step=2e-3, integrator="dop853", save_every=20)
     angle = np.unwrap(sol["hinge.angle"])
     y, z = 0.1 - 0.08 * np.sin(angle), 0.12 + 0.08 * np.cos(angle)
