@@ -43,7 +43,7 @@ def test_what_was_made_by_functions_is_loaded_without_them(tmp_path):
 
 @pytest.mark.parametrize("reduce", [None, lambda sol: 1.0])
 def test_runs_of_a_loaded_ensemble_have_its_bits(tmp_path, reduce):
-    """Whether made in SIMD lanes or individually, and also from a store."""
+    """Runs made in SIMD lanes or individually, loaded from a file or a store."""
     ens = zd.ensemble(zd.systems.four_bar(), 1.0, parameters={"gravity": np.linspace(9, 10, 5)}, step=0.01, outputs=["alpha2"],
                       reduce=reduce, store=tmp_path / "store")
     for again in (zd.load(ens.save(tmp_path / "file")), zd.load(tmp_path / "store"), ens):
