@@ -1,12 +1,12 @@
-/* Whether a system stays what it says it is: M of (2) symmetric, and C and Phi_t of (5) the derivatives of Phi.
+/* Consistency of a system during a run: M of (2) must be symmetric, and C and Phi_t of (5) must be the derivatives of Phi.
  *
- * Both are looked at now and then, M where it is known anyway. Derivatives are compared only where somebody wrote them down beside Phi,
- * as those that are derived cannot be wrong; in one direction (s, w) of time and velocities at a time, another each time:
+ * Both are checked at intervals, M whenever its value is available. Derivatives are compared only if they are written by hand; those
+ * derived symbolically cannot be wrong. Each check uses another direction (s, w) of time and velocities:
  *
  *     C w + Phi_t s = (Phi(t + e s, p + e A w) - Phi(t - e s, p - e A w)) / 2e + O(e^2).
  *
- * Where that does not hold, the difference quotient is trusted only if others agree with it, from either side and with other e: a Phi
- * that has kinks, or is rounded coarsely, says nothing.
+ * If this fails, the error is reported only if other difference quotients, one-sided and with other e, agree with the first: the
+ * quotients of a Phi with kinks or coarse rounding prove nothing.
  */
 #include "consistency.h"
 
@@ -17,12 +17,12 @@
 #include "../linalg/norms.h"
 #include "../point/matrices.h"
 
-static const double ROUNDING = 1e-12;       /* of the largest entry of M, */
-static const double ASYMMETRY = 1e-9;       /* or of the most that an entry of a mass matrix can be beside its diagonal: both are nothing */
-static const double SHORT = 0x1p-17;        /* e, in natural units */
-static const double WRONG = 1e-3;           /* of the size of a row; Jacobians by differences are off by less */
-static const double AGREEMENT = 0.1;        /* of what is wrong: quotients that differ by less agree */
-enum { COMPARE_EVERY = 64 };                /* steps; and at 0, 1, 2, 4, 8 ... of them */
+static const double ROUNDING = 1e-12;       /* |M_ij - M_ji| allowed, relative to the largest entry of M */
+static const double ASYMMETRY = 1e-9;       /* the same, relative to sqrt(M_ii M_jj), the bound of |M_ij|; either tolerance suffices */
+static const double SHORT = 0x1p-17;        /* e, in characteristic scales */
+static const double WRONG = 1e-3;           /* error reported, relative to the size of a constraint; Jacobians by differences are closer */
+static const double AGREEMENT = 0.1;        /* difference allowed between quotients that agree, relative to the error found */
+enum { COMPARE_EVERY = 64 };                /* steps between checks of C; also checked after 0, 1, 2, 4, 8 ... steps */
 
 /* ---- M ---- */
 
@@ -67,7 +67,7 @@ zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_
     };
 }
 
-/* What stands between -1 and 1 at this place of a sequence that looks random and is always the same. */
+/* Entry of a fixed pseudo-random sequence in [-1, 1). */
 static double scattered(uint64_t place)
 {
     uint64_t bits = (place + 1) * UINT64_C(0x9E3779B97F4A7C15);
@@ -75,13 +75,13 @@ static double scattered(uint64_t place)
     return (double)(bits >> 11) * 0x1p-52 - 1;
 }
 
-/* What goes with a step of one in the direction of velocity i, or of time, which is the last: so much that all of them weigh alike. */
+/* Characteristic scale of direction i: velocity i, or time for i = nv. In these scales all directions have equal weight. */
 static double unit(const zd_consistency *self, int i)
 {
     return i < self->motion->system.nv ? self->motion->point->unit[i] : self->of_time;
 }
 
-/* Phi, on its own memory, at so much of the direction from where the point is: which stays as it is. */
+/* self->Phi <- Phi at the point displaced by e times the direction; the point itself is not changed. */
 static int evaluate(zd_consistency *self, double e)
 {
     const zd_point *point = self->motion->point;
@@ -116,14 +116,14 @@ static double entry(const zd_consistency *self, int k, int i)
     return 0;
 }
 
-/* Adds what an entry makes of the direction; *size is the largest that one of them alone makes of a unit. */
+/* Adds the term of one Jacobian entry to the directional derivative; *size <- the largest |entry * characteristic scale|. */
 static void add_given(const zd_consistency *self, int i, double x, double *sum, double *size)
 {
     *sum += x * self->direction[i];
     *size = fmax(*size, fabs(x) * unit(self, i));
 }
 
-/* What C and Phi_t make of the direction in this row; and its size, the largest that one of its entries alone makes of a unit, or has. */
+/* Directional derivative C w + Phi_t s of constraint k by the given Jacobian; *size <- its size, at least the constraint's own. */
 static double given(const zd_consistency *self, int k, double *size)
 {
     const int n = self->motion->system.nv;
@@ -141,7 +141,7 @@ static void set_rates(zd_consistency *self)
     zd_point_rate(self->motion->point, self->direction, self->pdot);
 }
 
-/* Whether all quotients along the direction agree with this one, which is so far from what is given. */
+/* True if difference quotients with other ends agree with this one, which differs by `off` from the given derivative. */
 static int is_sure(zd_consistency *self, int k, double quotient, double off, int *status)
 {
     static const double ends[][2] = {{0, SHORT}, {-SHORT, 0}, {0, SHORT / 16}, {-SHORT / 16, 0}, {-16 * SHORT, 16 * SHORT}};
@@ -152,7 +152,7 @@ static int is_sure(zd_consistency *self, int k, double quotient, double off, int
     return 1;
 }
 
-/* Names the entry of the row that is off most. */
+/* Finds the entry of constraint k with the largest error, for the message. */
 static int name_entry(zd_consistency *self, int k)
 {
     double worst = 0;

@@ -1,4 +1,4 @@
-/* Whether a system stays what it says it is. */
+/* Consistency of a system during a run: symmetry of M, and Jacobians against differences of Phi. */
 #ifndef ZD_CONSISTENCY_H
 #define ZD_CONSISTENCY_H
 
@@ -6,21 +6,21 @@
 
 typedef struct zd_consistency {
     zd_motion *motion;
-    int compares;           /* whether derivatives of Phi are compared with those that are given; else there is no memory for it */
-    double slowest;         /* 1/s: of the rates, in natural units, that count: one unit over the whole run */
-    double of_time;         /* what goes with a step of one in the direction of time, see consistency.c */
+    int compares;           /* true if C and Phi_t are hand-written and checked; otherwise no memory is allocated */
+    double slowest;         /* 1/s: lower bound of the rates, one characteristic scale over the whole run */
+    double of_time;         /* s: characteristic scale of time, from zd_consistency_jacobian() */
     double *direction;      /* (nv + 1,): w, s */
-    double *pdot, *p;       /* (nq,): A w; displaced */
-    double *Phi, *quotient, *central;   /* (mh,) */
-    double *scratch;        /* the system's own */
-    int row, column;        /* the entry that is wrong; column nv is Phi_t */
-    double given, found;    /* its two values */
+    double *pdot, *p;       /* (nq,): A w; displaced coordinates */
+    double *Phi, *quotient, *central;   /* (mh,): displaced Phi; difference quotients; the central one */
+    double *scratch;        /* scratch memory of the system for displaced evaluations */
+    int row, column;        /* the wrong entry of C; column nv is Phi_t */
+    double given, found;    /* its given value, and its value by differences */
 } zd_consistency;
 
 zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings);
-int zd_consistency_mass(zd_point *point);           /* whether M is symmetric; it is known there */
-/* Whether C and Phi_t are the derivatives of Phi, where they are compared; in another direction at every step. */
+int zd_consistency_mass(zd_point *point);           /* checks that M, already evaluated, is symmetric; else ZD_NOT_SYMMETRIC */
+/* Checks hand-written C and Phi_t against differences of Phi, in a direction that depends on the step; else ZD_NOT_JACOBIAN. */
 int zd_consistency_jacobian(zd_consistency *self, int64_t step);
-int zd_consistency_look(zd_consistency *self, int64_t step);   /* both, where it is due */
+int zd_consistency_look(zd_consistency *self, int64_t step);   /* both checks, the second at its intervals */
 
 #endif

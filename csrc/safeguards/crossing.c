@@ -1,22 +1,20 @@
-/* Whether a bifurcation lies within a step, though neither of its ends is one.
+/* Bifurcations inside a step, when neither of its ends is one.
  *
- * The space that the rows of C span turns as the motion goes on. As long as nothing else happens, it keeps its orientation: with W the
- * squares of the natural units, det(C1 W C0^T) stays positive while it turns by less than a right angle. Where the motion passes through
- * a bifurcation, a row vanishes and comes back reversed: the sign changes, as in the continuation of curves (Allgower and Georg,
- * Introduction to Numerical Continuation Methods, section 8). It changes as well if the mechanism only comes near one and the step
- * leads straight on, where the motion would have turned away.
+ * The row space of C rotates with the motion but keeps its orientation: with W the squares of the characteristic scales, det(C1 W C0^T)
+ * stays positive while the rotation is below a right angle. In a bifurcation a row of C vanishes and returns reversed, so that the sign
+ * changes, as in the continuation of curves (Allgower and Georg, Introduction to Numerical Continuation Methods, section 8). The sign
+ * changes, too, if the mechanism only comes near a bifurcation and the step goes straight on where the exact motion turns away.
  *
- * Where some rows are redundant, those that were chosen may come to follow from each other, and so be reversed, at places that are no
- * bifurcations: what is left out then takes their place. So all rows are compared. With C1 = B C1_r, where B = [I; T], the product of those
- * eigenvalues of C1 W C0^T that are not zero anyway is det(C1_r W C0^T B). It is the sum of det(C1_s W C0_s^T) over all choices s, and does
- * not depend on which was taken; it stays positive as long as neither what the rows span nor how they follow from each other turns by a
- * right angle.
+ * If constraints are redundant, the independent rows that were selected may become dependent, and so reversed, without a bifurcation:
+ * other rows then take their place. So all rows are compared. With C1 = B C1_r, where B = [I; T], the product of those eigenvalues of
+ * C1 W C0^T that are not identically zero is det(C1_r W C0^T B). It is the sum of det(C1_s W C0_s^T) over all selections s of rows and
+ * does not depend on the one in use; it stays positive while neither the row space nor the dependence between rows rotates by a right angle.
  *
- * Where there are more than two rows, this is asked only where they have turned noticeably from one point of the step to the next: see what
- * sets `was_turned` of a rank.
+ * With more than two constraints the determinant is computed only after a noticeable rotation between consecutive points of the step: see
+ * where `was_turned` of a rank is set.
  *
- * Shorter steps tell which of these it is, in stepping/passage.c: through a bifurcation the motion is continuous, so that one of them
- * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step however short these are.
+ * Shorter steps distinguish the two cases, in stepping/passage.c: through a bifurcation the motion is continuous, so that one of them
+ * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step, however short the steps are.
  */
 #include "crossing.h"
 
@@ -30,10 +28,10 @@
 #include "../point/matrices.h"
 #include "../point/units.h"
 
-enum { MOST_POINTS = 64 };     /* of a path at which C is evaluated */
-static const double LONG = 1;       /* in natural units: of a longer path, points in between are evaluated, too */
-static const double NEAR = 0.5;     /* in natural units: the distance between these points */
-static const double NEARBY = 1e-3;  /* in natural units: a larger violation says that nothing keeps the motion on the constraints */
+enum { MOST_POINTS = 64 };     /* maximum number of points at which C is evaluated along a long displacement */
+static const double LONG = 1;       /* in characteristic scales: along a longer displacement, intermediate points are evaluated */
+static const double NEAR = 0.5;     /* in characteristic scales: distance of these points */
+static const double NEARBY = 1e-3;  /* in characteristic scales: with a larger violation the motion is not held on the constraints */
 
 static void *take_memory(zd_arena *arena, const void *of)
 {
@@ -93,7 +91,7 @@ static int need_memory(zd_crossing *self)
     return self->memory ? ZD_DONE : ZD_NO_MEMORY;
 }
 
-/* C where the step began is evaluated again, on memory of its own. */
+/* memory->C <- C at the start of the step, evaluated again in separate memory. */
 static int evaluate_beginning(zd_crossing *self)
 {
     zd_motion *motion = self->motion;
@@ -117,14 +115,14 @@ int zd_crossing_need_rows(zd_crossing *self)
     return status;
 }
 
-/* The sign of rows does not depend on their size. */
+/* det(C1 W C0^T) of two rows. Rows need no scaling: only the sign is used. */
 ZD_INLINE double turn_of_two(const int n, const zd_point *point, const double *a0, const double *b0)
 {
     const double *a = point->C, *b = a + n;
     return zd_dot(n, a, a0) * zd_dot(n, b, b0) - zd_dot(n, a, b0) * zd_dot(n, b, a0);
 }
 
-/* x <- C1_a W C0^T, a row of the product, of so many rows in units of their sizes: those that count at the point, then the others */
+/* x (count,) <- row a of C1_r W C0^T, with rows scaled by their sizes; columns: independent constraints at the point, then redundant ones */
 static void multiply_row(const zd_point *point, const double *C0, int a, int count, double *x)
 {
     const zd_row_of_C now = zd_counted_row(point, a);
@@ -135,7 +133,7 @@ static void multiply_row(const zd_point *point, const double *C0, int a, int cou
     }
 }
 
-/* x <- x B, in the same units */
+/* x <- x B, in the same scaling */
 static void gather_others(const zd_point *point, double *x)
 {
     const zd_selection *selection = point->rank->selection;
@@ -146,7 +144,7 @@ static void gather_others(const zd_point *point, double *x)
     }
 }
 
-/* det(C1 W C0^T B), of the rows that count at the point, and B of those that follow from them; of more than two in units of their sizes */
+/* det(C1_r W C0^T B): C1_r of the independent constraints at the point, B expresses the redundant ones; more than two rows are scaled */
 static double determinant(const zd_crossing *self, const zd_point *point, const double *C0)
 {
     const int n = point->rank->n, rows = point->rows, has_others = !zd_rank_is_full(point) && !point->rank->lost;
@@ -154,7 +152,7 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
         return ZD_SIZED(turn_of_two, n, point, C0 + zd_rank_row(point, 0) * n, C0 + zd_rank_row(point, 1) * n);
     double *turn = self->memory->turn;
     if (has_others) zd_rank_express_others(point);
-    for (int a = 0; a < rows; a++) {        /* what a row has of others is overwritten by the next */
+    for (int a = 0; a < rows; a++) {        /* the redundant part of row a is overwritten by row a + 1 */
         multiply_row(point, C0, a, has_others ? point->rank->m : rows, turn + a * rows);
         if (has_others) gather_others(point, turn + a * rows);
     }
@@ -163,7 +161,7 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
     return zd_lu_factor(rows, turn, order) == rows ? zd_lu_determinant(rows, turn, order) : 0;
 }
 
-/* p <- the cubic through the ends of the step with the rates there, at this share s of the step. */
+/* memory->p <- cubic Hermite interpolant of the step at the fraction s. */
 static void interpolate(const zd_crossing *self, double h, double s)
 {
     const double *p1 = self->memory->p1;
@@ -173,7 +171,7 @@ static void interpolate(const zd_crossing *self, double h, double s)
     }
 }
 
-/* Whether the orientation is the same from point to point, on a path too long to tell from its ends alone. */
+/* *is_kept <- true if the orientation is the same from point to point along a long displacement, whose ends alone prove nothing. */
 static int follow(zd_crossing *self, double h, int points, int *is_kept)
 {
     zd_point *point = self->motion->point;
@@ -197,7 +195,7 @@ static int follow(zd_crossing *self, double h, int points, int *is_kept)
     return status == ZD_BIFURCATION ? ZD_DONE : status;
 }
 
-/* What a change of orientation means: a bifurcation, but nothing far off the constraints, where nothing keeps the motion on them. */
+/* Status after a change of orientation: a bifurcation, unless the motion is not held on the constraints and violates them. */
 static int judge(const zd_crossing *self)
 {
     zd_point *point = self->motion->point;
@@ -217,7 +215,7 @@ double zd_crossing_orientation(const zd_crossing *self)
     return determinant(self, self->motion->point, self->memory->C);
 }
 
-/* Whether the rows at both ends of the step have the same orientation. */
+/* *is_kept <- true if the rows of C at both ends of the step have the same orientation. */
 static int compare(zd_crossing *self, double h, double moved, int *is_kept)
 {
     const zd_point *point = self->motion->point;
@@ -228,17 +226,17 @@ static int compare(zd_crossing *self, double h, double moved, int *is_kept)
     return ZD_DONE;
 }
 
-/* The end of the step is where the next begins. */
+/* Saves the end of the step as the start of the next. */
 static void keep(zd_crossing *self)
 {
     const zd_point *point = self->motion->point;
     self->has_begun = 1;
     self->has_rows = self->memory != NULL;
     if (self->has_rows) store_rows(point, self->memory->C);
-    point->rank->was_turned = !(point->known & ZD_RANKED);     /* it is not where a long path was followed */
+    point->rank->was_turned = !(point->known & ZD_RANKED);     /* not ranked after intermediate points were evaluated */
 }
 
-/* Whether two rows, as a loop in the plane has, count at both ends of a short step. */
+/* True for the usual case of a plane loop: two independent constraints at both ends of a short step. */
 static int is_ordinary(const zd_crossing *self, double moved)
 {
     const zd_point *point = self->motion->point;
@@ -246,7 +244,7 @@ static int is_ordinary(const zd_crossing *self, double moved)
         && moved <= LONG * LONG;
 }
 
-/* Keeps two rows, if they have the orientation of those that are kept. */
+/* Saves two rows if they have the orientation of the saved ones; returns false otherwise. */
 ZD_INLINE int keep_two(const int n, const zd_point *point, double *C0)
 {
     if (!(turn_of_two(n, point, C0, C0 + n) > 0)) return 0;
@@ -260,7 +258,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
     zd_point *point = motion->point;
     if (!point->rank->m || point->rank->is_large) return ZD_DONE;
     int is_kept = 1;
-    /* What the next step begins with is evaluated at once. */
+    /* All terms that the next step needs at its start are evaluated in the same call. */
     int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, motion->acceleration_needs);
     if (!status && !(point->known & ZD_RANKED)) status = zd_motion_find_rows(motion);
     if (status) return status;

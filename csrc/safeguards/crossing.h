@@ -1,41 +1,42 @@
-/* Whether a bifurcation lies within a step. */
+/* Detection of bifurcations inside a step. */
 #ifndef ZD_CROSSING_H
 #define ZD_CROSSING_H
 
 #include "../motion/motion.h"
 #include "../motion/place.h"
 
-/* Memory for a closer look at a step. */
+/* Memory for comparing C along a step. */
 typedef struct zd_crossing_memory {
-    double *C;              /* the rows where the step began, stored as the point's are, times the squares of the natural units */
-    double *previous;       /* likewise, at the point looked at before */
-    double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): the point looked at, and the end of the step */
+    double *C;              /* C at the start of the step, stored as the point's C, times the squares of the characteristic scales */
+    double *previous;       /* likewise, at the previous intermediate point */
+    double *p, *p1, *v1;    /* (nq,), (nq,), (nv,): intermediate point; end of the step */
     double *turn;           /* (m, m): C1 W C0^T, factored */
-    int *order;             /* (m,) */
-    double *scratch;        /* the system's own */
+    int *order;             /* (m,) pivots of its factors */
+    double *scratch;        /* scratch memory of the system for these evaluations */
 } zd_crossing_memory;
 
 typedef struct zd_crossing {
     zd_motion *motion;
     const zd_last *last;    /* the step */
     const double *rate0, *rate1;    /* (nq,): pdot at its ends */
-    int has_begun;          /* whether the step began anywhere but at a bifurcation */
-    int may_pass;           /* whether the step may pass a bifurcation */
-    int constraints_hold;   /* whether (3) holds at the end of every step */
-    int has_rows;           /* whether memory->C is that of the step's beginning */
-    zd_crossing_memory *memory;     /* NULL until it is needed; for few rows it is there from the start */
+    int has_begun;          /* true if a start is saved for comparison: false at a bifurcation */
+    int may_pass;           /* true if the step may pass a bifurcation */
+    int constraints_hold;   /* true if (3) is satisfied at the end of every step */
+    int has_rows;           /* true if memory->C belongs to the start of the step */
+    zd_crossing_memory *memory;     /* NULL until it is needed; with few constraints it is allocated at creation */
 } zd_crossing;
 
 zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last);
-int zd_crossing_begin(zd_crossing *self);       /* keeps where the motion is */
-/* Keeps where a step of size h has led, by so much in natural units, squared; ZD_BIFURCATION_PASSED if a bifurcation lies in between. */
+int zd_crossing_begin(zd_crossing *self);       /* saves the present point as the start of a step */
+/* Checks a step of size h and saves its end as the start of the next; ZD_BIFURCATION_PASSED if a bifurcation lies inside. `moved` is its
+ * squared displacement in characteristic scales. */
 int zd_crossing_step(zd_crossing *self, double h, double moved);
-/* memory->C, for which the point does not move; ZD_NO_MEMORY if there is none for it. */
+/* Evaluates memory->C without changing the point; ZD_NO_MEMORY if memory is lacking. */
 int zd_crossing_need_rows(zd_crossing *self);
-/* Whether the point is at a bifurcation. */
+/* True if the point is at a bifurcation. */
 int zd_crossing_is_at_one(const zd_point *point);
-/* det(C1 W C0^T), of the rows that count at the point, C0 being those where the step began. Its sign changes where a bifurcation is
- * passed. */
+/* det(C1 W C0^T), of the independent constraints at the point (C1) and at the start of the step (C0). Its sign changes where a bifurcation
+ * is passed. */
 double zd_crossing_orientation(const zd_crossing *self);
 
 #endif

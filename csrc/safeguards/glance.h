@@ -1,14 +1,14 @@
-/* Whether a step on the direct road needs no more than a glance, as nearly all do: then nothing of guard.c and motion/direct.c would find
- * anything in it, and all that these would keep is kept. It is made of every step, and so asks for less than they do, in fewer instructions:
- * where the detour is at most 1 / ZD_CALM of the displacement, the velocities of both ends allow for it, too, and pivots within a factor
- * of four of one number, of one sign, have neither changed it nor shrunk by more than 16. */
+/* Quick check of a step on the closed-form path. It passes nearly all steps, and only those that the full checks of guard.c and
+ * motion/direct.c would pass without saving anything. Executed in every step, it takes fewer instructions by sufficient conditions: if
+ * the detour is at most 1 / ZD_CALM of the displacement, it satisfies the bound by the velocities at both ends, too; and pivots of one
+ * sign within a factor of four of one number have neither changed sign nor shrunk by more than 16. */
 #ifndef ZD_GLANCE_H
 #define ZD_GLANCE_H
 
 #include "../motion/pivots.h"
 #include "safeguards.h"
 
-/* Of a step: sums of squares in natural units. `half` is half of its size. */
+/* Displacement and detour (p1 - p0 - h (v0 + v1) / 2) of a step: sums of squares in characteristic scales. Below, `half` is h / 2. */
 typedef struct zd_seen {
     double moved, detour;
 } zd_seen;
@@ -21,7 +21,7 @@ ZD_INLINE void zd_see_one(zd_seen *seen, int i, double half, const double *p0, c
     seen->detour += (missed * inverse_unit[i]) * (missed * inverse_unit[i]);
 }
 
-/* Of n coordinates whose rates are the velocities, from (p0, v0) to (p, v): two of them at once, as all four were stored so. */
+/* Sums over n coordinates with pdot = v, from (p0, v0) to (p, v), two at a time in vectors. */
 ZD_INLINE zd_seen zd_see(const int n, double half, const double *p0, const double *v0, const double *p, const double *v,
                          const double *inverse_unit)
 {
@@ -45,8 +45,7 @@ ZD_INLINE zd_seen zd_see(const int n, double half, const double *p0, const doubl
     return seen;
 }
 
-/* Of n coordinates whose rates are the velocities, where the step has led to (p, v).
- * What is not a number or infinite is passed by no comparison. */
+/* True if the step to (p, v) passes, with n coordinates and pdot = v. NaN and infinity fail each comparison. */
 ZD_INLINE int zd_safeguards_glance(const int n, zd_safeguards *self, double h, int64_t next_step, const double *p, const double *v)
 {
     zd_guard *guard = &self->guard;

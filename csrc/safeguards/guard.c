@@ -1,23 +1,23 @@
-/* Whether a step can be believed, by two comparisons of what is known at both of its ends anyway.
+/* Acceptance of a step, by two comparisons of quantities that are known at both of its ends.
  *
- * First, its displacement has to agree with its velocities. A correction that leads to another assembly branch does not: it moves p
- * where the velocity at the beginning does not lead, and the velocity found there points elsewhere again. A step is believed if, in
- * natural units,
+ * First, the displacement must agree with the velocities. It does not after a correction that has led to another assembly branch: p has
+ * then moved in a direction other than that of the velocity at the start, and the velocity at the end points elsewhere again. A step is
+ * accepted if, in characteristic scales,
  *
  *     |p1 - p0 - h (pdot0 + pdot1) / 2|^2  <=  ASTRAY^2 h^2 (|pdot0|^2 + |pdot1|^2) / 2.
  *
- * The left side is of order h^6 as long as steps resolve the motion. Methods of order one miss that mean where velocities change a
- * lot, as they do near rest. So a step that fails passes all the same if p1 - p0 is as near to h times some weighted mean of the two
- * velocities.
+ * The left side is of order h^6 as long as steps resolve the motion. Methods of order one differ from this mean where velocities change
+ * a lot, as they do near rest. So a step that fails is accepted all the same if p1 - p0 is as close to h times some weighted mean of the
+ * two velocities.
  *
- * Second, it has to be short enough for the method to be stable. In an instability the fastest part of the motion outgrows all others;
- * then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is compared in every eighth step only, and in every
- * step once one was found too long. What else is looked at only then, in steps that are chosen, too, is in safeguards.c.
+ * Second, the step must be short enough for the method to be stable. In an instability the fastest component of the motion outgrows all
+ * others; then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is checked in every eighth step, and in every
+ * step once one was too long. The other checks made in these steps, with adaptive steps, too, are in safeguards.c.
  *
- * Where a look finds everything far from its limits, the next may come twice as late, up to LOOK_SELDOM steps. The first comparison, which
- * each step makes, tells when that is over: the left side of it is h^2 / 12 (vdot1 - vdot0), but for terms of higher order, and so
- * (omega h)^2 / 12 of p1 - p0. From a step in which that is more than a small part, or that is faster than at any look, looks are eight
- * steps apart again.
+ * When a check finds all quantities far from their limits, the interval to the next is doubled, up to LOOK_SELDOM steps. The first
+ * comparison, made in each step, ends such an interval: up to terms of higher order its left side is h^2 / 12 (vdot1 - vdot0), and so
+ * (omega h)^2 / 12 of p1 - p0. After a step in which this is more than a small part, or which is faster than at any check, checks are
+ * eight steps apart again.
  */
 #include "guard.h"
 
@@ -29,14 +29,14 @@
 #include "../point/matrices.h"
 
 static const double ASTRAY = 0.5;
-static const double NEARBY = 1e-8;      /* in natural units: smaller detours come from rounding and tolerances */
-static const double RESOLVED = 2;       /* omega h of a motion of which steps still show something: one period is pi steps */
-static const double AT_REST = 1e-24;     /* in natural units, squared: in a shorter step the difference of accelerations is rounding */
-static const double AMPLE = 0x1p-8;     /* of `limit`: a quarter of the largest omega h */
+static const double NEARBY = 1e-8;      /* in characteristic scales: smaller detours come from rounding and tolerances */
+static const double RESOLVED = 2;       /* largest omega h that steps resolve: one period is pi steps */
+static const double AT_REST = 1e-24;    /* in characteristic scales, squared: below, the difference of accelerations is rounding */
+static const double AMPLE = 0x1p-8;     /* fraction of `limit`, a fourth power: a quarter of the largest omega h */
 enum {
-    STREAK = 3,             /* steps in succession that have to be too long: in a single one p1 - p0 may happen to be zero */
-    LOOK_EVERY = 8,
-    LOOK_SELDOM = 64,       /* a power of two times that, and no more than what consistency.c waits for */
+    STREAK = 3,             /* consecutive steps that must be too long: in a single one p1 - p0 may be zero by chance */
+    LOOK_EVERY = 8,         /* steps between checks, at first */
+    LOOK_SELDOM = 64,       /* at most: LOOK_EVERY times a power of two, not above the interval of consistency.c */
 };
 
 zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
@@ -64,7 +64,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
     };
 }
 
-/* The squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, at the nearest s of 0 ... 1 */
+/* Squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, the minimum over 0 <= s <= 1. */
 static double least_detour(const zd_guard *guard, double h)
 {
     const zd_point *point = guard->motion->point;
@@ -79,7 +79,7 @@ static double least_detour(const zd_guard *guard, double h)
     return rest - 2 * s * along + s * s * turn;
 }
 
-/* Whether this row of C, in natural units, differs in direction by more than 60 degrees or so from what it is where the step began. */
+/* True if row k of C, in characteristic scales, has rotated by more than about 60 degrees since the start of the step. */
 static int is_turned(const zd_point *point, const double *C0, int k)
 {
     zd_row_of_C at_end = zd_point_row(point, k), at_start = zd_row_in(point, C0, k);
@@ -92,7 +92,7 @@ static int is_turned(const zd_point *point, const double *C0, int k)
     return !(turned <= fmax(before, after));
 }
 
-/* Whether any row of C has turned by so much in the step; asked only of long ones. */
+/* True if any row of C has rotated by that much; evaluated in long steps only. */
 static int is_unresolved(zd_guard *guard, int *status)
 {
     zd_point *point = guard->motion->point;
@@ -110,7 +110,7 @@ ZD_INLINE double squared_difference(const int n, const double *a, const double *
     return sum;
 }
 
-/* On the general road M is known, as the acceleration is. */
+/* Updates the largest kinetic energy. On the matrix path M is known already, from the acceleration. */
 static int note_energy(zd_guard *guard)
 {
     int status = zd_point_need(guard->motion->point, ZD_M);
@@ -133,7 +133,7 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
 }
 
-/* The first of the steps that are looked at after this one, where one of so many is. */
+/* The next multiple of `every` after this step. */
 static int64_t next_of(int64_t every, int64_t step)
 {
     return (step / every + 1) * every;

@@ -1,58 +1,58 @@
-/* Whether a step has led where its velocities lead, and is short enough for the method. */
+/* Acceptance of a step: its displacement must agree with its velocities, and its size must be within the method's stability. */
 #ifndef ZD_GUARD_H
 #define ZD_GUARD_H
 
 #include "../linalg/small.h"
 #include "crossing.h"
 
-/* Where a step began, with which its end is compared. */
+/* The start of a step, with which its end is compared, and the schedule of checks. */
 typedef struct zd_guard {
     zd_motion *motion;
     const zd_last *last;    /* the step */
-    zd_crossing *crossing;  /* which knows C where the step began */
-    int has_begun;          /* whether there is anything to compare with */
-    int checks_branch, checks_stability;    /* which of the two comparisons are made */
-    int watches_step;       /* whether the step is one that is looked at closely */
-    double astray, nearby, limit;   /* bounds of these, to the powers that are compared */
-    double *pdot, *vdot;    /* (nq,), (nv,): where the step began; p and v are those of `last` */
+    zd_crossing *crossing;  /* provides C at the start of the step */
+    int has_begun;          /* true if a start is saved for comparison */
+    int checks_branch, checks_stability;    /* true for each of the two comparisons that is made */
+    int watches_step;       /* true if this step gets the full checks */
+    double astray, nearby, limit;   /* bounds: ASTRAY^2 / 2, NEARBY^2, (largest omega h)^4 of guard.c */
+    double *pdot, *vdot;    /* (nq,), (nv,): at the start of the step; p and v are those of `last` */
     double *rate;           /* (nq,): pdot at the end */
-    double fastest;         /* the largest |pdot|^2 at the end of a step that was looked at, in natural units */
-    double reach;           /* |p1 - p0|^2 of the longest step that a glance is enough for, likewise; 0 until the first look */
-    int64_t pause, next_look;   /* one of so many steps is looked at, the next being this one */
-    int is_ample;           /* whether the step looked at last was far from too long */
-    int streak;             /* steps in succession that were longer than the method is stable for */
-    double largest_fourth;  /* the largest (omega h)^4 of all steps */
-    double kinetic;         /* J: the largest kinetic energy of all steps */
+    double fastest;         /* largest |pdot|^2 at the end of a checked step, in characteristic scales */
+    double reach;           /* largest |p1 - p0|^2 for which the quick check suffices, likewise; 0 until the first full check */
+    int64_t pause, next_look;   /* steps between full checks; the step of the next one */
+    int is_ample;           /* true if the last checked step was far below the stability limit */
+    int streak;             /* consecutive steps longer than the method is stable for */
+    double largest_fourth;  /* largest (omega h)^4 of all checked steps */
+    double kinetic;         /* J: largest kinetic energy of all checked steps */
 } zd_guard;
 
-typedef struct zd_detour {  /* sums of squares, in natural units */
-    double moved, detour;
-    double speed0, speed;   /* of pdot, where the step began and where it ended */
+typedef struct zd_detour {  /* sums of squares, in characteristic scales */
+    double moved, detour;   /* displacement p1 - p0; detour p1 - p0 - h (pdot0 + pdot1) / 2 */
+    double speed0, speed;   /* pdot at the start; at the end */
 } zd_detour;
 
-/* `stability`: the largest omega h at which the method is stable; 0: there is none. */
+/* `stability`: largest omega h at which the method is stable; 0: unbounded. */
 zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
                        zd_crossing *crossing);
-/* Keeps where the motion is; `step` is the one that begins there. */
+/* Saves the present point as the start of the step with this number. */
 int zd_guard_begin(zd_guard *guard, int64_t step);
-/* Compares where a step of size h has led with where its velocities lead; ZD_BRANCH if these differ. */
+/* Compares displacement and velocities of a step of size h; ZD_BRANCH if they disagree. */
 int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *found);
-/* Whether the step, in which so much was found, is longer than the method is stable for; and how fast it is. */
+/* Updates omega h, the count of too long steps, the largest speed and energy, from a step that gets the full checks. */
 int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h);
-/* When to look again after this step, in which all else was far from its limits, or not. */
+/* Schedules the next full check; `is_ample`: all other checked quantities were far from their limits. */
 void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample);
-/* Keeps the end of the step as the beginning of the next, */
+/* Saves the end of the step as the start of the next, */
 void zd_guard_keep(zd_guard *guard, int64_t next_step);
-/* or no more than what changes where that is looked at. */
+/* or only the acceleration, if the next step gets the full checks. */
 void zd_guard_watch_next(zd_guard *guard);
-double zd_guard_omega_h(const zd_guard *guard);     /* the largest seen */
-double zd_guard_speed(const zd_guard *guard);       /* |pdot| where the step began, in natural units */
+double zd_guard_omega_h(const zd_guard *guard);     /* largest omega h of all checked steps */
+double zd_guard_speed(const zd_guard *guard);       /* |pdot| at the start of the step, in characteristic scales */
 
-/* ---- what a step is told by ---- */
+/* ---- detour of a step ---- */
 
-#define ZD_LONG 0.25    /* in natural units: a longer step may turn a row of C noticeably */
-#define ZD_CALM 48.0    /* |p1 - p0| over the left side of guard.c: beyond, omega h is below a half */
-#define ZD_FASTER 1.5   /* |pdot|^2 over the largest at a look: below, nothing has changed much */
+#define ZD_LONG 0.25    /* in characteristic scales: a longer step may rotate a row of C noticeably */
+#define ZD_CALM 48.0    /* ratio of |p1 - p0| to the left side of guard.c: above, omega h is below a half */
+#define ZD_FASTER 1.5   /* ratio of |pdot|^2 to the largest at a full check: below, the motion has not changed much */
 
 ZD_INLINE zd_detour zd_guard_find(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *inverse_unit)
 {
@@ -68,13 +68,13 @@ ZD_INLINE zd_detour zd_guard_find(const int n, const zd_guard *guard, const doub
     return sum;
 }
 
-/* The bound of the detour's square */
+/* Bound of the squared detour. */
 ZD_INLINE double zd_guard_allows(const zd_guard *guard, double h, const zd_detour *found)
 {
     return guard->astray * h * h * (found->speed0 + found->speed) + guard->nearby;
 }
 
-/* Whether the step shows nothing that a closer look should be made for. */
+/* True if detour and speed give reason to keep the interval to the next full check. */
 ZD_INLINE int zd_guard_is_calm(const zd_guard *guard, const zd_detour *found)
 {
     return ZD_CALM * ZD_CALM * found->detour <= found->moved + guard->nearby && found->speed <= ZD_FASTER * guard->fastest + guard->nearby;

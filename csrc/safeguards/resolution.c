@@ -1,18 +1,17 @@
-/* Whether steps of fixed size resolve each part of the motion, however light it is.
+/* Resolution of the motion by fixed steps, coordinate by coordinate.
  *
- * The energy balance and omega h weigh by the whole mechanism, and a light part hardly counts in them. So each coordinate is weighed by
- * itself: where positions, velocities and accelerations of both ends are those of one smooth motion, Hermite's formula
+ * The energy balance and omega h are sums over the whole mechanism, to which low-inertia components contribute little. So each coordinate
+ * is checked individually: if positions, velocities and accelerations of both ends belong to one smooth motion, Hermite's formula
  *
  *     p1 - p0 = h (v0 + v1) / 2 - h^2 (vdot1 - vdot0) / 12 + O(h^5)
  *
- * holds; what is missing is the error of the step, as far as a method of order four can tell. With a kinematic matrix, the rates of p
- * are not v, and the velocities take the place of the coordinates: their own formula of this kind is the trapezoidal rule. Unit quaternions
- * are looked at besides, each as one: turning.c.
+ * holds; its defect estimates the error of the step, with the accuracy of a method of order four. With a kinematic matrix, pdot is not v,
+ * and velocities are checked instead of coordinates, by the trapezoidal rule. Each unit quaternion is checked as well, in turning.c.
  *
- * What one coordinate misses is added up over a thousand steps or so, in natural units: earlier steps are forgotten, as otherwise every
- * long run would be doubted. The sum is compared with the length of that coordinate's path, and is bounded by the range in which it moves: it
- * cannot be off by more than that. The factors and bounds are those that separated wrong from right runs best,
- * see tests/stress/light_parts.py.
+ * Defects of a coordinate are summed over about a thousand steps, in characteristic scales, with decreasing weight: otherwise every long
+ * run would be flagged. The sum is compared with the distance that the coordinate has covered, and bounded by the range in which it moves,
+ * which its error cannot exceed. The factors and bounds are those that best separated wrong from right runs in
+ * tests/stress/light_parts.py.
  */
 #include "resolution.h"
 
@@ -20,21 +19,21 @@
 
 #include "../linalg/small.h"
 
-static const double FORGET = 1.0 / 128;     /* of the sums at each look, or of every eight steps between two that are further apart */
-static const double SHARE = 1e-3;           /* of the path: steps with a smaller error are short enough */
-static const double UNRESOLVED = 0.03;      /* in natural units: the user is told of an error as large as this */
+static const double FORGET = 1.0 / 128;     /* decay of the sums per check, or per eight steps if checks are further apart */
+static const double SHARE = 1e-3;           /* error allowed, relative to the distance covered */
+static const double UNRESOLVED = 0.03;      /* in characteristic scales: larger errors are reported to the user */
 static const double HALF_TURN = 3.141592653589793;
-static const double NOTED = 1e-3;           /* in natural units: the statistics do not have smaller ones */
-static const double AMPLE = 0x1p-4;         /* of these: what is smaller may be looked at less often */
+static const double NOTED = 1e-3;           /* in characteristic scales: smaller errors are not recorded in the statistics */
+static const double AMPLE = 0x1p-4;         /* fraction of SHARE and NOTED below which checks may be less frequent */
 
-/* The error of a step by what Hermite's formula misses, which is better than some methods and worse than others. */
+/* Factor from the defect of Hermite's formula to the error of a step, by the order of the method. */
 static double error_by_defect(int order)
 {
     return order < 5 ? 1 : 0.2;
 }
 
-/* The same for velocities: by what the trapezoidal rule misses; for methods of order two, of which that rule is one, by h^2 (vdot1 - vdot0),
- * and for methods of order one by h^2 vdot. */
+/* The same for velocities: from the defect of the trapezoidal rule; for methods of order two and three from h^2 (vdot1 - vdot0), since that
+ * rule is of order two itself; for methods of order one from h^2 vdot. */
 static double error_by_rate(int order)
 {
     return order < 2 ? 1.0 / 2 : order < 4 ? 1.0 / 12 : order < 5 ? 1.0 / 20 : 1.0 / 50;
@@ -61,7 +60,7 @@ zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, 
     };
 }
 
-/* What coordinate i misses in the step, in its own units */
+/* Defect of coordinate i (or velocity i times h) in the step, in its unit. */
 ZD_INLINE double missed(const zd_resolution *self, int i, double h)
 {
     const zd_point *point = self->motion->point;
@@ -70,14 +69,14 @@ ZD_INLINE double missed(const zd_resolution *self, int i, double h)
     return self->order < 2 ? h * h * after : self->order < 4 ? h * h * (after - before) : h * (v1 - v0 - h / 2 * (before + after));
 }
 
-/* Where the coordinate is; or where its velocity has led, as far as the steps that are looked at show. */
+/* Present value of the coordinate; with a kinematic matrix the integral of the velocity, from checked steps, `led` being the newest part. */
 ZD_INLINE double locate(const zd_resolution *self, int i, double led)
 {
     const zd_point *point = self->motion->point;
     return self->by_velocity ? self->place[i] + led : point->p[i] * point->inverse_unit[i];
 }
 
-/* Whether an error counts, if it is compared with so much of the bounds */
+/* True if an error exceeds both bounds times `share`. */
 ZD_INLINE int counts(double error, double path, double share)
 {
     return error > share * NOTED && error > share * SHARE * path;
@@ -118,7 +117,7 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
     self->is_ample = !near;
 }
 
-/* An attitude cannot be off by more than half a turn. */
+/* The same for rotations; the error of an attitude cannot exceed half a turn. */
 static void add_up_turns(zd_resolution *self, double h, double steps)
 {
     const double forget = forgotten(steps);

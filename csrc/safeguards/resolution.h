@@ -1,28 +1,28 @@
-/* Whether steps of fixed size resolve each part of the motion. */
+/* Resolution of the motion by fixed steps, coordinate by coordinate. */
 #ifndef ZD_RESOLUTION_H
 #define ZD_RESOLUTION_H
 
 #include "turning.h"
 
-typedef struct zd_resolution {  /* (nv + quaternions,): what the steps miss of each coordinate's motion, in natural units */
+typedef struct zd_resolution {
     zd_motion *motion;
     const zd_last *last;    /* the step */
-    const double *vdot0;    /* (nv,): where it began */
-    int by_velocity;        /* whether velocities are looked at instead of coordinates, whose rates they are not */
-    int order;              /* of the method */
-    double weight;          /* what the error is of what is missed */
-    double *error, *path;   /* sums over the last thousand steps or so: of what is missed, of the distance covered */
-    double *place, *lowest, *highest;   /* (nv,): where it is; the range in which it has moved */
-    zd_turning turning;     /* of the quaternions */
-    int64_t step;              /* the last step that was looked at */
-    int is_ample;           /* whether all that was missed until then is far from what is noted */
+    const double *vdot0;    /* (nv,): acceleration at the start of the step */
+    int by_velocity;        /* true if velocities are checked instead of coordinates, since pdot = A v with a kinematic matrix */
+    int order;              /* order of the method */
+    double weight;          /* ratio of the error of a step to its defect */
+    double *error, *path;   /* (nv + quaternions,) in characteristic scales: decaying sums of errors, and of distances covered */
+    double *place, *lowest, *highest;   /* (nv,): present value; the range in which it has moved */
+    zd_turning turning;     /* defects of the quaternions */
+    int64_t step;              /* the last checked step */
+    int is_ample;           /* true if all errors were far below their bounds then */
 } zd_resolution;
 
-/* Where a step begins are vdot0 and pdot0, and where it ends is pdot1. */
+/* vdot0 and pdot0 are the rates at the start of a step, pdot1 those at its end. */
 zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
                                  const double *pdot0, const double *pdot1);
-int zd_resolution_look(zd_resolution *self, double h, int64_t step);      /* the acceleration is known at both ends of the step */
-/* The same of the rotations alone, for the first of so many parts of a step. */
+int zd_resolution_look(zd_resolution *self, double h, int64_t step);      /* requires the acceleration at both ends of the step */
+/* The same for rotations only, from the first of several equal parts of a step. */
 int zd_resolution_look_at_turns(zd_resolution *self, double h, int64_t step, int parts);
 
 #endif

@@ -20,7 +20,7 @@ int zd_safeguards_begin(zd_safeguards *self, int64_t step)
     return status ? status : zd_crossing_begin(&self->crossing);
 }
 
-/* What is looked at now and then only: stability, energy, each part by itself, and the system's own consistency. */
+/* Full checks, made at intervals: stability, energy, resolution of each coordinate, and consistency of the system. */
 static int look_closely(zd_safeguards *self, const zd_detour *found, double h, int64_t step)
 {
     int status = zd_guard_watch(&self->guard, found, h);

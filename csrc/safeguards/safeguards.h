@@ -1,4 +1,4 @@
-/* Whether a step can be believed: detection only, whatever is done about it. */
+/* Acceptance of steps: detection only; the reaction is in stepping. */
 #ifndef ZD_SAFEGUARDS_H
 #define ZD_SAFEGUARDS_H
 
@@ -10,16 +10,16 @@
 typedef struct zd_safeguards {
     zd_guard guard;
     zd_crossing crossing;
-    zd_resolution resolution;   /* where steps are of fixed size */
+    zd_resolution resolution;   /* fixed steps only */
     zd_consistency consistency;
 } zd_safeguards;
 
 void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
                         const zd_last *last);
-/* Keeps where the motion is; `step` is the one that begins there. */
+/* Saves the present point as the start of the step with this number. */
 int zd_safeguards_begin(zd_safeguards *self, int64_t step);
-/* Compares that with where a step of size h has led, and keeps it. Of one of so many parts of a step, 0: of a whole one, only its rotations
- * count, as it may be given up yet. */
+/* Checks a step of size h and saves its end as the start of the next. `parts`: 0 for a whole step; otherwise it is one of that many parts,
+ * of which only rotations are checked for resolution, as the step may still be abandoned. */
 int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int parts);
 
 #endif

@@ -1,9 +1,9 @@
-/* A body that turns steadily has no acceleration, and velocities say nothing of how well steps follow its attitude. Its quaternion does, by
- * Hermite's formula as in resolution.c,
+/* Error of a step in the attitude of a body. In a steady rotation the acceleration is zero, and velocities do not show how well steps follow
+ * the attitude. The quaternion shows it, by Hermite's formula as in resolution.c,
  *
  *     q1 - q0 = h (qdot0 + qdot1) / 2 - h^2 (qddot1 - qddot0) / 12 + O(h^5),        qddot = A_q vdot - |qdot|^2 q,
  *
- * where the last term is what Adot v is for a q whose length is kept. Half an angle is what it is of a quaternion.
+ * where the last term is Adot v of a quaternion of constant length. Distances of quaternions are half the angles of rotation.
  */
 #include "turning.h"
 
@@ -14,7 +14,7 @@
 
 enum { ENTRIES = 4 };
 
-/* Of what is stored, where products take entries at all. */
+/* Number of stored entries of A; 0 if the system provides products with A instead. */
 static size_t size_of_A(const zd_system *system)
 {
     if (zd_brings_times_A(system)) return 0;
@@ -39,7 +39,7 @@ zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *la
     };
 }
 
-/* Where the step began on its own memory: the point stays where it is. */
+/* The start of the step is evaluated in separate memory: the point is not moved. */
 int zd_turning_evaluate(zd_turning *self)
 {
     const zd_system *system = &self->motion->system;
@@ -56,7 +56,7 @@ int zd_turning_evaluate(zd_turning *self)
     return ZD_DONE;
 }
 
-/* qddot (4,) of q, whose part of A vdot is Avdot */
+/* qddot (4,) of a quaternion q, from its part of A vdot. */
 static void accelerate(const double *Avdot, const double *q, const double *qdot, double *qddot)
 {
     double squared = zd_dot(ENTRIES, qdot, qdot);

@@ -1,4 +1,4 @@
-/* What a step misses of the rotation of a unit quaternion. */
+/* Error of a step in the rotation of a unit quaternion. */
 #ifndef ZD_TURNING_H
 #define ZD_TURNING_H
 
@@ -8,8 +8,8 @@
 typedef struct zd_turning {
     zd_motion *motion;
     const zd_last *last;        /* the step */
-    const double *vdot0, *pdot0, *pdot1;    /* (nv,), (nq,), (nq,): where it began; where it has ended */
-    double *A0, *scratch;       /* as the point's: A where it began, and what the system keeps in its evaluation */
+    const double *vdot0, *pdot0, *pdot1;    /* (nv,), (nq,), (nq,): rates at its start; at its end */
+    double *A0, *scratch;       /* stored as the point's: A at the start, and scratch memory of the system */
     double *before, *after;     /* (nq,): A vdot at both ends */
 } zd_turning;
 
@@ -17,7 +17,7 @@ zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *la
                            const double *pdot1);
 /* A at both ends of the step, for all quaternions; the point's vdot is known. */
 int zd_turning_evaluate(zd_turning *self);
-/* Of quaternion k: what the step misses, and how far it has turned, rad. */
+/* Defect of quaternion k in the step, and its angle of rotation, both in rad. */
 void zd_turning_compare(const zd_turning *self, int k, double h, double *missed, double *turned);
 
 #endif
