@@ -53,7 +53,7 @@ def built_in():
 
 
 def motion(system, **options):
-    """Of a pendulum, from exactly the same place."""
+    """Solution of a pendulum from one start, on the matrix path."""
     return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, direct=False, **options)
 
 

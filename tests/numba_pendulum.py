@@ -1,4 +1,4 @@
-"""The pendulum of native/pendulum.c as somebody who has numba would write it, and functions that are not as they should be."""
+"""The pendulum of native/pendulum.c as a user of numba would write it, and malformed functions."""
 
 import numba
 

@@ -1,5 +1,5 @@
-"""Random systems of many bodies that declare their structure: point/test_weighted.py compares a few of them with dense matrices,
-stress/networks.py as many as it is told to.
+"""Random systems of many bodies with a declared structure: point/test_weighted.py compares a few of them with dense matrices,
+stress/networks.py any number.
 """
 
 import numpy as np
@@ -58,7 +58,7 @@ class Network(Bodies):
         self.structure = zd.Structure([int(size) for size in self.velocities], self.groups, words)
 
     def _repeat(self, rng):
-        """Of a holonomic group: as many rows as it has, or fewer, each a sum of its own, beside it as a group."""
+        """Insert a redundant group beside a holonomic one: at most as many rows, each a linear combination of that group's."""
         ends = np.cumsum([rows for rows, _ in self.groups])
         g = int(rng.integers(np.searchsorted(ends, self.mh) + 1))
         rows, blocks = self.groups[g]
@@ -106,8 +106,8 @@ def expected(network, e):
 
 
 def check_accelerations(seed, formulations, **kind):
-    """How far accelerations and multipliers of a network by each formulation are from those of dense equations, in units of what
-    rounding times their condition makes of either; None: too ill-conditioned to tell.
+    """Errors of accelerations and multipliers of a network by each formulation against dense equations, in units of rounding
+    times their condition; None if the network is too ill-conditioned for a comparison.
     """
     network = Network(seed, **kind)
     system = network.system()
@@ -124,7 +124,7 @@ def check_accelerations(seed, formulations, **kind):
 
 
 def check_acceleration(seed, formulation, **kind):
-    """Whether they agree; False: too ill-conditioned to tell."""
+    """Check that a formulation agrees with dense equations; False if too ill-conditioned for a comparison."""
     off = check_accelerations(seed, [formulation], **kind)
     if off:
         assert off[formulation] < MOST_ROUNDINGS, f"seed {seed} is off by {off[formulation]:.3g} roundings times the condition"
@@ -132,9 +132,9 @@ def check_acceleration(seed, formulation, **kind):
 
 
 def check_motion(seed, formulation):
-    """Whether a network moves as its twin that declares nothing; False: too ill-conditioned to tell, or the twin cannot go on.
+    """Check that a network moves as its twin without a structure; False if too ill-conditioned, or if the twin's run fails.
 
-    What is compared are steps of order four, so that it does not matter that independent variables are chosen differently.
+    The steps are of order four, so that a different choice of independent variables makes no visible difference.
     """
     network = Network(seed)
     if network.m == network.n:

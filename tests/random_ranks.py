@@ -1,5 +1,5 @@
-"""Random systems whose constraints are dependent, by construction: what constraints/test_rank.py compares a few hundred of, and
-stress/random_systems.py as many as it is told to.
+"""Random systems with redundant constraints by construction: constraints/test_rank.py compares a few hundred of them,
+stress/random_systems.py any number.
 """
 
 import numpy as np
@@ -79,7 +79,7 @@ class Ranked:
         return zd.System(self.n, **terms)
 
     def condition(self):
-        """Of (8) with an orthonormal basis of the rows of C, and of C itself with rows of length one."""
+        """Condition of (8) with an orthonormal basis of the rows of C, or of C with rows of unit length, squared, if larger."""
         C = self.C(self.p)
         C = C / np.maximum(np.linalg.norm(C, axis=1), 1e-300)[:, None]
         values, basis = np.linalg.svd(C)[1:]
@@ -113,7 +113,7 @@ def compare(random, formulations, **options):
 
 
 def raises(error, call):
-    """Whether that is what is raised."""
+    """True if the call raises this error."""
     try:
         call()
     except error:
@@ -136,10 +136,10 @@ def check_massless(seed):
 
 
 def on_branch(random, vdot):
-    """What is left of the second derivatives along p + vdot t^2 / 2, and the acceleration on that.
+    """Relative residual of the second-order conditions along p + vdot t^2 / 2, and the acceleration on that branch.
 
-    Where rows of C are redundant, the same combinations of Phi are of second order, and their gradients along the branch
-    are rows again.
+    The combinations in which rows of C vanish are, applied to Phi, of second order, and their gradients along the branch are
+    constraints again.
     """
     C = random.C(random.p)[: random.mh]
     left, values, _ = np.linalg.svd(C)
@@ -154,8 +154,8 @@ def on_branch(random, vdot):
 
 
 def check_bifurcation(seed):
-    """Where the rank is less only here, every formulation says so. From rest, all find the branch of least acceleration; or there
-    is none, and those that can go on take the least.
+    """Every formulation raises `Bifurcation` where the rank drops at this point only. From rest, all find the branch of minimum
+    acceleration; without a branch, those that can continue take the minimum acceleration.
     """
     random = Ranked(seed).curved()
     bound = random.condition()

@@ -7,9 +7,9 @@ import zerodrift as zd
 
 
 def random_system(seed, apart=None):
-    """Of up to six velocities: M full or nearly diagonal, rows holonomic and not, every third driven, every fourth with A.
+    """Random system of up to six velocities: M full or nearly diagonal, both kinds of constraints, some driven, some with A.
 
-    With `apart`, its holonomic rows end in one that is the first, doubled, but for so much of the last coordinate.
+    With `apart`, the last holonomic constraint is twice the first plus `apart` times the displacement of the last coordinate.
     """
     rng = np.random.default_rng(seed)
     n = int(rng.integers(2, 7))

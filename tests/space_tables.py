@@ -1,4 +1,4 @@
-"""Mechanisms in space as the core is told them, without the front: random ones, and motions that are exact."""
+"""Mechanisms in space as tables of the core, without `zd.Mechanism`: random ones, and ones with exactly known motions."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -14,7 +14,7 @@ def random_frame(rng):
 
 
 def shape_of(frame, semiaxes):
-    """Of an ellipsoid with these semiaxes along the rows of a frame."""
+    """Shape matrix of an ellipsoid with these semiaxes along the rows of a frame, (3, 3) m^2."""
     D = np.array(frame).T * semiaxes
     return tuple(map(tuple, D @ D.T))
 

@@ -40,6 +40,6 @@ def rotation(axis, angle):
 
 
 def product(a, b):
-    """Of quaternions (k, 4): the rotation b, then a."""
+    """Product of quaternions (k, 4): the rotation b, then a."""
     scalar = a[:, :1] * b[:, :1] - (a[:, 1:] * b[:, 1:]).sum(axis=1, keepdims=True)
     return np.hstack([scalar, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])

@@ -1,4 +1,4 @@
-"""What several tests need: the systems there are, states of theirs, the paper's equations in plain NumPy, and comparisons."""
+"""Shared helpers of the tests: the built-in systems, consistent states, the paper's equations in NumPy, and comparisons."""
 
 import os
 import sys
@@ -17,7 +17,7 @@ FORMULATIONS, INTEGRATORS = list(zd.formulations()), list(zd.integrators(zd.syst
 
 
 def environment_of_tests(**variables):
-    """Of processes that import what this one can, the package from where it is installed."""
+    """Environment of a process that can import what this one can, the package from the same place."""
     return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))} | variables
 
 
@@ -118,7 +118,7 @@ def saddle_matrix(M, C):
 
 
 def condition(M, C):
-    """Of (8) with C scaled to the size of M, as its units are arbitrary."""
+    """Condition of (8) with C scaled to the size of M, as the units of C are arbitrary."""
     scale = np.abs(M).max() / np.abs(C).max() if C.size else 1.0
     return np.linalg.cond(saddle_matrix(M, scale * C))
 

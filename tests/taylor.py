@@ -118,9 +118,9 @@ def sin_cos(a):
 
 
 def solution(right_side, x0, t0, times, longest=4.0):
-    """What solves x' = right_side(t, x), a list of nodes, from x0 at t0: the x (mpf) at each of the times, which increase.
+    """Solution of x' = right_side(t, x), a list of nodes, from x0 at t0: x (mpf) at each of the times, which must increase.
 
-    A series knows nothing of what is zero to all its digits where it begins: `longest`, its reach, is to be no longer than that.
+    A series cannot contain terms that are zero to all digits at its start: `longest` bounds its reach to where they stay zero.
     """
     NODES.clear()
     t, state = Node(None), [Node(None) for _ in x0]
@@ -156,7 +156,7 @@ def _series(nodes, t, state, rates, now, x, h):
 
 
 def _reach(state, h):
-    """How far the series may be believed: its last terms are small there."""
+    """Reach of the series: the time within which its last terms are small."""
     part = min(mp.power(mp.mpf(SMALL) / max(1, abs(node.c[k])), mp.mpf(1) / k) for node in state for k in (ORDER - 1, ORDER))
     return fixed(min(part, mp.mpf(4)) * number(h))
 

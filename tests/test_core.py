@@ -45,7 +45,7 @@ def test_memory_that_ends_where_rows_come_to_depend_ends_the_run(tmp_path, core_
     lines = [line.split(" ", 5) for line in output.splitlines()]
     for case in itertools.product(FORMULATIONS, ("rk4", "euler", "dormand_prince")):
         *refused, (_, _, granted, *last) = [line for line in lines if tuple(line[:2]) == case]
-        assert int(granted) == len(refused) >= 3        # the independent rows, limits, and what the crossing is told by
+        assert int(granted) == len(refused) >= 3        # the independent rows, limits, and the detection of the crossing
         assert last == ["0", "0", ""]
         for *_, status, blocks, message in refused:
             assert (status, blocks) == ("-9", "0")

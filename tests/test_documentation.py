@@ -1,4 +1,4 @@
-"""What the documentation shows, runs: examples of docstrings, and the Python code of the README."""
+"""Code of the documentation runs: examples of docstrings, and the Python code of the README."""
 
 import contextlib
 import doctest

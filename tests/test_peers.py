@@ -12,7 +12,7 @@ import zerodrift as zd
 from support import ROOT
 
 PEERS = ROOT / "tests" / "bench" / "peers"
-SETTINGS = {    # module: package, of each kind of method one setting that is no work
+SETTINGS = {    # module: package, one cheap setting of each kind of method
     "scipy": ("scipy", [("DOP853", 1e-6), ("LSODA", 1e-7)]),
     "sundials": ("sksundae", [("CVODE Adams", 1e-8), ("IDA", 1e-7)]),
     "exudyn": ("exudyn", [("trapezoidal, index 2", 32), ("generalized alpha", 32)]),

@@ -14,7 +14,7 @@ PACKAGE = Path(zd.__file__).parent
 
 
 def public_modules():
-    """Those that `zerodrift` names, and those from which its documentation imports."""
+    """Modules that `zerodrift` names, and those from which its documentation imports."""
     named = {f"zerodrift.{name}" for name in zd.__all__ if type(getattr(zd, name)) is type(zd)}
     written = "".join(path.read_text() for path in [*PACKAGE.rglob("*.py"), PACKAGE.parents[1] / "README.md"] if path.is_file())
     imported = re.findall(r"(?:>>> |^|    )(?:from|import) (zerodrift(?:\.[a-z]\w*)*)", written, flags=re.MULTILINE)

@@ -52,7 +52,7 @@ def circle(graph):
 
 @pytest.fixture(scope="module")
 def files():
-    """What each file imports. The package itself offers everything, so whoever imports from it stands in a circle."""
+    """Imports of each file. The package itself offers everything, so a file that imports from it is in a circle."""
     graph = {module: imported(module, path.read_text(encoding="utf-8")) for module, path in FILES.items()}
     return graph | {"zerodrift": set(FILES) - {"zerodrift", "zerodrift.__main__"}}
 
@@ -88,7 +88,7 @@ def test_a_circle_is_found():
 
 
 def test_folders_of_tests_are_named_after_rooms():
-    """Those of `csrc/` and `python/zerodrift/`, where `run/` and `runs/` are one."""
+    """The folders of `csrc/` and `python/zerodrift/`, where `run/` and `runs/` are one."""
     files = [*ROOT.glob("csrc/*/*.c"), *ROOT.glob("python/zerodrift/*/*.py")]
     rooms = {path.parent.name.removeprefix("_") for path in files}
     assert {path.parent.name for path in ROOT.glob("tests/*/**/test_*.py")} == rooms - {"run"}

@@ -80,7 +80,7 @@ def test_there_are_no_circles_of_folders(uses):
 
 @pytest.mark.parametrize("room", ["integrators", "corrections"])
 def test_integrators_and_corrections_see_the_motion_and_no_run(uses, room):
-    """Of what is above them they see nothing; below the motion they may use whatever it is made of."""
+    """They include nothing from the rooms above them; below the motion they may use all that it is made of."""
     below = {"motion", "formulations", "constraints", "point", "linalg", "zerodrift", "include/zerodrift", "workspace"}
     assert {folder_of(b) for a, b in uses if folder_of(a) == room} <= below | {room}
 

@@ -9,14 +9,14 @@ import zerodrift as zd
 
 @dataclasses.dataclass(frozen=True)
 class Units:
-    """How many of the new units make an old one: numbers are multiplied by these."""
+    """Conversion factors: numbers are multiplied by the number of new units in an old one."""
 
     length: float = 1.0
     mass: float = 1.0
     time: float = 1.0
 
     def of(self, length=0, mass=0, time=0):
-        """What a quantity of this dimension is multiplied by."""
+        """Conversion factor of a quantity of this dimension."""
         return self.length**length * self.mass**mass * self.time**time
 
     @property

@@ -63,7 +63,7 @@ class DirectSet:
 
 
 def direct_sets(system):
-    """Of any system: its direct functions by unit and lanes, (nq, nv, mh, m), its data and its start."""
+    """Closed-form functions of any system by unit and lanes, (nq, nv, mh, m), its data and its start."""
     if hasattr(system, "_direct"):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
         direct = system._direct[1] if hasattr(system, "_written") else system._direct
@@ -81,7 +81,7 @@ def direct_sets(system):
 
 
 def doubles_of(written, direct, library):
-    """What the compiled functions of a mechanism are handed: its numbers, and constants that follow from these."""
+    """Data of the compiled functions of a mechanism: its numbers, and constants derived from these."""
     doubles = np.concatenate([written._values, np.zeros(written._code.constants + direct.constants + 1)])
     for fill in (written._library.zd_symbolic_constants, library.zd_symbolic_direct_constants):
         fill(ctypes.c_void_p(doubles.ctypes.data))

@@ -213,7 +213,7 @@ def with_a_row_apart(seed, apart):
 @pytest.mark.parametrize("equations", [*DEPENDENT, *INDEPENDENT])
 @pytest.mark.parametrize("seed", [0, 18, 20])       # driven, with a nonholonomic row and one held by time; one; the other
 def test_both_roads_agree_however_far_rows_are_apart(seed, equations, apart):
-    """What is nearly the same twice is ranked on the matrix path, and so is what is the same."""
+    """Constraints that are equal, or nearly equal, are ranked on the matrix path."""
     of = with_a_row_apart(seed, apart)
     general, direct = both(of, 0.3, step=0.01, formulation=equations)
     assert general.success
@@ -257,7 +257,7 @@ def test_bifurcations_are_judged_alike(name, on_singular, options):
         assert f"which {left} steps left" in repr(direct)
     if "step" in options:
         assert direct.stats["rank_drops"] == general.stats["rank_drops"]
-        assert_close(direct.p, general.p, 1e-7)     # next to a branch, rounding is multiplied by what is left of a row
+        assert_close(direct.p, general.p, 1e-7)     # near a bifurcation, rounding is divided by the relative pivot
 
 
 @pytest.mark.parametrize("equations", INDEPENDENT)

@@ -36,7 +36,7 @@ def pointer(array):
 
 
 class Integrated:
-    """What is integrated of a system by a formulation, from a state on."""
+    """Variables of a system that a formulation integrates, from a given state on."""
 
     def __init__(self, core, system, formulation, t, p, v):
         self.core, self.t, self.system = core, ctypes.c_double(t), system._with_jacobian(system._core)

@@ -1,4 +1,4 @@
-"""Which vector unit direct functions use: as asked for, as the environment says, or the processor's; and that it is told."""
+"""Vector unit of closed-form functions: by argument, by environment variable, or the processor's; and its report."""
 
 import os
 

@@ -1,4 +1,4 @@
-/* A pendulum as somebody who has only the package would write it: a function, and the same described by the library itself. */
+/* A pendulum as a user of the installed package would write it: a function, and the same described by the library itself. */
 #include <stddef.h>
 #include <math.h>
 #include <zerodrift/system.h>

@@ -12,7 +12,7 @@
 static const double BEND = 0.1;
 enum { BARS = 3, N = 3 * BARS, M = 2 * BARS, STEPS = 200 };
 
-static int granted = -1, refused, blocks;      /* granted < 0: as much as is asked for */
+static int granted = -1, refused, blocks;      /* granted < 0: every request is granted */
 
 void *__real_aligned_alloc(size_t alignment, size_t size);
 void __real_free(void *memory);

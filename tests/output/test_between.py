@@ -217,7 +217,7 @@ CHOSEN_ANEW = {"turning pendulum": (zd.systems.pendulum, (0.0, 8.0), 2.0), "unit
 @pytest.mark.parametrize("name", CHOSEN_ANEW)
 @pytest.mark.parametrize("variables", ["mixed", "independent"])
 def test_the_polynomial_where_variables_are_chosen_anew_at_the_end_of_its_step(name, variables, method):
-    """Its values are in those that the step was made in, and the run goes on in the others as if nobody had asked."""
+    """Values within the step use the variables of that step, and the run continues in the new ones, undisturbed by samples."""
     make, v0, end = CHOSEN_ANEW[name]
     system, times = make(), np.linspace(0, end, 241)
     options = {"integrator": method, "formulation": variables, "direct": False}
@@ -237,7 +237,7 @@ def test_the_polynomial_where_variables_are_chosen_anew_at_the_end_of_its_step(n
 
 
 def with_steps(system, method, n, times=None, **options):
-    """Of one size, chosen by nothing else."""
+    """Solution with n adaptive steps of one size, which the tolerances do not limit."""
     of_one_size = {"rtol": 1e3, "atol": 1e3, "first_step": 0.5 / n, "max_step": 0.5 / n}
     return zd.simulate(system, 0.5, integrator=method, t_eval=times, **of_one_size, **options)
 
@@ -245,7 +245,7 @@ def with_steps(system, method, n, times=None, **options):
 @pytest.mark.parametrize(("method", "steps", "slope"), [("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
 @pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
 def test_the_order_of_polynomials(system, formulation, method, steps, slope):
-    """What they miss within a step is one power of h more than their order, which is that of the method less one."""
+    """Their error within a step is one power of h above their order, which is that of the method less one."""
     times = np.linspace(0.013, 0.487, 11)
     exact = zd.simulate(system, 0.5, step=0.5 / 400, integrator="dop853", t_eval=times)
     errors = [np.abs(with_steps(system, method, n, times, formulation=formulation).p - exact.p).max() for n in steps]

@@ -136,7 +136,7 @@ def test_a_run_ends_with_a_step_and_not_with_a_value_between(bar, method):
 @pytest.mark.parametrize(("method", "steps"), [("dormand_prince", (20, 160)), ("dop853", (8, 32))])
 @pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
 def test_the_order_of_instants(bar, method, steps, terminal):
-    """What the polynomial misses within a step is one power of h more than its order."""
+    """The error of the polynomial within a step is one power of h above its order."""
     def errors(where):
         found = [zd.simulate(bar, 1.0, integrator=method, rtol=1e3, atol=1e3, first_step=1 / n, max_step=1 / n,
                              events=event(lambda t, p, v: p[0] - where, terminal=terminal)).t_events[0][0] for n in steps]
@@ -217,7 +217,7 @@ def test_every_step_is_watched(bar, steps, saved):
 
 
 def test_times_to_save_do_not_end_the_watch(bar):
-    """Events go on to the end of the span, as SciPy's do; what is asked for twice is saved once."""
+    """Events are found to the end of the span, as in SciPy; a time that is both a sample and an event is saved once."""
     at = event(lambda t, p, v: t - 0.5, terminal=True)
     sol = zd.simulate(bar, 1.0, step=0.01, t_eval=[0.1, 0.2], events=at)
     assert sol.t_events[0].tolist() == [0.5]

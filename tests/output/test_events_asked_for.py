@@ -44,7 +44,7 @@ def test_one_event_needs_no_list():
 
 
 def test_states_may_be_kept(bar):
-    """What an event is handed is its own."""
+    """An event function owns its arguments."""
     seen = []
 
     def watch(t, p, v):

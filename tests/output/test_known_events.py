@@ -76,7 +76,7 @@ def test_parameters_have_the_values_of_the_system():
 
 
 def test_without_a_compiler_it_is_evaluated_in_python(monkeypatch):
-    bar, expression = zd.systems.four_bar(), sp.tanh(A1 - 2) + 1e-3 * A3     # which nobody has compiled before
+    bar, expression = zd.systems.four_bar(), sp.tanh(A1 - 2) + 1e-3 * A3     # not compiled before
     monkeypatch.setattr(compilers, "find", lambda: None)
     without = found(bar, expression)
     monkeypatch.undo()

@@ -1,4 +1,4 @@
-"""Measures recorded during a run: what reading them afterwards says, whichever rows are saved; nothing where none is asked."""
+"""Measures recorded during a run equal those evaluated afterwards, for any choice of samples; none are recorded by default."""
 
 import copy
 import pickle

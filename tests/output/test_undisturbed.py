@@ -63,6 +63,6 @@ def test_past_a_bifurcation(formulation):
 
 
 def test_many_rows(formulation):
-    """Where structures of many rows are factored block by block, and independent variables chosen so, anew four times."""
+    """Structures of many constraints are factored by blocks, as are independent variables, which are chosen anew four times."""
     assert_undisturbed(four_bars(15).system(), 1.0, 23, formulation=formulation, step=0.02)
     assert_undisturbed(four_bars(15).system(), 1.0, 23, formulation=formulation, integrator="dop853", rtol=1e-6, atol=1e-6)

@@ -26,7 +26,7 @@ NOT_AS_STATED = {
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Where the command wrote."""
+    """Folder into which the command wrote."""
     out = tmp_path_factory.mktemp("figures") / "new" / "folder"
     assert __main__.main(["reproduce", "--out", str(out)]) == 0
     return out

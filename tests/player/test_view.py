@@ -59,7 +59,7 @@ def test_arrows_have_the_size_of_the_force(crank):
 
 
 def test_the_arrow_on_a_hanging_body_points_up():
-    """What the hook does to the bar, the second body: it carries it."""
+    """The force of the hook on the bar, its second body, carries the weight."""
     m = zd.Mechanism("hanging", gravity=(0, -9.81))
     bar = m.link("bar", (0, 0), (0, -1), mass=2.0)
     m.revolute("hook", m.ground, bar.start)

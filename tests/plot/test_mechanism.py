@@ -90,7 +90,7 @@ def test_all_joints_and_elements_are_drawn(what):
 
 @pytest.mark.parametrize("kind", [*JOINTS, *ELEMENTS])
 def test_every_kind_of_the_tables_is_drawn_as_itself(kind):
-    """Of a kind that is new, something is drawn that bears its name."""
+    """A new kind of element has a drawing with its name."""
     system, prefix = every_joint_by_row.by_row().system("absolute"), "J" if kind in JOINTS else "F"
     drawn = kinds(system, f"{prefix} {kind}")
     assert drawn == LOOKS[kind] if kind in LOOKS else drawn
@@ -234,7 +234,7 @@ def test_a_cam_that_would_be_too_small_gets_a_stem():
 
 
 def test_a_guide_is_clear_of_its_cam():
-    """Where the follower is guided at its roller, the guide is drawn further up, and the follower reaches it."""
+    """The guide of a follower is drawn away from its roller, and the follower extends to it."""
     m = zd.Mechanism("valve")
     turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1).point((0, 0)))
     guide = m.prismatic("guide", m.ground, m.body("stem", 0.1, 0.01, at=(0, 0.05)), axis=(0, 1))

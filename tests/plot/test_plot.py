@@ -40,7 +40,7 @@ def curves(ax):
 
 
 def drawn(ax):
-    """Whether drawing it raises anything, warnings included."""
+    """Draw the figure, so that errors and warnings of drawing are raised; return its axes."""
     ax.figure.canvas.draw()
     return ax
 
@@ -236,7 +236,7 @@ def test_points_of_the_plane_are_joined_by_bars_and_what_rests_is_on_the_ground(
     assert len(shapes(ax, "pin")) == 4
     assert ax.get_aspect() == 1
     assert "_ground" in [each.get_label() for each in plot.mechanism(bar, bar.p[4]).collections]
-    assert "_ground" not in [each.get_label() for each in plot.mechanism(bar.system).collections]    # nobody knows what rests
+    assert "_ground" not in [each.get_label() for each in plot.mechanism(bar.system).collections]    # it has no ground
 
 
 class Curve(Spatial):

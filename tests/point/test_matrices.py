@@ -1,4 +1,4 @@
-"""Where a system declares its structure, packed matrices do what the dense ones of its twin do, wherever the core uses them."""
+"""Packed matrices of a system with a declared structure give the results of its dense twin, in all uses of the core."""
 
 import numpy as np
 import pytest

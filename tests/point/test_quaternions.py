@@ -62,7 +62,7 @@ def test_events_see_it(formulation):
 @pytest.mark.parametrize("method", EXPLICIT)
 @pytest.mark.parametrize("which", ["held", "free"])
 def test_a_run_from_a_saved_state_has_the_same_bits(which, formulation, method):
-    """What is kept from step to step by history alone is left out: matrices of implicit methods, independent velocities."""
+    """Methods with a memory beyond the state are left out: matrices of implicit methods, independent velocities."""
     if which == "held" and formulation in ("mixed", "independent"):
         pytest.skip("which velocities are independent depends on where the run has been")
     options = {"step": STEP, "formulation": formulation, "integrator": method}

@@ -27,7 +27,7 @@ def test_networks_of_redundant_rows_and_singular_mass_accelerate_as_by_dense_mat
 
 
 def test_multipliers_of_least_effect_are_found_in_as_many_iterations_as_that_takes():
-    """Of this network each iteration leaves two thirds of what is not balanced: after 40 of them, 3e-10 of the reactions."""
+    """Each iteration reduces the residual of this network to two thirds: after 40 of them, to 3e-10 of the reactions."""
     assert check_accelerations(1362, ["augmented"], bodies=20, redundant=4)["augmented"] < MOST_ROUNDINGS
 
 
@@ -199,7 +199,7 @@ def test_independent_refuses_large_structures_with_a_kinematic_matrix_and_names_
 
 
 def test_bodies_without_constraints_may_be_many(formulation):
-    """What may be large is told by velocities, too."""
+    """The size of a structure without constraints is that of its velocities."""
     stiffness = np.random.default_rng(1).uniform(1.0, 2.0, 303)
     system = zd.System(303, mass=lambda p: np.eye(303), force=lambda p: -stiffness * p, p0=np.ones(303),
                        structure=zd.Structure([3] * 101, [], ["constant diagonal"] * 101))

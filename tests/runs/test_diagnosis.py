@@ -68,7 +68,7 @@ def test_beyond_its_limit_each_explicit_method_grows_and_says_so(integrator, dam
 
 @pytest.mark.parametrize("omega_h", [0.01, 0.3, 1.0, 3.0, 30.0])
 def test_omega_h_is_what_it_is(integrator, omega_h):
-    """Of a linear oscillation, to rounding, whatever the method makes of it."""
+    """The product omega h of a linear oscillation, to rounding, regardless of the method's error."""
     sol, _ = oscillating(omega_h, integrator, steps=20)
     assert abs(sol.stats["omega_h"] / omega_h - 1) < 1e-6
 

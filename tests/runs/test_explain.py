@@ -13,7 +13,7 @@ from zerodrift import _gateway
 
 
 def failed(error, message, call):
-    """The error's solution: consistent, and shorter than what was asked for."""
+    """The error's solution: consistent, and shorter than the requested span."""
     with pytest.raises(error, match=message) as caught:
         call()
     sol = caught.value.solution

@@ -1,4 +1,4 @@
-"""What a system may bring besides its terms is refused where it is malformed, whoever hands it in."""
+"""Optional members of a system besides its terms are refused where malformed, from any source."""
 
 import re
 
@@ -11,7 +11,7 @@ from native_systems import GIVEN, PENDULUM, compile_text, needs_compiler
 from support import handed
 from zerodrift import _gateway
 
-ANY = 1     # the address of some function, which nobody calls here
+ANY = 1     # the address of some function, which is not called here
 
 
 class Made:

@@ -183,7 +183,7 @@ def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
             assert "interrupted from the keyboard" in str(outcome)
             assert repr(outcome.solution)
             kept += 1
-    assert kept or what == "reference"      # which has nothing to show before its end, but for runs of its own
+    assert kept or what == "reference"      # whose result exists only at the end
 
 
 def test_another_handler_of_ctrl_c_is_left_alone(bar):

@@ -1,4 +1,4 @@
-"""A solution makes its arrays and statistics when one of them is first asked for: nobody can tell."""
+"""A solution makes its arrays and statistics at the first access to one of them, invisibly."""
 
 import copy
 import dataclasses
@@ -15,7 +15,7 @@ FIELDS = [field.name for field in dataclasses.fields(zd.Solution)]
 
 
 def fresh(bar, **options):
-    """A solution that nobody has asked for anything."""
+    """A solution before any access."""
     return zd.simulate(bar, 0.5, step=0.1, energy=True, **options)
 
 

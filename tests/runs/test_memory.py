@@ -17,7 +17,7 @@ linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks i
 
 
 def limited(before, code, mebibytes):
-    """What a process prints that may take so much memory beyond what importing, and what is done before, have taken."""
+    """Output of a process with a limit of memory, in MiB, beyond that used by imports and by the code `before`."""
     limit = f"""
     pages = int(open("/proc/self/statm").read().split()[0])
     resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + {mebibytes} * 2**20,) * 2)

@@ -39,7 +39,7 @@ ends.terminal = True
 
 
 def is_in_file(array):
-    """Whether it is a view of mapped memory."""
+    """True if the array is a view of mapped memory."""
     return isinstance(array, np.memmap) or (array.base is not None and is_in_file(array.base))
 
 
@@ -114,7 +114,7 @@ def test_measures_are_recorded_and_read_from_it(tmp_path, monkeypatch):
 
 
 def ran(code, *given, expect=0):
-    """What a process prints."""
+    """Lines that a process prints."""
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code), *map(str, given)], capture_output=True, text=True,
                           check=False, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
     assert done.returncode == expect, done.stderr
@@ -123,7 +123,7 @@ def ran(code, *given, expect=0):
 
 @linux
 def test_a_record_that_memory_has_no_room_for(tmp_path):
-    """Of 72 MB, where 48 may be taken."""
+    """A record of 72 MB with 48 MB of memory allowed."""
     lines = ran("""
     import resource, sys, numpy as np, zerodrift as zd
     bar, options = zd.systems.four_bar(), {"step": 1e-6, "direct": None}

@@ -1,4 +1,4 @@
-"""Settings of rows of the core's tables: classes that nobody wrote, for whatever rows and parameters there are."""
+"""Settings classes generated from the core's tables, for all entries and parameters."""
 
 import copy
 import dataclasses
@@ -40,13 +40,13 @@ def other_value(parameter):
 
 
 def settings_of(card):
-    """Those of a row, with each parameter in turn other than it is at first; without those that do not go together."""
+    """Settings of an entry, each with one parameter that differs from its default; combinations that are refused are left out."""
     yield card.settings()
     for parameter in card.parameters:
         try:
             yield card.settings(**{parameter.name: other_value(parameter)})
         except ValueError as clash:
-            assert "must be" in str(clash)      # noqa: PT017, as it is no failure
+            assert "must be" in str(clash)      # noqa: PT017, as the error is allowed
 
 
 @all_rows

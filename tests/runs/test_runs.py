@@ -143,7 +143,7 @@ def test_energy_correction_needs_no_further_matrix(bar):
 
 
 def test_cost_of_a_direct_step(bar):
-    """What a step ends with, the next begins with; the last call of a correction has the velocities' part, too."""
+    """A step starts with the accelerations at the end of the last one; a correction's last call includes the velocities."""
     stats = motion(bar, 8.0, 800, save_every=800).stats
     assert stats["direct_steps"] == stats["velocity_corrections"] == 800
     assert stats["factorizations"] == 1

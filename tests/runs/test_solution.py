@@ -1,4 +1,4 @@
-"""What a run hands back: frozen, complete, and the same after pickle, copy, save and load."""
+"""Solution of a run: frozen, complete, and the same after pickle, copy, save and load."""
 
 import copy
 import dataclasses
@@ -80,7 +80,7 @@ def test_settings_repeat_the_run(bar, stabilization, energy):
 
 
 def test_numbers_of_any_kind_are_saved(bar, tmp_path):
-    """What NumPy computed is a number like others, also in a file."""
+    """NumPy's scalars are accepted as numbers, also in a file."""
     projection = zd.Projection(tol=np.float32(1e-9), every=np.int8(2), max_iterations=np.uint16(7))
     sol = zd.simulate(bar, np.float32(1), step=np.float64(0.0625), save_every=np.int64(2), stabilization=projection,
                       energy=zd.EnergyCorrection(np.int32(2)))

@@ -59,7 +59,7 @@ WRONG_LATER = {
 
 @pytest.mark.parametrize("wrong", WRONG_LATER)
 def test_a_wrong_jacobian_stops_the_run(wrong, formulation, way):
-    """Where y = 0, at the start, the first two are right."""
+    """The first two are right at the start, where y = 0, and wrong later."""
     with pytest.raises(zd.InconsistentSystem, match=WRONG_ROW) as caught:
         zd.simulate(pendulum(WRONG_LATER[wrong]), 3.0, formulation=formulation, **way)
     assert isinstance(caught.value, ValueError)

@@ -118,7 +118,7 @@ def crank(angle, rod, rates, gravity=0.0, moves=0.0):
 
 
 def crank_acceleration(q, rate, gravity=0.0, moves=0.0):
-    """Of q where phi = -q, x = 2 cos q + moves t^2 / 2, by Lagrange's equation of q alone."""
+    """Acceleration of q for phi = -q, x = 2 cos q + moves t^2 / 2, by Lagrange's equation of q alone."""
     s, c = np.sin(q), np.cos(q)
     return (-gravity * c - 0.6 * gravity * s + 1.4 * s * (moves - 2 * c * rate**2)) / (0.6 + 2.8 * s**2)
 
@@ -130,7 +130,7 @@ FLAT = np.pi / 2, -np.pi / 2
 @pytest.mark.parametrize(("gravity", "moves"), MOVES)
 @pytest.mark.parametrize("away", [0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
 def test_accelerations_at_and_near_a_bifurcation(away, gravity, moves, formulation):
-    """Those of the motion that goes through it. Nearby, they can be had to the fourth root of rounding, as branch.c says."""
+    """Accelerations of the motion through the bifurcation; near it, to the fourth root of rounding, as branch.c derives."""
     q, rate = FLAT[0] + away, 5.0
     system = crank(q, -q, [rate, -2 * np.sin(q) * rate, -rate], gravity, moves)
     vdot, _ = zd.acceleration(system, system.p0, system.v0, formulation=formulation, on_singular="continue")
@@ -207,7 +207,7 @@ def isolated():
 
 @pytest.mark.parametrize("name", FORMULATIONS)
 def test_where_there_is_no_branch(name):
-    """What is left is the least acceleration, or where independent velocities need a branch, a sentence."""
+    """The minimum acceleration is taken, or an error is raised where independent velocities need a branch."""
     system = isolated()
     if name not in ("mixed", "independent"):
         vdot, _ = zd.acceleration(system, system.p0, system.v0, formulation=name, on_singular="continue")
@@ -270,8 +270,8 @@ def loop_of_hinges(dimension, ground, angle, rate):
 
 @pytest.mark.parametrize("off", [-1.4901644640105651e-09, -3.860264840669051e-07])
 def test_a_choice_that_comes_back_reversed_hides_no_bifurcation(off, formulation):
-    """Where all links lie in line, so does the axis of a turn that the chosen rows leave to others: as they pass
-    it, they are reversed twice.
+    """With all links in line, the axis of a rotation that the chosen constraints leave to redundant ones lies there too: they are
+    reversed twice as they pass it.
     """
     place = 1 + off, 1.5577951322998254, 8.790239812924861
     exact = zd.simulate(loop_of_hinges(2, *place).system("joint"), 0.5, integrator="dop853", rtol=1e-11, atol=1e-11)

@@ -91,7 +91,7 @@ def test_assembling_from_far_away_converges_by_shortened_iterations(bar):
 
 
 def newton(bar, p, iterations=20):
-    """Whether the undamped iteration (25a) converges, in NumPy."""
+    """True if the undamped iteration (25a) converges, in NumPy."""
     for _ in range(iterations):
         e = bar.evaluate(p)
         if np.abs(e.Phi).max() <= 1e-12:

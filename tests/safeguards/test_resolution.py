@@ -85,7 +85,7 @@ def test_against_the_closed_form(integrator, omega_h, kinematics):
 
 
 def test_what_is_missed_is_the_error():
-    """Of an oscillation in which errors add up: the trapezoidal rule is late by (omega h)^3 / 12 a step."""
+    """Phase error of an oscillation, which adds up: the trapezoidal rule is late by (omega h)^3 / 12 a step."""
     h = 0.3 / OMEGA
     sol, _, _ = listened(oscillators(), 100 * h, step=h, integrator="trapezoidal")
     late = 100 * 0.3**3 / 12

@@ -52,7 +52,7 @@ def case(request):
 
 
 def test_rows_are_derivatives(case):
-    """Of what has a value: Phi. And xi is what C v changes by while v does not."""
+    """C v is the derivative of Phi, and -xi that of C v at constant v."""
     core, p, v = case
     terms = core.evaluate(0.3, p, v)
     values = derivative(lambda p: core.evaluate(0.3, p, v)["Phi"], core, p, v)

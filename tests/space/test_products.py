@@ -33,7 +33,7 @@ def case(request):
 
 
 def solved(core, p, v):
-    """Of (13), by NumPy and the dense matrices: vdot, lambda."""
+    """Solution (vdot, lambda) of (13) by NumPy with dense matrices."""
     terms = core.evaluate(0.0, p, v)
     C, W, force = terms["C"], 1 / np.diag(terms["M"]), terms["f"] - terms["d"]
     multipliers = np.linalg.solve(C * W @ C.T, C @ (W * force) - terms["xi"])

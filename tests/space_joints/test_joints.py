@@ -86,14 +86,14 @@ def test_it_leaves_its_motions_free_and_no_others(kind):
 
 
 def measure(gauge, core, p):
-    """What a gauge reads, by a system that has it as a measure."""
+    """Value of a marker quantity, from a system with a measure of it."""
     reader = SpaceCore(core.tables._replace(gauges=[gauge], measures=[Observed("it", "", "values", 0)]))
     return float(reader.measure_at(0, 0.0, p, np.zeros(core.nv))["value"][0])
 
 
 @pytest.mark.parametrize("kind", MOTIONS)
 def test_its_zero_is_along_the_axis(kind):
-    """Where a joint counts a displacement, it is from where it was drawn."""
+    """The displacement of a joint is zero in the reference configuration."""
     rng = np.random.default_rng(8)
     joint = drawn(kind, rng, along=0.25)
     core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint]))

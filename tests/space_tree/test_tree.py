@@ -79,11 +79,11 @@ class Both:
         return self.free.state(*self.tree.poses(p, v), self.tree.angles(p))
 
     def D(self, p):
-        """What velocities (nv,) of the tree are in absolute coordinates."""
+        """Matrix from the tree's velocities (nv,) to those in absolute coordinates."""
         return np.stack([self.absolute(p, each)[1] for each in np.eye(self.tree.nv)], axis=1)
 
     def rate(self, function):
-        """Of a function of p, along the motion."""
+        """Time derivative of a function of p along the motion, by central differences."""
         return (function(self.p + H * self.pdot) - function(self.p - H * self.pdot)) / (2 * H)
 
 
@@ -136,7 +136,7 @@ def test_a_screw_counts_turns():
 
 
 def test_angles_count_turns():
-    """Those of the tree are coordinates; that of a joint that closes a loop follows the others, by its rate and by what it is."""
+    """Angles of tree joints are coordinates; that of a loop joint is counted by its rate and its principal value."""
     rng = np.random.default_rng(3)
     joints = [joint(rng, "cylindrical", 0, 1), joint(rng, "universal", 2, 1), joint(rng, "revolute", 0, 2)]
     both = Both(Tables([body(rng, 0), body(rng, 1)], joints), 4)

@@ -1,4 +1,4 @@
-"""Time: it is never accumulated, and a run of steps of fixed size ends where it was asked to."""
+"""Time is never accumulated, and a run of fixed steps ends exactly at the requested time."""
 
 import numpy as np
 import pytest

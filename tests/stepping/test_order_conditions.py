@@ -67,7 +67,7 @@ def gamma(tree):
 
 
 def sigma(tree):
-    """How many ways there are to exchange equal branches."""
+    """Number of symmetries of a tree: exchanges of equal branches."""
     return math.prod(math.factorial(tree.count(each)) * sigma(each) ** tree.count(each) for each in set(tree))
 
 
@@ -111,7 +111,7 @@ def tables_of(library, method):
 
 @pytest.fixture(scope="module")
 def tables(tmp_path_factory):
-    """Of each method, and the library with the functions behind them."""
+    """Coefficients of each method, and the library with their functions."""
     source = tmp_path_factory.mktemp("tables") / "tables.c"
     source.write_text(NATIVE.replace("@TABLES@", "\n".join(f"TABLE({name})" for name in METHODS)))
     methods = [CSRC / "integrators" / f"{name}.c" for name in (*METHODS, "runge_kutta")]
@@ -163,7 +163,7 @@ SHARES = [Fraction(k, 16) for k in range(1, 17)]
 
 
 def worst(of, method, orders):
-    """Of all that a table has to meet, what it misses by most."""
+    """Largest violation of the conditions that a table must meet."""
     rows = np.abs((of["A"].sum(axis=1) - of["c"]).astype(float)).max()
     between = misses(of, POLYNOMIALS[method], SHARES) if method in POLYNOMIALS else []
     return max([rows, *misses(of, orders), *between])
@@ -205,7 +205,7 @@ def in_doubles(of):
 
 
 def entries(of):
-    """Where tables are not zero; the weights of a step stand in A, too."""
+    """Nonzero entries of a table, as (name, index), without the weights of a step that A repeats."""
     found = [(name, at) for name in ("A", "b", "c", "d") for at in zip(*np.nonzero(of[name]), strict=True)]
     return [(name, at) for name, at in found if (name, at[0]) != ("A", of["end"])]
 

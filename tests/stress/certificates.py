@@ -1,4 +1,4 @@
-"""What `zd.reference` certifies against what is true, of random motions known to thirty digits.
+"""Certified errors of `zd.reference` against true ones, for random motions known to thirty digits.
 
 Run it with ``python tests/stress/certificates.py 3000``; it takes some ten minutes and writes ``certificates.csv`` into
 ``tests/bench/results/``. It exits with the number of certificates that are too small.
@@ -28,7 +28,7 @@ def drawn():
 
 
 def row(family, outcomes, refused):
-    """Of one family, or of all."""
+    """Entry of the table for one family, or for all."""
     certified, true = (np.array([getattr(each, which) for each in outcomes]).reshape(-1, 2) for which in ("certified", "true"))
     seconds = np.array([outcome.seconds for outcome in outcomes]).reshape(-1, 2).sum(axis=0)
     loose = certified / np.maximum(true, np.finfo(float).tiny)

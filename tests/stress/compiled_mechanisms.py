@@ -51,7 +51,7 @@ def reactions(one, other):
 
 
 def differences(seed, layout):
-    """How a mechanism ends, and how far apart tables and code are."""
+    """Result of a mechanism as a word, and the differences between tables and compiled code."""
     maker = Maker(seed, law=lambda a, w: a * sp.sin(w * sp.Symbol("t")))
     maker.start()
     systems = maker.m.system(layout), maker.m.system(layout, compiled=True)

@@ -1,4 +1,4 @@
-"""What happens at the extremes: scales, energies that cannot be corrected, large steps, bifurcations, stiffness. In tables.
+"""Tables of extreme cases: scales, energies that cannot be corrected, large steps, bifurcations, stiffness.
 
 Run it with ``python tests/stress/extremes.py``; it prints the tables and writes them to ``tests/bench/results/extremes.md``.
 With names of integrators, ``python tests/stress/extremes.py rk4 dop853``, it draws among these and only prints: a new one changes

@@ -26,7 +26,7 @@ ALIKE, SENSITIVE, CHANGE = 1e-9, 1e3, 2.0**-50
 
 
 def options_of(chance, end):
-    """Of `simulate`, at random."""
+    """Random options of `simulate`."""
     fixed = bool(chance.integers(2))
     options = {"step": float(chance.choice([0.003, 0.01, 0.02, 0.05])), "integrator": str(chance.choice(FIXED))} if fixed else {
         "integrator": str(chance.choice(CHOSEN)), "rtol": 10 ** -chance.uniform(4, 11), "atol": 10 ** -chance.uniform(5, 11)}
@@ -57,7 +57,7 @@ def events_of(system, chance, end):
 
 
 def distance(one, other, name):
-    """How far apart two runs are, in their rows and their events; infinite where they have others."""
+    """Largest difference of two runs in their samples and events; infinite if their numbers of samples or events differ."""
     pairs = [(one.t, other.t), (one[name], other[name]), *zip(one.t_events or (), other.t_events or (), strict=True)]
     if one.message.rpartition(": ")[2] != other.message.rpartition(": ")[2] or any(len(a) != len(b) for a, b in pairs):
         return np.inf
@@ -78,7 +78,7 @@ def compare(system, name, start, end, options, again):
 
 
 def study(chance):
-    """One ensemble; how many of its runs took which road, or failed, and the largest difference."""
+    """One ensemble; numbers of its runs made in lanes, made individually, or failed, and the largest difference."""
     system, count = getattr(zd.systems, chance.choice(KINDS))(), int(chance.integers(1, 20))
     end = float(chance.uniform(0.05, 0.6))
     shares = chance.choice([0.3, 1, 2, 5, 20, 300], size=count) * chance.uniform(0.5, 1.5, size=count)

@@ -115,7 +115,7 @@ def listened(system, *arguments, **options):
 
 
 def compared(seed):
-    """What came of a random run, as words to count; nothing where it stopped, or the truth is not known."""
+    """Result of a random run, as words to count; nothing if it failed, or if the exact motion is not known."""
     rng = np.random.default_rng(seed)
     kind = str(rng.choice(list(MAKERS)))
     integrator, h, energy = str(rng.choice(list(zd.integrators()))), 10 ** rng.uniform(-3.2, -1), bool(rng.integers(2)) or None

@@ -52,7 +52,7 @@ def pendulum(integrator, step, correction):
 
 
 def resident():
-    """Bytes of memory in use, or 0 where that cannot be told."""
+    """Bytes of memory in use, or 0 if unknown."""
     statm = Path("/proc/self/statm")
     return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if statm.exists() else 0
 

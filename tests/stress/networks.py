@@ -24,7 +24,7 @@ EVERY_MOTION = 40           # of networks that are also moved
 
 
 class Comparison:
-    """What came out, of each kind and formulation; the largest difference; and what did not agree."""
+    """Results by kind and formulation, the largest differences, and the cases that did not agree."""
 
     def __init__(self, formulations):
         self.formulations, self.began = formulations, time.perf_counter()

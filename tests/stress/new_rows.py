@@ -1,11 +1,11 @@
-"""What it takes to add a row to each of the core's tables, and a term: done on a copy, which is built and tested, and counted.
+"""Files and words needed to add an entry to each of the core's tables, and a term: added to a copy, built, tested and counted.
 
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
-A new row is a new file and one word in `registry.c`, a new kind of joint a file and one word in `joints/table.c`, and a new term
-one line in `system.h`. The tests that run are those that nobody wrote for it: whatever is parametrized over the core's tables,
-picked by the new names. The rows are small, but each one that can have parameters has one. The joints are then used from Python,
-beside the same mechanism of joints and couplings that are there.
+A new entry is a new file and one word in `registry.c`, a new kind of joint a file and one word in `joints/table.c`, and a new
+term one line in `system.h`. The tests that run were not written for them: they are parametrized over the core's tables, and
+selected by the new names. The entries are small, but each one that can have parameters has one. The joints are then used from
+Python, and compared with the same mechanism made of existing joints and couplings.
 """
 
 import difflib
@@ -420,7 +420,7 @@ WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.p
 
 
 def words(before, after):
-    """How many words two texts differ in."""
+    """Number of words in which two texts differ."""
     blocks = difflib.SequenceMatcher(None, before.split(), after.split(), autojunk=False).get_opcodes()
     return sum(max(b - a, d - c) for tag, a, b, c, d in blocks if tag != "equal")
 
@@ -439,7 +439,7 @@ def add(folder, file, text, changed, where, by):
 
 
 def run(folder, *command):
-    """What a command prints; where it fails, that is the end."""
+    """Output of a command; if it fails, the script exits."""
     environment = os.environ | {"PYTHONPATH": str(folder / "python")}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     if done.returncode:

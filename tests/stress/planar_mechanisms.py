@@ -21,7 +21,7 @@ TABLE = Path(__file__).with_suffix(".md")
 
 
 def compared(seed, layout, steps):
-    """Whether one mechanism agrees, its differences in motion and reactions, and whether the run warned."""
+    """Compare one mechanism: (agrees, difference of motion, difference of reactions, run warned)."""
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         motion, reaction = compare(seed, layout, steps=steps)
@@ -30,7 +30,7 @@ def compared(seed, layout, steps):
 
 
 def outcome(seed):
-    """How one mechanism ends: a word, and its largest differences or a sentence."""
+    """Result of one mechanism: a word, and its largest differences or a sentence."""
     layout = ("joint", "absolute")[seed % 2]
     try:
         agrees, motion, reaction, warned = compared(seed, layout, FIXED)

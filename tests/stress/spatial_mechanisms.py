@@ -28,7 +28,7 @@ EVERY = 10      # motions are looked at of one in so many, as the model's take a
 
 
 def outcome(seed):
-    """How one mechanism ends: a word, and how far it is off or a sentence."""
+    """Result of one mechanism: a word, and its error or a sentence."""
     formulation, on_ground = FORMULATIONS[seed % len(FORMULATIONS)], GROUND[seed // len(FORMULATIONS) % len(GROUND)]
     coordinates = COORDINATES[seed // (len(FORMULATIONS) * len(GROUND)) % 2]
     kind = f"{coordinates}, {formulation}, {'rolling' if on_ground in ON_GROUND else on_ground or 'holonomic'}"

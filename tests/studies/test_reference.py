@@ -161,7 +161,7 @@ def test_a_short_blow_is_seen_with_a_max_step_and_not_excluded_without():
 
 
 def test_the_first_step_may_be_said():
-    """Of the run that finds how many steps there are; none that is too long is believed."""
+    """`first_step` is that of the run that determines the number of steps; one that is too long is rejected."""
     refs = [zd.reference(BAR, 1.0, error=1e-8, first_step=h) for h in (1e-6, 0.01)]
     assert refs[0].solution.stats["steps"] >= refs[1].solution.stats["steps"]
     assert max(ref.error for ref in refs) <= 1e-8
@@ -182,7 +182,7 @@ def test_a_force_with_corners_is_named(monkeypatch):
 
 
 def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
-    """Where nobody chose it. `schur` cannot take a coordinate without mass."""
+    """A default formulation that fails is replaced: `schur` cannot take a coordinate without mass."""
     system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=lambda p: np.array([-p[0], 0.0]), p0=[1.0, 1.0],
                        constraints=lambda p: np.array([p[1] - p[0]**2]))
     names = ("augmented", "nullspace", "schur")

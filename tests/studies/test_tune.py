@@ -1,4 +1,4 @@
-"""`zd.tune`: what it picks reaches what was asked for. Times are not asserted."""
+"""`zd.tune`: the settings that it chooses meet the requested error. Times are not asserted."""
 
 import numpy as np
 import pytest

@@ -36,7 +36,7 @@ def test_every_system_is_measured_by_every_method(system):
 
 
 def test_the_error_is_that_of_the_run_itself():
-    """Where no step of it ends, too."""
+    """Also at times at which no step of the run ends."""
     exact = zd.reference(BAR, 0.5, error=1e-10, t_eval=np.linspace(0, 0.5, 33))
     for row in measured(reference=exact).rows:
         sol = zd.simulate(BAR, 0.5, **row.setting.settings, direct=False)     # formulations are compared without
@@ -76,7 +76,7 @@ def test_references_of_other_kinds(reference):
 
 
 def test_what_the_reference_does_not_exclude_is_told():
-    """Of what depends on time, no step that was looked at tells what happens between two of them."""
+    """A system that depends on time may change between two evaluated steps, unseen by both."""
     driven = zd.System(1, mass=[[1.0]], force=lambda t: np.array([np.sin(t)]), p0=[0.0], v0=[0.0])
     few = {"formulations": ["schur"], "integrators": ["rk4"]}
     found = measured(driven, **few, steps=[0.1], tolerances=[])

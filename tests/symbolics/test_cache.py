@@ -1,4 +1,4 @@
-"""What is derived and compiled is kept: found again, never trusted blindly, and never in anyone's way."""
+"""Cache of derived and compiled code: reused, verified before use, and never an obstacle where it fails."""
 
 import ctypes
 import os
@@ -164,7 +164,7 @@ def test_where_the_cache_is(monkeypatch):
 
 @pytest.fixture
 def as_windows(cache_folder, monkeypatch):
-    """Where nothing is reached through an open folder; on other systems, made to believe so."""
+    """Cache as on Windows, where files cannot be opened relative to an open folder; emulated on other systems."""
     monkeypatch.setattr(kept, "AS_WINDOWS", True)
     return cache_folder
 
@@ -181,7 +181,7 @@ def test_on_windows_files_are_reached_by_their_paths(as_windows):
 
 
 def test_on_windows_libraries_are_loaded_from_where_they_are_kept(as_windows, monkeypatch):
-    """Nobody changes them there while they are loaded, and nobody could remove a copy."""
+    """Windows locks a loaded library against changes, and a loaded copy could not be removed."""
     load, loaded = ctypes.CDLL, []
     monkeypatch.setattr(compiling._gateway.functions.ctypes, "CDLL", lambda path: loaded.append(Path(path)) or load(path))
     monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})

@@ -1,4 +1,4 @@
-"""What stands in the cache is executed: nothing is that somebody else may have written, and nobody is stopped by that."""
+"""Code from the cache is executed, so files that another user may have written are refused, and compiled again elsewhere."""
 
 import errno
 import math
@@ -87,7 +87,7 @@ def test_a_folder_that_others_may_write_is_left_alone(cache_folder, compiler, pe
 
 
 def test_in_the_users_own_place_permissions_are_mended(tmp_path, cache_folder, compiler, monkeypatch):
-    """Where earlier versions made it with the umask."""
+    """Earlier versions made the folder with the permissions of the umask."""
     monkeypatch.delenv("ZERODRIFT_CACHE")
     monkeypatch.setattr(kept, "_own", lambda: cache_folder)
     cache_folder.mkdir()
@@ -171,7 +171,7 @@ def test_a_link_to_a_folder_of_ones_own_is_followed(tmp_path, cache_folder, comp
 
 
 def test_a_link_that_is_changed_after_the_folder_was_looked_at(tmp_path, cache_folder, monkeypatch):
-    """What counts is the folder that was opened."""
+    """The folder that was opened is used, not the link's new target."""
     (tmp_path / "mine").mkdir(0o700)
     (tmp_path / "theirs").mkdir(0o777)
     link = tmp_path / "link"

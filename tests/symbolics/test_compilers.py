@@ -123,7 +123,7 @@ def test_visual_studio_is_found_by_its_installer(studio):
     assert (compiler.environment["INCLUDE"], compiler.environment["LIB"]) == ("headers", "a=b")
     assert commands == [f'cmd /d /s /c ""{where}" x64 > nul && set"']
     assert compilers.find() == compiler
-    assert len(commands) == 1           # it is asked once
+    assert len(commands) == 1           # the compiler is called once
 
 
 @pytest.mark.parametrize(("platform", "target"), [("win-arm64", "arm64"), ("win32", "x86"), ("win-amd64", "x64")])

@@ -162,7 +162,7 @@ def test_a_compiler_that_hangs_is_ended_with_all_it_started(tmp_path, monkeypatc
 
 @on_posix
 def test_a_compiler_that_hangs_is_ended_as_on_windows(tmp_path, monkeypatch):
-    """By a program in the place of Windows' own, which ends nothing unless it is asked as that one wants it."""
+    """A script in place of Windows' taskkill ends processes only if called with the arguments of that program."""
     (tmp_path / "System32").mkdir()
     program(tmp_path / "System32" / "taskkill.exe", '#!/bin/sh\n[ "$1 $2 $3" = "/t /f /pid" ] && kill -s KILL -- "-$4"\n')
     monkeypatch.setenv("SYSTEMROOT", str(tmp_path))

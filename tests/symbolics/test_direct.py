@@ -100,7 +100,7 @@ def assert_near(found, expected, size):
 
 
 def assert_lands(direct, i, t, p, v, corrected):
-    """What ends a step is a correction, and then the acceleration with what that leaves of the velocities."""
+    """A step ends with a correction, and then the acceleration at the corrected velocities."""
     status, landed, found = direct.land(i, t, p, v, np.inf)
     assert status == 0
     assert_near(landed, v - corrected["dv"], tol.SAME)
@@ -173,7 +173,7 @@ def test_functions_for_independent_velocities_solve_the_equations(seed):
 
 
 def assert_embeds(direct, i, state, free, solved_for, added):
-    """What an embedding leaves; whether it is sound there, and so was compared."""
+    """Compare the dependent velocities of an embedding; True if it is well conditioned there and was compared."""
     t, p, v = state
     system, (status, embedded, found) = direct.system, direct.embed(i, t, p, v, added, np.inf)
     assert status == 0
@@ -213,7 +213,7 @@ def test_orders_are_for_different_places():
 
 
 def redundant(scale):
-    """Two rows, of which the second follows from the first but for `scale`."""
+    """Two constraints, of which the second is redundant up to a term of size `scale`."""
     x, y, z, vx, vy, vz = sp.symbols("x y z vx vy vz")
     return zd.symbolic([x, y, z], speeds=[vx, vy, vz], kinetic=(vx**2 + vy**2 + vz**2) / 2, potential=10 * y,
                        constraints=[x + sp.sin(y), 2 * x + 2 * sp.sin(y) + scale * z], parameters={}, p0=[0.0, 0.0, 0.0],
@@ -241,7 +241,7 @@ def assert_says(system, sol, why):
     ("MOST_OPERATIONS", f"they would take more than {direct_emission.MOST_OPERATIONS} operations", 1.0),
     ("MOST_STATEMENTS", "a function would have more than 10 statements", 2.0)])
 def test_nothing_is_written_that_is_too_long(bound, why, scale, monkeypatch):
-    """Of two systems, as what was found of one is kept."""
+    """A fresh system for each bound, as the code of a system is kept."""
     monkeypatch.setattr(direct_emission, bound, 10)
     system = redundant(scale)
     sol = zd.simulate(system, 0.1, step=0.01)
@@ -309,7 +309,7 @@ def test_nothing_is_compiled_where_they_are_not_wanted(monkeypatch):
 
 
 def test_they_are_made_for_runs_that_take_them_and_for_no_others(formulation, integrator):
-    """Those that did not have them made take none where there are some."""
+    """Runs that do not use closed-form functions neither make them nor take those that exist."""
     pendulum = zd.systems.pendulum()
     x, y, vx, vy = sp.symbols("x y vx vy")
     system = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2, potential=9.81 * y, constraints=[x**2 + y**2 - 1],

@@ -1,4 +1,4 @@
-"""What SymPy's expressions may contain: functions with their derivatives, hostile names; and what is refused, by name."""
+"""Contents of SymPy's expressions: functions with their derivatives, hostile names; and refusals, by name."""
 
 import math
 
@@ -93,7 +93,7 @@ HOSTILE = ["lambda", "gamma", "y0", "I", "E", "pi", "k", "s", "p", "v", "t0", "w
 
 
 def test_hostile_names_are_only_names(place):
-    """Of coordinates and of parameters: none of them reaches C."""
+    """Names of coordinates and of parameters do not appear in the C source."""
     n = len(HOSTILE)
     p, v = [sp.Symbol(name) for name in HOSTILE], [sp.Symbol(f"{name}'") for name in HOSTILE]
     k = [sp.Symbol(f"{name} ") for name in HOSTILE]

@@ -19,7 +19,7 @@ POINTS = np.random.default_rng(3).uniform(0.3, 1.4, (6, SIZE))
 
 
 def random_expression(chance, depth):
-    """Of few of the variables each, sums and products more often than functions."""
+    """Random expression of a few variables, with sums and products more often than functions."""
     if depth == 0:
         return X[chance.integers(SIZE)] if chance.random() < 0.8 else A + sp.Rational(int(chance.integers(1, 9)), 4)
     parts = [random_expression(chance, depth - 1) for _ in range(chance.integers(2, 4))]
@@ -37,7 +37,7 @@ def random_expression(chance, depth):
 
 
 def energy(chance):
-    """Squares and products of sums that are linear in the last variables, as kinetic energies are, and what is no such."""
+    """Squares and products of sums that are linear in the last variables, as in kinetic energies, and other terms."""
     linear = [sum(sp.sin(X[0] + i) * x if chance.random() < 0.7 else x / 2 for x in X[1:]) for i in range(3)]
     return (A * linear[0] ** 2 / 2 + linear[1] * linear[2] * sp.cos(X[0]) + A * X[1] * X[2] + X[3] ** 2 * linear[1]
             + (linear[2] + X[0] ** 2) ** 2 / 3 + X[4] ** 2 / (1 + X[0] ** 2) + linear[0])
@@ -56,7 +56,7 @@ def read(expression):
 
 
 def values(graph, nodes, points=POINTS):
-    """Of nodes at points, (points, nodes)."""
+    """Values of nodes at points, (points, nodes)."""
     lowering = Lowering(graph)
     evaluate = numeric.evaluator(lowering, {"of": [lowering.lower(node) for node in nodes]}, VALUES)
     return evaluate(np.zeros(len(points)), points)["of"]
@@ -98,7 +98,7 @@ def test_the_derivative_along_a_leaf_is_an_entry_of_the_gradient(expression):
 
 
 def test_only_leaves_that_are_there_are_gone_through():
-    """Of a sum of n squares, each of one variable, n slopes are made, and as many second derivatives."""
+    """A sum of n squares, each of one variable, has n slopes and n second derivatives in the graph."""
     graph, leaves, node = read(sum(x**2 for x in X))
     gradient = Gradient(graph, leaves)
     assert list(gradient(node)) == leaves

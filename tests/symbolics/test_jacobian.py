@@ -26,7 +26,7 @@ KINDS = {
 
 
 def jacobian_of(system, at, p, v):
-    """Of (pdot, vdot), and in a last row of the power where there is any, as the core is handed it."""
+    """Jacobian of (pdot, vdot), and of the power in a last row if the system has any, as passed to the core."""
     return system._with_jacobian(system._core).jacobian(at, p, v)
 
 
@@ -43,7 +43,7 @@ def of_kinds():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_kind_of_operation(of_kinds, kind):
-    """Those of mpmath come from differences, with as many digits as these need."""
+    """Derivatives against mpmath's differences, which use more digits."""
     function = sympy.lambdify([s, w], KINDS[kind].subs({k: 0.7, t: 0.3}), "mpmath")
     with mpmath.workdps(30):
         exact = [mpmath.diff(function, (mpmath.mpf(0.4), mpmath.mpf(0.2)), by) for by in ((1, 0), (0, 1))]
@@ -53,7 +53,7 @@ def test_each_kind_of_operation(of_kinds, kind):
 
 
 def power(system, at, y):
-    """Of (28), what comes in besides the potential energy: through forces, and through constraints that move."""
+    """Power of (28) without that of the potential: of forces, and of moving constraints, W."""
     p, v = np.split(y, [system.nq])
     e = numbers(system, at, p, v)
     _, multipliers = solved(e.M, e.C, e.force, e.xi)

@@ -54,7 +54,7 @@ def inputs(name, lanes, seed):
 
 
 def functions(name, of, data):
-    """Those of a set with these doubles, (lanes, doubles)."""
+    """Closed-form functions of a set with these data, (lanes, doubles)."""
     sets, sizes, _, _ = sets_of(name)
     return DirectSet(sets[of], sizes, data, of_mechanism=name.startswith("mechanism"))
 
@@ -121,7 +121,7 @@ def test_contraction_changes_no_more_than_rounding(name):
 
 
 def test_a_compiler_that_has_no_vectors_writes_the_plain_functions():
-    """Of the sets that it is told to write it takes those that it can, else the one that all can."""
+    """The compiler emits the requested sets that it supports, or else the baseline."""
     functions = random_system(2)._direct
     plain = functions.library_of("0x40000000")
     table = ffi.cast("const zd_direct *", zd._gateway.address_of(plain, "zd_symbolic_direct"))

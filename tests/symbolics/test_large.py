@@ -56,7 +56,7 @@ def test_terms_and_motion_have_the_same_bits(make, monkeypatch):
 
 
 def test_no_function_of_a_long_chain_is_long():
-    """What changes from link to link is written once, so that the source grows with the tables alone."""
+    """Code that differs between links only in its data is emitted once, so that only the tables of the source grow."""
     system = zd.models.symbolic.closed_pendulum(24)
     counts = [text.count(";\n") for text in re.split(r"^}$", system.c_source, flags=re.MULTILINE)]
     assert max(counts) <= large.MOST_STATEMENTS < len(system._code.python_source.splitlines())

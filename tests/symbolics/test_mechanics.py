@@ -1,4 +1,4 @@
-"""What SymPy's mechanics sets up becomes the system that one would have written, with all its coordinates and constraints."""
+"""Systems from SymPy's mechanics equal those written by hand, with all coordinates and constraints."""
 
 import numpy as np
 import pytest
@@ -68,7 +68,7 @@ def test_the_joints_framework(formulation):
 
 
 def test_kanes_method_with_dependent_coordinates_and_speeds():
-    """What it eliminates comes back, and rates of its configuration constraints are not constraints of their own."""
+    """Eliminated coordinates are restored, and rates of configuration constraints are not separate constraints."""
     framework = four_bar()
     framework.form_eoms()
     kane = zd.from_mechanics(framework.eom_method, parameters=VALUES, **START)
@@ -151,7 +151,7 @@ def test_lagranges_method_with_forces_and_both_kinds_of_constraints():
 
 
 def test_a_potential_of_ones_own_for_a_lagrangian():
-    """What it does not describe is left in what is differentiated like a kinetic energy."""
+    """The part of the Lagrangian that the given potential does not contain is differentiated as a kinetic energy."""
     q, k = dynamicsymbols("q"), sp.Symbol("k")
     system = zd.from_mechanics(LagrangesMethod(q.diff(T) ** 2 / 2 - k * q**2 - q, [q]), potential=k * q**2, parameters={k: 2.0})
     terms = system.evaluate([3.0])

@@ -35,7 +35,7 @@ def of_kinds():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_each_kind_of_operation(of_kinds, kind):
-    """Those of mpmath come from differences, with as many digits as these need."""
+    """Taylor coefficients against mpmath's differences, which use more digits."""
     found = of_kinds[kind]
     with mpmath.workdps(30):
         exact = mpmath.taylor(sympy.lambdify(t, KINDS[kind].subs(k, 0.7), "mpmath"), mpmath.mpf(0.4), len(found) - 1)

@@ -58,7 +58,7 @@ def test_the_motion_is_that_of_the_system_in_c(pair, formulation):
 
 @pytest.mark.parametrize("groups", [0, 1, 2])
 def test_what_is_not_kept_is_computed_again(pair, groups, monkeypatch):
-    """Where more groups of subexpressions are shared than can be kept, the rest is computed at every call."""
+    """Groups of shared subexpressions beyond the limit of the cache are computed at every call."""
     monkeypatch.setattr(blocks, "GROUPS", groups)
     monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
     mine, core = WRITTEN[pair[1].name].__wrapped__(), pair[1]

@@ -1,4 +1,4 @@
-"""What every system can do: to begin with, print what it is."""
+"""Properties of every system: its printed summary."""
 
 import re
 
@@ -20,7 +20,7 @@ def test_a_printed_system_says_what_it_is(kind):
         assert (f"{variable.name} [{variable.unit}]" if variable.unit else variable.name) in text
     for name in system.parameters:
         assert f"{name} = " in text
-    assert f"freedom       {system.nv - system.m}\n" in text      # of the built-in ones, no row follows from others
+    assert f"freedom       {system.nv - system.m}\n" in text      # built-in systems have no redundant constraints
     assert repr(system) != text
 
 

@@ -41,7 +41,7 @@ def test_a_power_that_has_its_second_derivative_at_zero_only_as_a_whole():
     lambda x, y: 1 / y, lambda x, y: np.log(y), lambda x, y: np.arcsin(x + y), lambda x, y: y**-1.0, lambda x, y: np.cbrt(y),
     lambda x, y: (-2.0) ** (x / 3 + y), lambda x, y: np.exp(1000 * (x + y))])
 def test_a_derivative_that_does_not_exist_names_the_constraints(row):
-    """Where NumPy's value is not finite either, that is said of the value."""
+    """If NumPy's value is not finite either, the error names the value, not the derivative."""
     with np.errstate(all="ignore"), pytest.raises(ValueError, match=r"constraints.* is not finite at t = 0: "):
         bead(constraints=lambda p: np.array([row(p[0], p[1])])).evaluate()
 

@@ -37,7 +37,7 @@ STEPS = ({"step": 0.05}, {"step": 0.05, "integrator": "trapezoidal"}, {"rtol": 1
 
 
 def no_mischief(name, function):
-    """What makes none."""
+    """The function itself, without mischief."""
     return function
 
 
@@ -84,7 +84,7 @@ class Mischief:
         return call if name == self.name else function
 
 
-# ---- what harms nobody ----
+# ---- harmless callables ----
 
 
 def keep(self, function, p, v):
@@ -178,7 +178,7 @@ def each(change):
 
 
 def as_buffer(value):
-    """What NumPy can read, but is not an array."""
+    """A buffer that NumPy can read, but that is not an array."""
     array = np.array(value)
     return value if array.dtype == object else memoryview(array)
 

@@ -1,4 +1,4 @@
-"""What is wrong with a compiled function is said by name: when its system is made, and where a term is not finite later."""
+"""Errors of compiled functions name the cause: when the system is made, and where a term is not finite later."""
 
 import ctypes
 

@@ -45,7 +45,7 @@ def test_a_function_from_anywhere_moves_as_the_built_in_does(source, library, fo
 
 
 def test_a_capsule_is_known_by_its_signature(library):
-    """What Cython exports; here made by hand."""
+    """A capsule as Cython exports it, here made by hand."""
     new = ctypes.pythonapi.PyCapsule_New
     new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
     name = b"int (void *, int, double, double *, double *, void *)"

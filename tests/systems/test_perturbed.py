@@ -8,7 +8,7 @@ import zerodrift as zd
 from support import SYSTEMS
 from zerodrift import _gateway
 
-SIZE = 2.0**-30     # large enough to be told from rounding itself
+SIZE = 2.0**-30     # well above rounding
 PERTURBED = ("A", "M", "d", "f", "C", "Phi_t", "xi")
 
 
@@ -62,7 +62,7 @@ def test_what_a_callable_raises_comes_out():
 
 
 def test_built_in_systems_say_whether_they_depend_on_time(system):
-    """Those that say that they do not are the same at all times."""
+    """Terms of systems that declare themselves independent of time are equal at all times."""
     p, v = system.p0, system.v0
     now, later = (system._core.evaluate(t, p, v) for t in (0.0, 1.7))
     same = all(np.array_equal(now[name], later[name]) for name in now)

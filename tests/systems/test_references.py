@@ -175,9 +175,7 @@ def four_bars(loops=2):
 
 
 def off_four_bars(formulation, units=0, **options):
-    """How far the first rod's end is off, at the most, in m and in ten seconds; and the motion. `units` are of rounding, which
-    speeds at the start are changed by.
-    """
+    """Largest error of the first rod's end in ten seconds, m, and the motion; initial speeds are off by `units` of rounding."""
     reference, system = table("A02_fourbar_N2"), four_bars()
     if "step" not in options:
         options["t_eval"] = reference["t"]

@@ -63,7 +63,7 @@ def test_energy_balance(system):
 
 
 def test_bias_and_force_are_those_of_lagrange(system):
-    """Where v = pdot and all forces have a potential: f - d = grad (T - V) - Mdot v."""
+    """Lagrange's equation if v = pdot and all forces have a potential: f - d = grad (T - V) - Mdot v."""
     e = system.evaluate()
     if e.A is not None or e.power is not None or not system.has_energy:
         pytest.skip("has quasi-velocities, or forces without potential")

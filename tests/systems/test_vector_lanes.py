@@ -39,7 +39,7 @@ def address(array):
 
 
 def sines(library, of, angles):
-    """Of angles (groups, OF_EACH, lanes)."""
+    """Sines and cosines of angles (groups, OF_EACH, lanes)."""
     angles = np.ascontiguousarray(angles)
     s, c = np.empty_like(angles), np.empty_like(angles)
     function(library, "sines", of)(len(angles), address(angles), address(s), address(c))
@@ -77,7 +77,7 @@ def test_zeros_keep_their_sign_and_infinities_have_no_value(library, of):
 
 @pytest.mark.parametrize("of", [each for each in SETS if each != (0, 1)], ids=SETS.get)
 def test_an_angle_gives_the_same_bits_in_every_lane_and_beside_whatever_stands_there(library, of):
-    """Those of one trajectory with the same contraction: without any for the baseline, and for all units alike."""
+    """Bits equal those of one lane with the same contraction: none for the baseline, and the same for all vector units."""
     angles = np.concatenate([angles_of(kind) for kind in KINDS] + [[np.nan, np.inf]])
     angles = in_groups(np.random.default_rng(8).permutation(angles), 8).ravel()
     by_themselves = [values.ravel() for values in sines(library, (min(of[0], 1), 1), in_groups(angles, 1))]
@@ -90,7 +90,7 @@ def test_an_angle_gives_the_same_bits_in_every_lane_and_beside_whatever_stands_t
 
 @pytest.mark.parametrize("of", SETS, ids=SETS.get)
 def test_operations(library, of):
-    """What they are, in each lane: with a unit products are not rounded before they are added to."""
+    """Results of each operation in each lane; with a vector unit, products are not rounded before an addition (fused)."""
     operate, lanes = function(library, "operate", of), of[1]
     random = np.random.default_rng(9)
     for _ in range(60):

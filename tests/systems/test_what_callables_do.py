@@ -1,4 +1,4 @@
-"""What users hand in as callables and values: what they keep stays, what they return or raise is judged."""
+"""Callables and values from users: arrays that they keep stay unchanged, their results and exceptions are checked."""
 
 import gc
 import pickle
@@ -26,7 +26,7 @@ class Keeper:
         self.kept += [(x, x.copy()) for x in arguments if isinstance(x, np.ndarray)]
 
     def check(self):
-        """Whether all is what it was, once runs are over and their memory is used again."""
+        """Check that kept arrays are unchanged after the runs, when their memory is used again; return the number of probes."""
         gc.collect()
         waste = [np.full(size, np.pi) for size in range(1, 200) for _ in range(5)]
         assert all(x.shape == was.shape and (x == was).all() for x, was in self.kept)
@@ -121,7 +121,7 @@ def arrays_in_frames(error):
 
 
 def test_a_debugger_finds_no_memory_of_a_run_that_is_over():
-    """Of the core's memory NumPy would have a buffer of CFFI."""
+    """No array in a frame of the traceback is a view of the core's memory, which would be a CFFI buffer."""
     raising = bead(force=lambda t, pull: pull if t < 0.1 else 1 / 0)
     for system in (raising, bead(constraints=lambda t, p: [p[0] - 1 if t < 0.1 else None])):
         with pytest.raises((ZeroDivisionError, TypeError)) as caught:
@@ -318,7 +318,7 @@ def test_a_callable_that_calls_its_own_system_for_ever_ends(how):
 
 
 def test_the_end_of_the_stack_anywhere_is_said():
-    """What begins so near the limit of recursion that it is reached in some callback ends with RecursionError, or is right."""
+    """A run started so near the recursion limit that a callback exceeds it raises RecursionError, or is right."""
     system = bead()
     alone = zd.simulate(system, 0.1, step=0.05, events=lambda t, p, v: p[1]).p
 

@@ -105,7 +105,7 @@ def test_a_crank_of_grashofs_kind_turns():
 
 
 def test_random_four_bars():
-    """Where coupler and rocker are in one line, folded or stretched, a crank turns back; whichever bar is shortest."""
+    """A crank turns back where coupler and rocker are in line, folded or stretched, whichever bar is the shortest."""
     rng, kinds = np.random.default_rng(1), set()
     for lengths in rng.uniform(0.2, 2.0, (8, 4)):
         a, b, c, d = lengths
@@ -218,7 +218,7 @@ def test_a_dead_point_that_is_a_bifurcation_too():
 
 
 def test_laws_of_ones_own_are_followed():
-    """A coupling by a callable takes part; what it raises is told."""
+    """A constraint by a callable is included, and its exceptions are raised."""
     m = zd.Mechanism("two cranks")
     for name, x in (("first", 0), ("second", 2)):
         link = m.link(name, (x, 0), (x + 1, 0), mass=1.0)

@@ -64,7 +64,7 @@ def test_through_a_dead_point_it_goes_beyond_zero():
 
 
 def test_at_the_knee_of_two_loops_the_line_goes_to_the_ground():
-    """Of Jansen's leg: three links meet in U, and the bed has joints in V, in W and on the ground."""
+    """Jansen's leg: three links meet in U, and the bed has joints in V, in W and on the ground."""
     leg = zd.models.jansen()
     turn = zd.trace(leg, "crank.angle")
     V, X, Y = (turn[f"{name}.position"] for name in ("V", "X j", "Y bed"))
