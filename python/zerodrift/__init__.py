@@ -38,8 +38,8 @@ from .errors import (
     ZerodriftError,
 )
 from .runs.events import Event
+from .runs.methods import corrections, formulations, integrators
 from .runs.operations import acceleration, assemble, project
-from .runs.rows import corrections, formulations, integrators
 from .runs.simulate import simulate
 from .runs.solution import Solution
 from .systems.structure import Structure
@@ -58,9 +58,10 @@ __all__ = [
     "tune", "view", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
-    "Baumgarte": "runs.rows", "EnergyCorrection": "runs.rows", "Mechanism": "mechanisms.mechanism", "Projection": "runs.rows",
-    "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check", "ensemble": "ensembles.ensemble",
-    "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "from_mechanics": "symbolics.mechanics",
+    "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",
+    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check",
+    "ensemble": "ensembles.ensemble", "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium",
+    "from_mechanics": "symbolics.mechanics",
     "get_include": "systems.native", "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics",
     "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics", "linearize": "analysis.linearize",
     "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",

@@ -7,7 +7,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
-from .runs import row_file
+from .runs import sample_file
 from .runs.saving import read
 from .runs.solution import Solution
 
@@ -47,7 +47,7 @@ def load(path: str | Path) -> Any:
         ensemble = _ensembles().read(path, lambda description: _system(description, str(path)))
         if ensemble is not None:
             return ensemble
-    read_from = row_file.read if row_file.is_one(path) else read
+    read_from = sample_file.read if sample_file.is_one(path) else read
     values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
         _check_whole(path, values)
@@ -78,7 +78,7 @@ def _is_zip(path: str | Path) -> bool:
 
 def _ensembles() -> Any:
     """What reads ensembles; imported where there may be one."""
-    return importlib.import_module(".ensembles.reading", __package__)
+    return importlib.import_module(".ensembles.loading", __package__)
 
 
 def _rebuilding() -> Any:

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 import zerodrift as zd
-from zerodrift.analysis.settling import settled
+from zerodrift.analysis.relaxation import settled
 
 G = 9.81
 

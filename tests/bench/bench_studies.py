@@ -14,7 +14,7 @@ import zerodrift as zd
 from measuring import record
 from zerodrift.runs import threads
 from zerodrift.studies.bench import Bench
-from zerodrift.studies.motions import Motion
+from zerodrift.studies.reference_runs import Motion
 
 ROUNDS = 5
 THREADS = 2

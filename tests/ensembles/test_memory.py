@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from zerodrift.ensembles import memory
-from zerodrift.runs import room
+from zerodrift.runs import memory as free_space
 
 BAR = zd.systems.four_bar()
 RUNS, ROWS = 20, 101
@@ -18,7 +18,7 @@ SIZE = RUNS * ROWS * 2 * 8      # 32,320 bytes
 def scarce(monkeypatch):
     """Memory of so many bytes."""
     def only(free):
-        monkeypatch.setattr(room, "free_memory", lambda: free)
+        monkeypatch.setattr(free_space, "free_memory", lambda: free)
     monkeypatch.setattr(memory, "SMALL", 1000)
     return only
 
@@ -47,7 +47,7 @@ def test_more_than_memory_is_refused_before_anything_runs(scarce, monkeypatch):
     assert told[0].filename == __file__
     scarce(10)
     assert zd.ensemble(BAR, 1.0, **STUDY | {"t_eval": [1.0]})["alpha1"].shape == (RUNS, 1)     # small
-    monkeypatch.setattr(room, "free_memory", lambda: None)
+    monkeypatch.setattr(free_space, "free_memory", lambda: None)
     assert len(zd.ensemble(BAR, 1.0, **STUDY)) == RUNS
 
 
@@ -102,7 +102,7 @@ def test_parts_that_overlap_and_are_in_files(scarce, tmp_path):
 
 def test_a_disk_without_room_is_refused_before_anything_runs(scarce, tmp_path, monkeypatch):
     scarce(0)
-    monkeypatch.setattr(room.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": SIZE - 1}))
+    monkeypatch.setattr(free_space.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": SIZE - 1}))
     with pytest.raises(OSError, match=r"the outputs of 20 runs take 32\.3 kB, and 32\.3 kB are free in .*study: keep fewer"):
         zd.ensemble(BAR, 1.0, **STUDY, store=tmp_path / "new" / "study")
     assert not list(tmp_path.iterdir())

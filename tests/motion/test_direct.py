@@ -1,6 +1,8 @@
 """Steps on the closed-form path agree with those on the matrix path to rounding, which repeats doubtful ones."""
 
+import dataclasses
 import functools
+import pickle
 
 import numpy as np
 import pytest
@@ -83,18 +85,34 @@ def test_steps_that_are_chosen_take_it():
     ("rolling_disc", {"formulation": "independent"}), ("sleigh", {"formulation": "mixed"}),
     ("four_bar", {"integrator": "rattle"}), ("four_bar", {"integrator": "trapezoidal"}), ("four_bar", {"direct": False}),
 ], ids=str)
-def test_what_it_does_not_serve_takes_the_general_road(name, options, tmp_path):
+def test_what_it_does_not_serve_takes_the_matrix_path(name, options, tmp_path):
     """Such as systems with a kinematic matrix, or with a complement of their own."""
     sol = zd.simulate(zd.systems.chaplygin_sleigh() if name == "sleigh" else system(name), 0.1, step=0.01, **options)
     assert sol.stats["direct_steps"] == 0
     assert sol.settings["vector"] is None
     (name, value), = options.items()
-    why = f"{name} {value!r} takes none{' of such a system' * (name == 'formulation')}" if value else "direct=False"
-    assert f"\n  road       no direct functions: {why}\n" in repr(sol)
-    assert repr(zd.load(sol.save(tmp_path / "motion"))) == repr(sol)
+    why = f"{name} {value!r} has none{' for such a system' * (name == 'formulation')}" if value else "direct=False"
+    assert f"\n  evaluation  matrices, no closed form: {why}\n" in repr(sol)
+    assert sol.stats["matrix_path_reason"] == why
+    loaded = zd.load(sol.save(tmp_path / "motion"))
+    assert repr(loaded) == repr(sol)
+    assert loaded.stats == sol.stats
 
 
-def test_redundant_rows_take_the_general_road():
+def test_statistics_answer_to_the_keys_of_earlier_versions(tmp_path):
+    """The key is listed under its name of today alone; files of earlier versions have the other."""
+    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, direct=False)
+    copies = sol, pickle.loads(pickle.dumps(sol)), zd.load(sol.save(tmp_path / "motion"))
+    older = dataclasses.replace(sol, stats={"general_road": "direct=False"})
+    for each in (*copies, older):
+        assert each.stats["general_road"] == each.stats.get("general_road") == each.stats["matrix_path_reason"] == "direct=False"
+        assert "general_road" in each.stats
+        assert "general_road" not in list(each.stats)
+    with pytest.raises(KeyError, match="road"):
+        sol.stats["road"]
+
+
+def test_redundant_constraints_take_the_matrix_path():
     """Orders are written for rows that are independent around the start, and these are not where the run starts."""
     x, y, z, vx, vy, vz = sp.symbols("x y z vx vy vz")
     made = zd.symbolic([x, y, z], speeds=[vx, vy, vz], kinetic=(vx**2 + vy**2 + vz**2) / 2, potential=10 * y,
@@ -104,7 +122,7 @@ def test_redundant_rows_take_the_general_road():
     sol = zd.simulate(made.with_parameters(b=0.0), 0.1, step=0.01)
     assert sol.stats["rank"] == 1
     assert sol.stats["direct_steps"] == 0
-    assert "no direct functions: some constraints are redundant" in repr(sol)
+    assert "no closed form: some constraints are redundant" in repr(sol)
 
 
 def test_values_between_steps_are_those_of_shorter_steps():
@@ -163,7 +181,7 @@ def assert_same_motion_but_where_it_is_left(general, direct):
     assert_same_motion(general, direct, 10 * tol.STEPPED)
 
 
-def test_where_neither_order_nor_choice_lasts_the_general_road_does():
+def test_where_neither_order_nor_choice_lasts_the_matrix_path_does():
     """A chain of seven links between two points has fifteen choices, and orders for four."""
     chain = zd.models.symbolic.closed_pendulum(6)
     for equations in INDEPENDENT:
@@ -254,7 +272,7 @@ def test_bifurcations_are_judged_alike(name, on_singular, options):
     left = direct.stats["steps"] - direct.stats["direct_steps"]
     if name != "next to one" and direct.success:
         assert left
-        assert f"which {left} steps left" in repr(direct)
+        assert f"closed form ({left} of {direct.stats['steps']} steps by matrices)" in repr(direct)
     if "step" in options:
         assert direct.stats["rank_drops"] == general.stats["rank_drops"]
         assert_close(direct.p, general.p, 1e-7)     # near a bifurcation, rounding is divided by the relative pivot

@@ -79,7 +79,7 @@ def test_where_the_compiler_has_no_vectors_the_baseline_is_told(vector):
     assert np.array_equal(sol.p, run("symbolic", vector="baseline").p)
 
 
-def test_a_run_on_the_general_road_used_none():
+def test_a_run_on_the_matrix_path_used_none():
     assert run("built in", integrator="rattle").settings["vector"] is None
     assert zd.simulate(zd.systems.rolling_disc(), 1.0, step=0.1).settings["vector"] is None
 

@@ -11,7 +11,7 @@ from mechanisms.random_mechanisms import Maker
 from support import SYSTEMS
 from watched import pendulum
 from zerodrift.runs import settings
-from zerodrift.studies import motions
+from zerodrift.studies import reference_runs
 from zerodrift.studies.bench import Bench, Setting
 
 STABILIZATIONS = (None, zd.Projection(), zd.Baumgarte(5.0, 6.25), zd.Baumgarte(1000.0, 250000.0))
@@ -87,7 +87,7 @@ def test_python_takes_turns_in_the_thread_that_called():
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_a_reference_is_that_of_runs_one_by_one(name, monkeypatch):
     found = zd.reference(SYSTEMS[name], 0.2)
-    monkeypatch.setattr(motions.Motion, "run_side_by_side", lambda *given: None)
+    monkeypatch.setattr(reference_runs.Motion, "run_side_by_side", lambda *given: None)
     alone = zd.reference(SYSTEMS[name], 0.2)
     assert (repr(found), found.caveats) == (repr(alone), alone.caveats)
     assert (found.error, found.velocity_error, found.differences) == (alone.error, alone.velocity_error, alone.differences)
@@ -95,7 +95,7 @@ def test_a_reference_is_that_of_runs_one_by_one(name, monkeypatch):
 
 
 def test_what_a_run_raises_is_raised_when_it_is_asked_for(monkeypatch):
-    motion, way = motion_of(SYSTEMS["four_bar"]), motions.Way(30, "hamilton", "rk4")
+    motion, way = motion_of(SYSTEMS["four_bar"]), reference_runs.Way(30, "hamilton", "rk4")
     motion.run_side_by_side([way], 30)
     with pytest.raises(ValueError, match="hamilton"):
         motion.run(way, 30)
@@ -104,7 +104,7 @@ def test_what_a_run_raises_is_raised_when_it_is_asked_for(monkeypatch):
 def test_ctrl_c_stops_the_runs_of_a_reference():
     """Each would take a minute."""
     motion = motion_of(SYSTEMS["four_bar"])
-    asked = [motions.Way(30_000_000, formulation, "dop853") for formulation in ("schur", "augmented", "nullspace")]
+    asked = [reference_runs.Way(30_000_000, formulation, "dop853") for formulation in ("schur", "augmented", "nullspace")]
     threading.Timer(0.2, _thread.interrupt_main).start()
     with pytest.raises(KeyboardInterrupt):
         motion.run_side_by_side(asked, 1)
@@ -112,5 +112,5 @@ def test_ctrl_c_stops_the_runs_of_a_reference():
 
 
 def motion_of(system):
-    return motions.Motion(system, (0.0, 0.5), None, None, None, settings.STABILIZATION, "schur",
+    return reference_runs.Motion(system, (0.0, 0.5), None, None, None, settings.STABILIZATION, "schur",
                           {"first_step": None, "max_step": None})

@@ -9,7 +9,7 @@ import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
 from support import assert_close
-from zerodrift.studies.motions import Perturbed
+from zerodrift.studies.reference_runs import Perturbed
 
 pytestmark = needs_compiler
 x, y, a, t = sympy.symbols("x y a t", real=True)

@@ -231,7 +231,7 @@ def test_nothing_is_written_where_rows_depend_on_each_other_or_nearly(scale):
 def assert_says(system, sol, why):
     """The system and its motion say why there are no direct functions, and no vector unit was used."""
     assert repr(system).endswith(f" constraints, no direct functions: {why}>")
-    assert f"\n  road       no direct functions: {why}\n" in repr(sol)
+    assert f"\n  evaluation  matrices, no closed form: {why}\n" in repr(sol)
     assert sol.settings["vector"] is None
     again = zd.simulate(system, sol.t_span, **sol.settings)
     assert np.array_equal(again.p, sol.p)

@@ -14,9 +14,9 @@ from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion
 from .quantities import names_of, values_of
+from .relaxation import settled
 from .rest import Balance, Search
 from .retraction import near_to, rows_of
-from .settling import settled
 from .state import scales, state
 from .steady import Steady
 

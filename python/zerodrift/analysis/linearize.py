@@ -15,7 +15,7 @@ from .derivatives import Direction
 from .equilibrium import equilibrium
 from .equilibrium_result import Equilibrium
 from .flow import Flow, Rest
-from .linearization import Linearization
+from .linearization_result import Linearization
 from .quantities import components, effort, known, names_of
 from .state import State, scales, state
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import CostWarning
-from ..runs import room
+from ..runs import memory as free_space
 from ..runs.saving import read_arrays
 
 SMALL = 2**26       # bytes that are not checked
@@ -26,16 +26,16 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
     size = sum(sizes or ())
     if not sizes or size <= SMALL:
         return
-    takes = f"the outputs of {runs} runs take {room.in_words(size)}"
+    takes = f"the outputs of {runs} runs take {free_space.in_words(size)}"
     if store is not None:
-        if size > (free := room.free_disk(store)):
-            raise OSError(f"{takes}, and {room.in_words(free)} are free in {store}: {LESS}")
+        if size > (free := free_space.free_disk(store)):
+            raise OSError(f"{takes}, and {free_space.in_words(free)} are free in {store}: {LESS}")
         return
-    if (free := room.free_memory()) is None:
+    if (free := free_space.free_memory()) is None:
         return
     most = size + max(sizes)
-    sentence = (f"{takes}, {room.in_words(most)} while they are joined, and {room.in_words(free)} of memory are free: {LESS}, or "
-                "write them to a folder (store)")
+    sentence = (f"{takes}, {free_space.in_words(most)} while they are joined, and {free_space.in_words(free)} of memory are "
+                f"free: {LESS}, or write them to a folder (store)")
     if most > free:
         raise MemoryError(sentence)
     if most > free / 2:
@@ -50,14 +50,14 @@ def size_of(part: Any) -> int:
 
 def shortage(size: int, runs: int) -> str:
     """The sentence of an error that stops an ensemble."""
-    free = room.in_words(room.free_memory() or 0)
-    return (f"the outputs of {runs} runs, which are done, take {room.in_words(size)}, and {free} of memory are free: {LESS}, or "
-            "write them to a folder (store)")
+    free = free_space.in_words(free_space.free_memory() or 0)
+    return (f"the outputs of {runs} runs, which are done, take {free_space.in_words(size)}, and {free} of memory are free: "
+            f"{LESS}, or write them to a folder (store)")
 
 
 def exceeds(size: int, part: float) -> bool:
     """Whether outputs of so many bytes, which are in memory, are more than a part of what is free besides."""
-    return size > SMALL and (free := room.free_memory()) is not None and size > part * free
+    return size > SMALL and (free := free_space.free_memory()) is not None and size > part * free
 
 
 class InFile(Mapping):
@@ -118,9 +118,9 @@ class Joined(Mapping):
     def _empty(self, name: str, like: np.ndarray) -> np.ndarray:
         """An array for all rows, if memory has room for it."""
         size = self._rows * int(np.prod(like.shape[1:])) * like.itemsize
-        if size > SMALL and (free := room.free_memory()) is not None and size > free:
-            raise MemoryError(f"output {name!r} of all runs takes {room.in_words(size)}, and {room.in_words(free)} of memory are "
-                              "free: ens[i] makes a run again, and each file of the store has the outputs of some runs")
+        if size > SMALL and (free := free_space.free_memory()) is not None and size > free:
+            raise MemoryError(f"output {name!r} of all runs takes {free_space.in_words(size)}, and {free_space.in_words(free)} "
+                              "of memory are free: ens[i] makes a run again, and each file of the store has outputs of some runs")
         return np.empty((self._rows, *like.shape[1:]), like.dtype)
 
     def __iter__(self) -> Iterator[str]:

@@ -9,8 +9,8 @@ import sys
 from types import FunctionType, ModuleType
 from typing import Any
 
-from .holding import holding
 from .runs import named
+from .unpicklable import unpicklable
 
 MAIN = ("__main__", "__mp_main__")      # modules that another process does not have, or has another one of
 
@@ -33,7 +33,7 @@ def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes
     except _Stuck as error:
         raise TypeError(f"{name} cannot travel to another process: {error}") from None
     except Exception as error:
-        holder = holding(what, lambda part: _fits(part, shares_main))
+        holder = unpicklable(what, lambda part: _fits(part, shares_main))
         raise TypeError(f"{name} cannot travel to another process: {holder}{type(error).__name__}: {error}") from error
 
 

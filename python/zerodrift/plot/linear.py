@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import _check
-from ..analysis.linearization import Linearization
+from ..analysis.linearization_result import Linearization
 from ..analysis.retraction import onto
 from . import style as _style
 from .drawing import drawing_axes

@@ -13,7 +13,7 @@ from .. import _gateway
 from ..errors import AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning
 from ..systems.base import core_of
 from . import branches
-from .rows import integrators, name_of
+from .methods import integrators, name_of
 from .solution import Solution
 from .summary import SMALLEST_PIVOT
 

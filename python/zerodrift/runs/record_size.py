@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 from .. import _check, _gateway
 from ..systems.base import core_of, system_of
+from . import memory, settings
 from . import outputs as _outputs
-from . import room, settings
 
 
 class RecordSize(NamedTuple):
@@ -28,8 +28,8 @@ class RecordSize(NamedTuple):
     total: int | None
 
     def __str__(self) -> str:
-        each = f"rows of {room.in_words(self.row)}"
-        return each if self.rows is None else f"{self.rows} {each}: {room.in_words(self.total)}"
+        each = f"rows of {memory.in_words(self.row)}"
+        return each if self.rows is None else f"{self.rows} {each}: {memory.in_words(self.total)}"
 
 
 def record_size(system: Any, t_span: float | tuple[float, float], *, step: float | None = None, t_eval: Any = None,

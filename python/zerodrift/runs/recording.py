@@ -17,7 +17,7 @@ SMALL = 2**26       # bytes of a record, for which nobody looks whether they are
 def record_of(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None, path: Any) -> Any:
     """What the core writes rows into, in memory or in a file."""
     if path:
-        return file_of_rows().RowFile(path, core, outputs, rows)
+        return file_of_samples().SampleFile(path, core, outputs, rows)
     check_memory(rows or 0, _gateway.row_bytes(core, outputs), stacklevel=3)
     return _gateway.Record(core, rows or FIRST_BLOCK, outputs)
 
@@ -25,19 +25,19 @@ def record_of(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows:
 def check_memory(rows: int, row: int, stacklevel: int) -> None:
     """Whether memory has room for so many rows of so many bytes."""
     if rows * row > SMALL:
-        from . import room  # slow to import
+        from . import memory  # slow to import
 
-        room.check_memory(rows, row, stacklevel + 1)
+        memory.check_memory(rows, row, stacklevel + 1)
 
 
-def file_of_rows() -> Any:
+def file_of_samples() -> Any:
     """The module of files that rows are written to; slow to import."""
-    return importlib.import_module(".row_file", __package__)
+    return importlib.import_module(".sample_file", __package__)
 
 
 def locked(path: Any) -> AbstractContextManager:
     """The lock of a file of rows, held while a run writes to it; None: rows are in memory."""
-    return nullcontext() if path is None else file_of_rows().locked(path)
+    return nullcontext() if path is None else file_of_samples().locked(path)
 
 
 def begin_file(record: Any, run: _gateway.Run, system: BaseSystem, span: tuple[float, float],

@@ -11,7 +11,7 @@ import numpy as np
 from .. import _gateway
 from ..systems.base import BaseSystem
 from ..systems.builtin import FACTORIES, BuiltIn
-from .rows import CARDS, RowSettings
+from .methods import CARDS, RowSettings
 
 if TYPE_CHECKING:
     from pathlib import Path  # slow to import, as json is

@@ -13,8 +13,8 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of
-from . import rows
-from .rows import (
+from . import methods
+from .methods import (
     ARGUMENTS,
     TABLES,
     RowSettings,
@@ -34,8 +34,8 @@ FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", 
 
 
 def __getattr__(name: str) -> Any:
-    if name in rows.CLASSES:
-        return getattr(rows, name)
+    if name in methods.CLASSES:
+        return getattr(methods, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -59,7 +59,7 @@ def energy(value: Any) -> RowSettings | None:
     if value is None or value is False:
         return None
     if value is True:
-        return rows.EnergyCorrection()
+        return methods.EnergyCorrection()
     if _are_settings(value, "energy"):
         return value
     raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")

@@ -15,7 +15,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import CostWarning, Interrupted, SingularSystem
 from ..systems.base import BaseSystem, core_of, direct_core_of
-from . import diagnosis, recording, road, settings
+from . import diagnosis, evaluation_path, recording, settings
 from . import events as _events
 from . import outputs as _outputs
 from .keyboard import Keyboard
@@ -217,7 +217,7 @@ def simulate(
         system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
         stabilization, energy, correction, on_singular, direct, vector)
     core = direct_core_of(system, plan.chosen["vector"], plan.options)
-    plan.chosen["vector"] = road.unit(core, plan.options)
+    plan.chosen["vector"] = evaluation_path.unit(core, plan.options)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     watched = _events.events(events, system)
     recorded = None
@@ -225,7 +225,7 @@ def simulate(
         plan.chosen["outputs"] = _outputs.names(outputs, system)
         recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
-    path = None if save_to is None else recording.file_of_rows().checked(save_to)
+    path = None if save_to is None else recording.file_of_samples().checked(save_to)
     watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
     if told := system._what_it_costs(plan.steps):
         warnings.warn(told, CostWarning, stacklevel=2)
@@ -320,7 +320,7 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
         "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
         "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
         "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
-        "stats": stats | {"general_road": road.why_general(system, chosen, stats)},
+        "stats": stats | {"matrix_path_reason": evaluation_path.matrix_path_reason(system, chosen, stats)},
         "outputs": recorded.columns(arrays["outputs"]) if recorded and recorded.core else {}}
 
 

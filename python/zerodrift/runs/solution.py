@@ -16,6 +16,7 @@ from ..systems.watching import AXES
 from .columns import to_csv, to_excel
 from .saving import write
 from .settings import core_settings
+from .stats import Stats
 from .summary import summary
 
 if TYPE_CHECKING:
@@ -65,8 +66,8 @@ class Solution:
         `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while. Where a
         declared structure has more than 40 rows, `smallest_pivot` is the least that was left of a row, in squares of the mass
         metric, once others were eliminated, `smallest_pivot_time`, in s, when, and `smallest_pivot_row` of which row: near a
-        bifurcation it is small, and accelerations lose digits. `general_road` says why no step was made by direct functions,
-        where the system could have some. Of a run that was killed there are none.
+        bifurcation it is small, and accelerations lose digits. `matrix_path_reason` says why no step used the closed form of
+        the system, where systems of its kind have one. Of a run that was killed there are none.
     status : int
         0 done, positive: ended early, negative: failed. What there is is valid in every case.
     success : bool
@@ -114,6 +115,7 @@ class Solution:
     outputs: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        vars(self)["stats"] = Stats(self.stats)
         for value in list(vars(self).values()):
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)

@@ -20,33 +20,33 @@ def summary(solution: Any) -> str:
     lines = [
         f"Solution of {solution.system.name}: {len(solution.t)} rows, t = {solution.t_span[0]:g} ... {solution._last_time:g} s, "
         f"{solution.message}",
-        f"  how        {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
+        f"  how         {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
         + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
     ]
     if stats:       # which a run that was killed did not leave
         lines.append(
-            f"  cost       {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
+            f"  cost        {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
     if stats.get("direct_steps"):
         left = stats["steps"] - stats["direct_steps"]
-        lines.append("  road       direct functions" + (f", which {left} steps left" if left else ""))
-    elif stats.get("general_road"):
-        lines.append(f"  road       no direct functions: {stats['general_road']}")
+        lines.append("  evaluation  closed form" + (f" ({left} of {stats['steps']} steps by matrices)" if left else ""))
+    elif stats.get("matrix_path_reason"):
+        lines.append(f"  evaluation  matrices, no closed form: {stats['matrix_path_reason']}")
     if solution.system.m:
-        lines.append(f"  violation  max |Phi| = {_largest(solution.position_violation)}, "
+        lines.append(f"  violation   max |Phi| = {_largest(solution.position_violation)}, "
                      f"max |Psi| = {_largest(solution.velocity_violation)}")
     if stats.get("redundant"):
         names = [solution.system.constraints[row].name for row in stats["redundant"][:MOST_NAMED]]
         if (more := len(stats["redundant"]) - len(names)) > 0:
             names.append(f"{more} others")
-        lines.append(f"  redundant  {', '.join(names)}: rank {stats['rank']} of {solution.system.m}")
+        lines.append(f"  redundant   {', '.join(names)}: rank {stats['rank']} of {solution.system.m}")
     if stats.get("rank_drops"):
-        lines.append(f"  singular   the rank dropped in {stats['rank_drops']} steps")
+        lines.append(f"  singular    the rank dropped in {stats['rank_drops']} steps")
     if 0 < stats.get("smallest_pivot", 0) < SMALLEST_PIVOT:
-        lines.append(f"  digits     lost near a bifurcation: {stats['smallest_pivot']:.1g} was left of "
+        lines.append(f"  digits      lost near a bifurcation: {stats['smallest_pivot']:.1g} was left of "
                      f"{solution.system.constraints[stats['smallest_pivot_row']].name} at t = {stats['smallest_pivot_time']:.6g}")
     if solution.energy_violation is not None:
-        lines.append(f"  energy     max |Psi_E| = {_largest(solution.energy_violation)} J")
+        lines.append(f"  energy      max |Psi_E| = {_largest(solution.energy_violation)} J")
     return "\n".join(lines)
 
 

@@ -42,7 +42,7 @@ from ..errors import UnreachableTolerance, ZerodriftError
 from ..runs import settings
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, system_of
-from .motions import ROUNDING, UNIT, Difference, Motion, Way
+from .reference_runs import ROUNDING, UNIT, Difference, Motion, Way
 
 SAFETY = 10         # the certified error, in units of the largest difference
 STALL_RATIO = 4     # halving the step has stalled where it divides the difference by less than this, perhaps for rounding

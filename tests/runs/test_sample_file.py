@@ -17,7 +17,7 @@ import pytest
 import zerodrift as zd
 from support import assert_same_bits
 from watched import At, throw
-from zerodrift.runs import room, row_file
+from zerodrift.runs import memory, sample_file
 
 not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and kills as Linux does")
@@ -57,10 +57,10 @@ def assert_alike(one, other):
     assert {**one.stats, "seconds": 0} == {**other.stats, "seconds": 0}
 
 
-@pytest.mark.parametrize("block", [1, row_file.BLOCK])
+@pytest.mark.parametrize("block", [1, sample_file.BLOCK])
 @pytest.mark.parametrize("way", WAYS)
 def test_bits_are_those_of_a_run_in_memory(bar, tmp_path, monkeypatch, way, block):
-    monkeypatch.setattr(row_file, "BLOCK", block)
+    monkeypatch.setattr(sample_file, "BLOCK", block)
     here, there = (zd.simulate(bar, 2.0, save_to=to, **WAYS[way]) for to in (None, tmp_path / "run"))
     again = zd.load(tmp_path / "run.zd")
     for sol in (there, again):
@@ -171,8 +171,9 @@ def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
     zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
     path = tmp_path / "run.zd"
     content = path.read_bytes()
-    _, _, length = row_file.HEADER.unpack(content[:row_file.HEADER.size])
-    path.write_bytes(row_file.HEADER.pack(row_file.MAGIC, row_file.UNKNOWN, length) + content[row_file.HEADER.size:][:length])
+    _, _, length = sample_file.HEADER.unpack(content[:sample_file.HEADER.size])
+    header = sample_file.HEADER.pack(sample_file.MAGIC, sample_file.UNKNOWN, length)
+    path.write_bytes(header + content[sample_file.HEADER.size:][:length])
     sol = zd.load(path)
     assert len(sol.t) == 0
     assert sol.p.shape == (0, 3)
@@ -217,8 +218,8 @@ def test_runs_that_fail_say_so_in_the_file(bar, tmp_path):
 
 @pytest.mark.parametrize("after", [3, 10**9], ids=["in a run", "at its end"])
 def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, monkeypatch, after):
-    monkeypatch.setattr(row_file, "BLOCK", 1000)
-    puts, put = [], row_file.RowFile._put
+    monkeypatch.setattr(sample_file, "BLOCK", 1000)
+    puts, put = [], sample_file.SampleFile._put
 
     def full(self, content):
         puts.append(content)
@@ -227,7 +228,7 @@ def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, mon
             raise OSError(errno.ENOSPC, "No space left on device")
         put(self, content)
 
-    monkeypatch.setattr(row_file.RowFile, "_put", full)
+    monkeypatch.setattr(sample_file.SampleFile, "_put", full)
     with pytest.raises(OSError, match="No space left") as caught:
         zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     sol = caught.value.solution
@@ -252,8 +253,8 @@ def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatc
 
     first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     if os.name != "nt":
-        monkeypatch.setattr(row_file, "AS_WINDOWS", True)
-        monkeypatch.setattr(row_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
+        monkeypatch.setattr(sample_file, "AS_WINDOWS", True)
+        monkeypatch.setattr(sample_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
     with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.zd' while its rows are in use: a solution that"):
         zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert_same_bits(first, zd.load(tmp_path / "run.zd"))
@@ -266,7 +267,7 @@ def test_an_older_file_stays_where_no_header_can_be_written(bar, tmp_path, monke
 
     first = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     with monkeypatch.context() as patched:
-        patched.setattr(row_file.RowFile, "_put", full)
+        patched.setattr(sample_file.SampleFile, "_put", full)
         with pytest.raises(OSError, match="No space left"):
             zd.simulate(bar, 2.0, step=0.01, save_to=tmp_path / "run")
     assert_same_bits(first, zd.load(tmp_path / "run.zd"))
@@ -344,7 +345,7 @@ def test_what_is_refused_names_the_argument(bar, tmp_path):
 
 def test_another_byte_order_is_refused(bar, tmp_path, monkeypatch):
     zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
-    monkeypatch.setattr(row_file.sys, "byteorder", "middle")
+    monkeypatch.setattr(sample_file.sys, "byteorder", "middle")
     with pytest.raises(ValueError, match=r"run\.zd was written by a machine of another byte order"):
         zd.load(tmp_path / "run.zd")
 
@@ -368,45 +369,45 @@ def test_size_is_that_of_the_arrays(bar):
 
 @pytest.mark.parametrize(("size", "words"), [(999, "999 bytes"), (1000, "1 kB"), (2.5e6, "2.5 MB"), (72e9, "72 GB")])
 def test_sizes_in_words(size, words):
-    assert room.in_words(size) == words
+    assert memory.in_words(size) == words
 
 
 def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
-    monkeypatch.setattr(room, "free_memory", lambda: 20000)
+    monkeypatch.setattr(memory, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning, match=r"101 saved rows take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
         zd.simulate(bar, 1.0, step=0.01)
     assert told[0].filename == __file__
     steps = At(1, throw(AssertionError("it runs")))
     with pytest.raises(MemoryError, match=r"201 saved rows take 28\.9 kB"):
         zd.simulate(bar, 2.0, step=0.01, progress=steps)
-    monkeypatch.setattr(room, "free_memory", lambda: None)
+    monkeypatch.setattr(memory, "free_memory", lambda: None)
     assert len(zd.simulate(bar, 2.0, step=0.01).t) == 201
 
 
 def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
     monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
-    monkeypatch.setattr(room, "free_memory", lambda: 20000)
+    monkeypatch.setattr(memory, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 saved rows take") as caught:
         zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")
     assert len(caught.value.solution.t) == 256
 
 
 def test_a_disk_without_room_is_refused_before_anything_runs(bar, tmp_path, monkeypatch):
-    monkeypatch.setattr(room.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": 10**4}))
+    monkeypatch.setattr(memory.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": 10**4}))
     with pytest.raises(OSError, match=r"101 saved rows take 14\.5 kB, and 10 kB are free in "):
         zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     assert not list(tmp_path.iterdir())
 
 
 def test_limits_of_containers_count(tmp_path, monkeypatch):
-    monkeypatch.setattr(room, "CONTROL", tmp_path)
+    monkeypatch.setattr(memory, "CONTROL", tmp_path)
     (tmp_path / "memory.current").write_text("400\n")
     (tmp_path / "memory.max").write_text("max\n")
-    plain = room.free_memory()
+    plain = memory.free_memory()
     (tmp_path / "memory.max").write_text("1000\n")
-    assert room.free_memory() == 600
+    assert memory.free_memory() == 600
     assert plain is None or plain > 600
 
 
@@ -419,8 +420,8 @@ def test_what_windows_says_of_its_memory(monkeypatch):
         return 1
 
     if os.name == "nt":
-        assert 2**20 < room.free_memory() < 2**50
-    monkeypatch.setattr(room, "sys", SimpleNamespace(platform="win32"))
+        assert 2**20 < memory.free_memory() < 2**50
+    monkeypatch.setattr(memory, "sys", SimpleNamespace(platform="win32"))
     kernel = SimpleNamespace(GlobalMemoryStatusEx=answer)
-    monkeypatch.setattr(room.ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
-    assert room._available() == 200
+    monkeypatch.setattr(memory.ctypes, "windll", SimpleNamespace(kernel32=kernel), raising=False)
+    assert memory._available() == 200

@@ -26,7 +26,7 @@ from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import temporary_beside
 from ..systems.base import BaseSystem
-from . import room
+from . import memory
 from .saving import EVENTS, described, packed, unpacked
 from .solution import FIELDS, Solution
 
@@ -68,12 +68,12 @@ def is_one(path: str | Path) -> bool:
         return file.read(len(MAGIC)) == MAGIC
 
 
-class RowFile:
+class SampleFile:
     """What stands for the record of a run, whose rows it writes to a file."""
 
     def __init__(self, path: Path, core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None) -> None:
         row = _gateway.row_bytes(core, outputs)
-        room.check_disk(rows, row, path.parent)
+        memory.check_disk(rows, row, path.parent)
         most = max(1, BLOCK // row)
         self._record = _gateway.Record(core, most if rows is None else min(most, rows), outputs)
         self._path, self._row, self.rows = path, row, 0

@@ -1,4 +1,4 @@
-"""`holding`: the function that keeps an object from being pickled, by name."""
+"""`unpicklable`: the function that keeps an object from being pickled, by name."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .. import _check
 from .runs import named
 
 
-def holding(what: Any, fits: Callable[[Any], bool]) -> str:
+def unpicklable(what: Any, fits: Callable[[Any], bool]) -> str:
     """The innermost function on the way from an object to the part of it that does not fit, as an error begins; or nothing."""
     path, known = [what], {id(what): what}
     while (part := next((each for each in _parts(path[-1]) if id(each) not in known and not fits(each)), known)) is not known:

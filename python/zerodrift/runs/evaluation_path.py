@@ -1,4 +1,4 @@
-"""The road that a run took: that of its system's direct functions, or the general one, and then why."""
+"""Evaluation path of a run: closed form (generated functions of the system), or matrices of the formulation, and why."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ from typing import Any
 
 from .. import _gateway
 from ..systems.base import BaseSystem, core_of
-from .rows import name_of
+from .methods import name_of
 from .settings import VECTOR_UNITS, core_settings
 
-EXPLICIT = "rk4"        # an integrator with which direct functions are taken, where the formulation takes them
+EXPLICIT = "rk4"        # an integrator that uses closed-form functions wherever the formulation does
 
 
 def unit(core: _gateway.CoreSystem, options: Any) -> str | None:
-    """The vector unit of the direct functions that a run takes; None: it takes none."""
+    """Vector unit of the closed-form functions that a run uses; None if it uses none."""
     found = _gateway.direct_unit(core, options)
     return None if found is None else VECTOR_UNITS[found]
 
 
-def why_general(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
-    """Why no step was made by direct functions; None: some were, or the system is of a kind that has none."""
+def matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
+    """Reason why no step used the closed form; None if some did, or if systems of this kind have no closed form."""
     options, core = core_settings((0.0, 0.0), settings), core_of(system)
     lacks = system._why_not_direct(_gateway.takes_embeddings(options))
     if stats["direct_steps"] or not stats["steps"] or lacks is None:
@@ -29,7 +29,7 @@ def why_general(system: BaseSystem, settings: dict[str, Any], stats: dict[str, A
     if not _gateway.takes_direct(core, options):
         explicit = core_settings((0.0, 0.0), settings | {"integrator": EXPLICIT})
         table = "integrator" if _gateway.takes_direct(core, explicit) else "formulation"
-        return f"{table} {name_of(f'{table}s', settings[table])!r} takes none" + " of such a system" * (table == "formulation")
+        return f"{table} {name_of(f'{table}s', settings[table])!r} has none" + " for such a system" * (table == "formulation")
     if lacks:
         return lacks
-    return "some constraints are redundant" if stats["redundant"] else "at no step is their elimination sound"
+    return "some constraints are redundant" if stats["redundant"] else "the elimination order is unsuitable at every step"
