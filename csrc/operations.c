@@ -9,9 +9,9 @@
 #include "run/arguments.h"
 #include "run/create.h"
 #include "run/explain.h"
-#include "run/revisit.h"
-#include "stepping/spread.h"
+#include "run/resample.h"
 #include "run/status.h"
+#include "stepping/spread.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)
@@ -135,10 +135,10 @@ int zd_states_between(const zd_system *system, const zd_settings *settings, cons
     int status;
     zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
-    zd_revisit revisit = {.run = run, .saved = saved, .row = -1};
+    zd_resample resample = {.run = run, .saved = saved, .row = -1};
     status = zd_spread_prepare(&run->stepper);
     for (int64_t i = 0; i < count && !status; i++) {
-        status = zd_revisit_move(&revisit, t[i]);
+        status = zd_resample_move(&resample, t[i]);
         copy_state(system, run->motion.point->p, run->motion.point->v, p + i * system->nq, v + i * system->nv);
     }
     return finish(run, status, message, message_size);

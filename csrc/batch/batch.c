@@ -16,15 +16,15 @@ static void prepare(const zd_batch *batch)
 int zd_batch_run(const zd_batch *batch)
 {
     zd_arena arena = {NULL, 0};
-    zd_single_take(&arena, batch);
+    zd_single_run_take(&arena, batch);
     arena = (zd_arena){zd_allocate(arena.used), 0};
     prepare(batch);
     if (!arena.base) return ZD_NO_MEMORY;
-    const zd_single own = zd_single_take(&arena, batch);
+    const zd_single_run own = zd_single_run_take(&arena, batch);
     int status = ZD_DONE;
     if (zd_lanes_serve(batch)) status = zd_run_side_by_side(batch, &own);
     else
-        for (int64_t i = 0; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run(batch, &own, i);
+        for (int64_t i = 0; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, &own, i);
     zd_release(arena.base);
     return status;
 }

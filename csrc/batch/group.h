@@ -6,7 +6,7 @@
 #include "../output/reading.h"
 #include "../run/run.h"
 #include "lane_numbers.h"
-#include "single.h"
+#include "single_run.h"
 
 /* What a lane's energy corrections have done, as the statistics have it */
 typedef struct zd_lane_energy {
@@ -46,9 +46,9 @@ typedef struct zd_lane_run {    /* in a lane */
 
 typedef struct zd_lane_group {
     const zd_batch *batch;
-    const zd_single *own;
+    const zd_single_run *own;
     const zd_lane_functions *functions;
-    zd_run *run;            /* looks at starts and at ends */
+    zd_run *run;            /* checks at starts and at ends */
     void *start;            /* its memory for that */
     zd_lanes lanes;
     zd_lane_run run_of[ZD_MOST_LANES];
@@ -74,19 +74,19 @@ void zd_lane_group_save(zd_lane_group *self);
 /* When somebody has to look at the lane again. */
 void zd_lane_group_set_next(zd_lane_group *self, int lane);
 
-/* ends.c: whether the rows of C have turned by so much in a long step that it is not believed */
+/* lane_state.c: whether the rows of C have turned by so much in a long step that it is not believed */
 int zd_lane_group_is_turned(zd_lane_group *self, int lane);
 /* Whether the run in the lane keeps its energy, where it is, as well as runs do that nobody is warned of. */
 int zd_lane_group_keeps_energy(zd_lane_group *self, int lane);
-/* Takes the run that looks at lanes to the state y at t of one. */
+/* Takes the run that checks at lanes to the state y at t of one. */
 void zd_lane_group_stand(zd_lane_group *self, int lane, double t, const double *y);
 void zd_lane_group_note_start(zd_lane_group *self, int lane);
 
 /* lane_energy.c: as zd_lanes has correct_rest */
 void zd_lane_group_correct_rest(void *group, const double *t, double *y, int forced);
 
-/* lane_looks.c: lanes whose turn it is look at the step just made: at each part by itself, and at the energy. */
-void zd_lane_group_look_closely(zd_lane_group *self);
+/* lane_checks.c: lanes whose turn it is look at the step just made: at each part by itself, and at the energy. */
+void zd_lane_group_check_closely(zd_lane_group *self);
 
 /* lane_events.c: where events happen in the steps just made */
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);

@@ -1,10 +1,10 @@
 /* Events in lanes, as output/events.c finds them: a change of sign is narrowed down to the rounding of t, on the polynomial of the step or by
- * shorter ones; where a run ends, the last step is made to there. Each lane looks for its own, one after the other; what this takes is made
+ * shorter ones; where a run ends, the last step is made to there. Each lane checks for its own, one after the other; what this takes is made
  * in all lanes at once.
  */
 #include <math.h>
 
-#include "found.h"
+#include "event_samples.h"
 #include "group.h"
 
 static const double RESOLUTION = 4 * 0x1p-52;   /* as events.c has it */
@@ -92,7 +92,7 @@ static void note_end(zd_lane_group *self, int lane)
     const zd_lane_run *run = &self->run_of[lane];
     zd_lane_search *search = &self->run_of[lane].search;
     const double b = search->bracket[search->event].b;
-    const int64_t number = *zd_found_count(self->batch, run->number, search->event) + 1;
+    const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + 1;
     if (search->is_cut || b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
     search->end = b;
     search->ended = search->event + 1;
@@ -172,8 +172,8 @@ static void settle(zd_lane_group *self, int lane)
         zd_bracket_narrow(&it, share, evaluate(self, lane, run->search.event, located->b));
     }
     mix(self, lane, it.b, run->search.mixed);
-    zd_found found = {self->batch, run->number};
-    zd_found_note(&found, run->search.event, located->b, self->p, self->v);
+    zd_event_samples found = {self->batch, run->number};
+    zd_event_samples_add(&found, run->search.event, located->b, self->p, self->v);
 }
 
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane)
@@ -242,7 +242,7 @@ static void go_on(zd_lane_group *self, int lane)
     }
 }
 
-/* How a lane gets to what it looks for. */
+/* How a lane gets to what it checks for. */
 enum { BETWEEN, BY_SHORTER_STEP, BY_CUT, WAYS };
 
 static int way_of(const zd_lane_search *search)
@@ -250,13 +250,13 @@ static int way_of(const zd_lane_search *search)
     return search->stage == ZD_LOCATES_END ? BY_SHORTER_STEP : search->stage == ZD_CUTS ? BY_CUT : BETWEEN;
 }
 
-/* Whether a lane still looks for something that it gets to so; then it says when it wants to know. */
+/* Whether a lane still checks for something that it gets to so; then it says when it wants to know. */
 static int ask(zd_lane_group *self, int lane, int way)
 {
     zd_lanes *lanes = &self->lanes;
     const zd_lane_run *run = &self->run_of[lane];
-    const int is_looking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
-    const int asks = is_looking && way_of(&run->search) == way;
+    const int is_checking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
+    const int asks = is_checking && way_of(&run->search) == way;
     lanes->is_wanted[lane] = asks;
     lanes->t_row[lane] = asks ? time_to_look_at(&run->search) : lanes->t[lane];
     return asks;

@@ -73,8 +73,8 @@ typedef struct zd_lanes {
     double *leaves;         /* whether the run has to be made by itself */
     double *is_long;        /* whether the last step was so long that rows of C may have turned in it */
     double *is_corrected;
-    double *next_look, *look_soon;      /* the step after which somebody looks closely; whether that has to be sooner than it was */
-    double *look_pause, *looked_at;     /* one of so many steps is looked at; the last that was */
+    double *next_check, *check_soon;      /* the step after which somebody checks closely; whether that has to be sooner than it was */
+    double *check_pause, *last_checked;     /* one of so many steps is looked at; the last that was */
     /* (nv,), where steps are of fixed size: of each part of the motion, what zd_resolution has;
      * and what has been seen of those not resolved. */
     double *error, *path, *place, *lowest, *highest;
@@ -112,7 +112,7 @@ typedef struct zd_lane_functions {
     void (*substep)(zd_lanes *self);
     void (*cut)(zd_lanes *self);
     /* What lanes that are wanted see in the step they have just made, and when they look again. */
-    void (*look)(zd_lanes *self);
+    void (*check)(zd_lanes *self);
 } zd_lane_functions;
 
 extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* without functions where the compiler cannot */

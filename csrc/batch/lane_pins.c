@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double UNEQUAL = 0x1p6;        /* what bodies contribute to a row, the largest to the smallest: see coupling.c */
+static const double UNEQUAL_SHARES = 0x1p6;        /* what bodies contribute to a row, the largest to the smallest: see schur_blocks.c */
 
 /* ---- which ends each body has ---- */
 
@@ -157,7 +157,7 @@ int zd_pins_are_unequal(const zd_pinned *of, const double *numbers)
         double least = INFINITY, most = 0;
         widen(numbers, of->first[k], points, &least, &most);
         widen(numbers, of->second[k], points + 2, &least, &most);
-        if (most > UNEQUAL * least) return 1;
+        if (most > UNEQUAL_SHARES * least) return 1;
     }
     return 0;
 }

@@ -59,7 +59,7 @@ int zd_pins_plan_find(zd_pins_plan *self, const zd_pinned *of);
 void zd_pins_plan_free(zd_pins_plan *self);
 /* Only counts while the arena does. */
 zd_lane_pins *zd_lane_pins_take(zd_arena *arena, const zd_pins_plan *plan, int lanes);
-/* Whether bodies contribute unequally to a pin with these numbers, wherever they are: see coupling.c. */
+/* Whether bodies contribute unequally to a pin with these numbers, wherever they are: see schur_blocks.c. */
 int zd_pins_are_unequal(const zd_pinned *of, const double *numbers);
 
 #endif

@@ -62,7 +62,7 @@ static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
 static void take_zeros(zd_lanes *self, zd_arena *arena)
 {
     double **const ones[] = {&self->number, &self->after_rejection, &self->streak, &self->iterations, &self->rejected, &self->most_iterations,
-                             &self->leaves, &self->is_long, &self->look_soon, &self->looked_at, &self->at_limit, &self->below_limit,
+                             &self->leaves, &self->is_long, &self->check_soon, &self->last_checked, &self->at_limit, &self->below_limit,
                              &self->stiff, &self->fastest, &self->has_event, &self->is_wanted, &self->next_number, &self->unresolved,
                              &self->unresolved_time, &self->part_error, &self->part, &self->power};
     double **const parts[] = {&self->error, &self->path, &self->place, &self->lowest, &self->highest};
@@ -78,7 +78,7 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
 {
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **const ones[] = {&self->is_active, &self->t, &self->h, &self->next_t, &self->t_before, &self->order, &self->speed,
-                             &self->is_corrected, &self->next_look, &self->look_pause, &self->t_row};
+                             &self->is_corrected, &self->next_check, &self->check_pause, &self->t_row};
     self->data = take(self, arena, doubles);
     take_zeros(self, arena);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
@@ -230,9 +230,9 @@ static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers
 /* When it is first looked closely: see guard.c. */
 static void set_look(zd_lanes *self, int lane)
 {
-    enum { LOOK_EVERY = 8, LOOK_SELDOM = 64 };
-    self->next_look[lane] = self->is_fixed ? 1 : LOOK_SELDOM;
-    self->look_pause[lane] = self->is_fixed ? LOOK_EVERY : LOOK_SELDOM;
+    enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };
+    self->next_check[lane] = self->is_fixed ? 1 : CHECK_SELDOM;
+    self->check_pause[lane] = self->is_fixed ? CHECK_EVERY : CHECK_SELDOM;
 }
 
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)

@@ -1,5 +1,5 @@
 /* Steps one after the other, in all lanes at once, until somebody has to look at one of them; and what lies within a step. */
-#include "lanes_looks.h"
+#include "lanes_checks.h"
 
 /* y1 from y, by the method's stages */
 ZD_KERNEL void ZD_NAMED(integrate)(const zd_lanes *self, const double *from, zd_real t, zd_real h, double *to)
@@ -85,9 +85,9 @@ ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
     const zd_real eights = (0.125 * (number + 1.0) - 0.4375 + magic) - magic, soon = 8.0 * (eights + 1.0);
-    const zd_real look = *REAL(self->next_look);
-    const zd_real next = ZD_WHERE(HOLDS(self->look_soon) & (soon < look), soon, look);
-    *REAL(self->next_look) = next;
+    const zd_real look = *REAL(self->next_check);
+    const zd_real next = ZD_WHERE(HOLDS(self->check_soon) & (soon < look), soon, look);
+    *REAL(self->next_check) = next;
     return (*REAL(self->t) >= *REAL(self->next_t)) | (number >= *REAL(self->next_number)) | (number >= next);
 }
 

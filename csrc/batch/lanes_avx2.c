@@ -5,7 +5,7 @@
 #include "lanes_advance.h"
 
 const zd_lane_functions zd_lanes_avx2 = {1, 4, ZD_NAMED(choose), ZD_NAMED(advance), ZD_NAMED(move_between), ZD_NAMED(substep),
-                                           ZD_NAMED(cut), ZD_NAMED(look)};
+                                           ZD_NAMED(cut), ZD_NAMED(check)};
 #else
 #include "lane_numbers.h"
 

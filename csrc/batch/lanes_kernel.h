@@ -12,10 +12,10 @@
 #define ZD_KERNEL ZD_ON_UNIT static
 #define ZD_SUMS 6       /* beside each other, as each waits for its own last product */
 
-static const double LARGE = 0x1p-3, LARGE_ENOUGH = 0x1p-5, SMALL = 0x1p-6, SHRUNK = 0x1p-4;     /* pivots: see motion/direct.c, */
-static const double TRUSTED_SHARE = 0.25, LONG = 0.25;      /* motion.h, guard.h */
-static const double CALM = 48.0, FASTER = 1.5;              /* also guard.h */
-enum { STIFF_AFTER = 10, NOT_STIFF_AFTER = 3, LOOK_AT_STIFFNESS = 32 };     /* steps: adaptive.c, runge_kutta.h */
+static const double LARGE_PIVOT = 0x1p-3, SUFFICIENT_PIVOT = 0x1p-5, SMALL_PIVOT = 0x1p-6, SHRUNK_PIVOT = 0x1p-4; /* motion/direct.c */
+static const double TRUSTED_SHARE = 0.25, LONG_PATH = 0.25;      /* motion.h, guard.h */
+static const double CALM_DETOUR = 48.0, FASTER_SPEED = 1.5;              /* also guard.h */
+enum { STIFF_AFTER = 10, NOT_STIFF_AFTER = 3, CHECK_STIFFNESS_EVERY = 32 };     /* steps: adaptive.c, runge_kutta.h */
 static const double AT_THE_LIMIT = 0.95, STATE_ROUNDING = 0x1p-42;
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10;     /* and adaptive.c */
 

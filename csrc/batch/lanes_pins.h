@@ -1,13 +1,13 @@
-/* (13) and (27) of bodies joined by pins, in lanes: what coupling.c and products.c do for one trajectory.
+/* (13) and (27) of bodies joined by pins, in lanes: what schur_blocks.c and products.c do for one trajectory.
  *
  *     Phi = x2 + w - x1 - u - zero,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u         (3), (5), (6)
  *     S = C M^-1 C^T = L D L^T,     S lambda = C g - xi,     vdot = g - M^-1 C^T lambda                         (13)
  *
  * with u and w the arms of a pin and g of gravity, in blocks of two rows. */
 
-static const double GOOD = 0x1p-10;         /* of the diagonal of S: with pivots that are larger, few digits are lost */
-static const double TOLD = 0x1p-26;         /* of it: of smaller ones somebody is to be told, see SMALLEST_PIVOT in solution.py */
-static const double OF_ROUNDING = 8 * 0x1p-52;      /* of the terms of C x: nothing to be corrected */
+static const double GOOD_PIVOT = 0x1p-10;         /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double REPORTED_PIVOT = 0x1p-26;         /* of it: of smaller ones somebody is to be told, see SMALLEST_PIVOT in solution.py */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;      /* of the terms of C x: nothing to be corrected */
 
 typedef struct ZD_NAMED(plane) {
     zd_real x, y;
@@ -104,8 +104,8 @@ ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(ju
 {
     zd_stored *P = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
     const zd_real a = P[0], b = P[2], c = P[3], determinant = ZD_FNMA(b, b, a * c), other = a * diagonal[1];
-    judged->small |= ~(a >= GOOD * diagonal[0]) | ~(determinant >= GOOD * other);
-    judged->lost |= ~(a >= TOLD * diagonal[0]) | ~(determinant >= TOLD * other) | ~(determinant < INFINITY);
+    judged->small |= ~(a >= GOOD_PIVOT * diagonal[0]) | ~(determinant >= GOOD_PIVOT * other);
+    judged->lost |= ~(a >= REPORTED_PIVOT * diagonal[0]) | ~(determinant >= REPORTED_PIVOT * other) | ~(determinant < INFINITY);
     const zd_real scale = ZD_SPLAT(1.0) / determinant;
     P[0] = c * scale;
     P[1] = P[2] = -b * scale;
@@ -243,7 +243,7 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
         const zd_real size[] = {ZD_NAMED(size_of)(rhs[0]) + first.size.x + second.size.x, ZD_NAMED(size_of)(rhs[1]) + first.size.y + second.size.y};
         for (int i = 0; i < 2; i++) {
             const zd_real off = ZD_NAMED(size_of)(rest[i]);
-            const zd_condition counts = (off > OF_ROUNDING * size[i]) & (off > left * size[i]);
+            const zd_condition counts = (off > RESIDUAL_ROUNDING * size[i]) & (off > left * size[i]);
             left = ZD_WHERE(counts, off / ZD_WHERE(counts, size[i], ZD_SPLAT(1.0)), left);
             REAL(pins->y)[2 * place + i] = -rest[i];
         }
@@ -251,7 +251,7 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
     return left;
 }
 
-/* Takes what is left of C x = rhs out of x, in those lanes where pivots or masses say that something may be: as in coupling.c. */
+/* Takes what is left of C x = rhs out of x, in those lanes where pivots or masses say that something may be: as in schur_blocks.c. */
 ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
 {
     enum { MAX_REFINEMENTS = 40 };

@@ -107,12 +107,12 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
         if (!ZD_ANY(has)) continue;
         zd_real of_rows, of_mass;
         ZD_NAMED(smallest)(self, self->direct->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
-        sound |= has & (of_rows >= SMALL) & (of_mass >= LARGE);
-        if (i == 0) *continues = has & (of_rows >= LARGE) & (of_mass >= LARGE);
+        sound |= has & (of_rows >= SMALL_PIVOT) & (of_mass >= LARGE_PIVOT);
+        if (i == 0) *continues = has & (of_rows >= LARGE_PIVOT) & (of_mass >= LARGE_PIVOT);
     }
     for (int k = 0; k < self->nv; k++) {
         const zd_real x = REAL(self->pivots1)[k], x0 = REAL(self->pivots)[k];
-        sound &= x * x0 >= SHRUNK * x0 * x0;
+        sound &= x * x0 >= SHRUNK_PIVOT * x0 * x0;
     }
     return sound;
 }
@@ -135,7 +135,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
 {
     zd_condition is_short = ZD_SPLAT(0.0) == 0.0;
     for (int i = 0; i < self->nq; i++)
-        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= LONG;
+        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= LONG_PATH;
     return is_short;
 }
 
@@ -146,16 +146,16 @@ ZD_KERNEL zd_condition ZD_NAMED(is_believed)(zd_lanes *self, zd_real h, zd_real 
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
     *speed = path.speed;
     const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= 1.0;
-    const zd_condition is_calm = (CALM * CALM * path.detour <= path.moved + self->nearby)
-                               & (path.speed <= FASTER * *REAL(self->fastest) + self->nearby);
-    *REAL(self->look_soon) = ZD_WHERE(is_calm, *REAL(self->look_soon), ZD_SPLAT(1.0));
+    const zd_condition is_calm = (CALM_DETOUR * CALM_DETOUR * path.detour <= path.moved + self->nearby)
+                               & (path.speed <= FASTER_SPEED * *REAL(self->fastest) + self->nearby);
+    *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), ZD_SPLAT(1.0));
     zd_condition believed = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
     if (self->mh && self->corrects) {
         const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, ZD_SPLAT(self->nearby));
         zd_condition near = path.detour <= bound;
         if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
         believed &= near;
-        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > LONG * LONG);
+        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > LONG_PATH * LONG_PATH);
     }
     if (self->is_fixed) {
         ZD_NAMED(watch_stability)(self, h, path.moved);
@@ -175,7 +175,7 @@ ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
     ZD_NAMED(call)(self, order, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
     ZD_NAMED(smallest)(self, order, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
     const zd_real has = *REAL(self->order);
-    const zd_condition takes = (has != has) & (of_rows >= enough) & (of_mass >= LARGE);
+    const zd_condition takes = (has != has) & (of_rows >= enough) & (of_mass >= LARGE_PIVOT);
     *REAL(self->order) = ZD_WHERE(takes, ZD_SPLAT((double)i), has);
     ZD_NAMED(take_where)(takes, self->has_A ? self->nq : 0, self->pdot1, self->pdot);
     ZD_NAMED(take_where)(takes, self->nv, self->vdot1, self->vdot);
@@ -188,7 +188,7 @@ ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
 {
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < self->direct->orders; i++)
-            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? LARGE_ENOUGH : LARGE);
+            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? SUFFICIENT_PIVOT : LARGE_PIVOT);
     const zd_real order = *REAL(self->order);
     const zd_condition has_none = order != order;
     *REAL(self->leaves) = ZD_WHERE(has_none & HOLDS(self->is_active), ZD_SPLAT(1.0), *REAL(self->leaves));
@@ -233,7 +233,7 @@ ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weig
 }
 
 /* Counts steps that are as long as stability allows, as adaptive.c does it, of these lanes: by |lambda h|, see runge_kutta.c. */
-ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition looks, zd_real h)
+ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd_real h)
 {
     const int size = self->size, stages = self->method.stages;
     const zd_stored *of_stage = REAL(self->k) + (stages - 1) * size, *of_y = of_stage + size;
@@ -245,7 +245,7 @@ ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition looks, zd_
         states = ZD_FMA(state, state, states);
         rounding = ZD_FMA(least, least, rounding);
     }
-    const zd_condition known = looks & (states > rounding) & (rates > 0.0);
+    const zd_condition known = checks & (states > rounding) & (rates > 0.0);
     const zd_condition is_long = known & (h * h * rates > AT_THE_LIMIT * AT_THE_LIMIT * self->decay * self->decay * states);
     const zd_real below = ZD_WHERE(is_long, ZD_SPLAT(0.0), *REAL(self->below_limit) + AS_NUMBER(known));
     const zd_condition is_calm = known & ~is_long & (below >= (double)NOT_STIFF_AFTER);
@@ -257,22 +257,23 @@ ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition looks, zd_
 }
 
 /* Which lanes look at that: where it costs an evaluation, at one of so many steps. */
-ZD_KERNEL zd_condition ZD_NAMED(looks_at_stiffness)(const zd_lanes *self)
+ZD_KERNEL zd_condition ZD_NAMED(checks_stiffness)(const zd_lanes *self)
 {
     const zd_method *method = &self->method;
     const zd_condition none = ZD_SPLAT(0.0) != 0.0;
     if (method->tableau->c[method->stages - 1] != 1) return none;
     if (method->tableau->e[method->stages] != 0) return ~none;
-    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, LOOK_AT_STIFFNESS);
+    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, CHECK_STIFFNESS_EVERY);
 }
 
 /* The error of the step to y1, root mean square in units of what is allowed: see runge_kutta.h. */
 ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
 {
     const zd_method *method = &self->method;
-    const zd_condition looks = ZD_NAMED(looks_at_stiffness)(self) & HOLDS(self->is_active);
-    const int is_looking = ZD_ANY(looks);
-    if (method->tableau->e[method->stages] != 0 || is_looking) ZD_NAMED(rate)(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
+    const zd_condition checks = ZD_NAMED(checks_stiffness)(self) & HOLDS(self->is_active);
+    const int is_checking = ZD_ANY(checks);
+    if (method->tableau->e[method->stages] != 0 || is_checking)
+        ZD_NAMED(rate)(self, t1, self->y1, self->k + method->stages * self->size * ZD_LANES);
     for (int i = 0; i < self->size; i++) {
         const zd_real a = ZD_NAMED(size_of)(REAL(self->y)[i]), b = ZD_NAMED(size_of)(REAL(self->y1)[i]);
         REAL(self->tolerated)[i] = ZD_FMA(LARGER(a, b), ZD_SPLAT(self->rtol), ZD_SPLAT(self->atol));
@@ -282,7 +283,7 @@ ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
     const zd_condition is_zero = sum == 0.0;
     const zd_real norm = ZD_WHERE(is_zero, ZD_SPLAT(0.0),
                                   ZD_NAMED(size_of)(h) * sum / ZD_SQRT(ZD_WHERE(is_zero, ZD_SPLAT(1.0), blend) * (double)self->size));
-    if (is_looking) ZD_NAMED(watch_stiffness)(self, looks & (norm <= 1.0), h);
+    if (is_checking) ZD_NAMED(watch_stiffness)(self, checks & (norm <= 1.0), h);
     return norm;
 }
 

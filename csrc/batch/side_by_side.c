@@ -5,12 +5,12 @@
 #include "../run/create.h"
 #include "../run/explain.h"
 #include "../run/start.h"
-#include "found.h"
+#include "event_samples.h"
 #include "group.h"
 
 /* ---- whether lanes serve ---- */
 
-/* Whether the runs are those of bodies joined by so many pins that nothing dense is made of them, and nobody looks for bifurcations. */
+/* Whether the runs are those of bodies joined by so many pins that nothing dense is made of them, and nobody checks for bifurcations. */
 static int are_of_pins(const zd_batch *batch)
 {
     const zd_formulation *formulation = zd_formulation_of(batch->settings->formulation);
@@ -61,7 +61,7 @@ static int run_serves(const zd_run *run)
 /* ---- memory ---- */
 
 /* `pins` NULL: there are direct functions. */
-static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single *own, zd_run *run, const zd_pins_plan *pins)
+static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run, const zd_pins_plan *pins)
 {
     const zd_system *system = batch->system;
     const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* of pins, C is looked at nowhere */
@@ -89,11 +89,11 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
 /* ---- runs ---- */
 
 /* Systems are copied for those alone whose starts have to be made consistent. */
-static int start_of(const zd_batch *batch, const zd_single *own, int64_t number)
+static int start_of(const zd_batch *batch, const zd_single_run *own, int64_t number)
 {
-    if (!batch->assembly) return zd_single_start(batch, batch->system, own, number);
-    const zd_system system = zd_single_system(batch, number);
-    return zd_single_start(batch, &system, own, number);
+    if (!batch->assembly) return zd_single_run_start(batch, batch->system, own, number);
+    const zd_system system = zd_single_run_system(batch, number);
+    return zd_single_run_start(batch, &system, own, number);
 }
 
 /* The next run that begins in a lane; those that cannot are made by themselves. Returns whether there is one. */
@@ -103,9 +103,9 @@ static int find_next(zd_lane_group *self)
     while (self->next < batch->runs && !zd_batch_is_stopped(batch)) {
         const int64_t number = self->next++;
         int status = start_of(batch, self->own, number);
-        if (!status) status = zd_run_start_elsewhere(self->run, self->start, zd_single_data(batch, number), self->own->p, self->own->v);
+        if (!status) status = zd_run_start_elsewhere(self->run, self->start, zd_single_run_data(batch, number), self->own->p, self->own->v);
         if (!status) return 1;
-        zd_single_run(batch, self->own, number);
+        zd_single_run_execute(batch, self->own, number);
     }
     return 0;
 }
@@ -115,10 +115,10 @@ static void begin(zd_lane_group *self, int lane)
     const int64_t number = self->next - 1;
     const zd_pinned *pinned = self->lanes.pins ? self->batch->system->pinned : NULL;
     const int64_t numbers = pinned ? zd_lane_pins_numbers(pinned) : self->batch->doubles;
-    zd_lanes_load(&self->lanes, lane, self->run, pinned ? pinned->numbers : zd_single_data(self->batch, number), numbers);
+    zd_lanes_load(&self->lanes, lane, self->run, pinned ? pinned->numbers : zd_single_run_data(self->batch, number), numbers);
     self->run_of[lane].number = number;
     self->run_of[lane].rows = self->run_of[lane].next = 0;
-    zd_found_forget(self->batch, number);
+    zd_event_samples_clear(self->batch, number);
     self->active++;
     zd_lane_group_note_start(self, lane);
 }
@@ -187,13 +187,13 @@ static int is_over(zd_lane_group *self, int lane)
     zd_lane_run *run = &self->run_of[lane];
     if (run->number < 0) return 0;
     if (lanes->leaves[lane] != 0) {
-        zd_single_run(self->batch, self->own, run->number);
+        zd_single_run_execute(self->batch, self->own, run->number);
         return 1;
     }
     const int is_complete = run->is_complete || (settings->t_eval && !settings->events && run->next == settings->t_evals);
     if (!is_complete && lanes->t[lane] != lanes->end) return 0;
     if (zd_lane_group_keeps_energy(self, lane) && !run->is_off) end(self, lane);
-    else zd_single_run(self->batch, self->own, run->number);
+    else zd_single_run_execute(self->batch, self->own, run->number);
     return 1;
 }
 
@@ -227,7 +227,7 @@ static void look(zd_lane_group *self)
         if (zd_lane_group_is_turned(self, lane)) lanes->leaves[lane] = 1;
         lanes->is_long[lane] = 0;
     }
-    zd_lane_group_look_closely(self);
+    zd_lane_group_check_closely(self);
     if (lanes->watches) zd_lane_group_locate(self);
     do zd_lane_group_save(self);
     while (replace(self));
@@ -246,20 +246,20 @@ static void run_all(zd_lane_group *self)
 }
 
 /* A run that has been created, to look at starts; those before it that cannot be are made by themselves, and fail so. */
-static zd_run *create_first(const zd_batch *batch, const zd_single *own, int64_t *first)
+static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, int64_t *first)
 {
     for (*first = 0; *first < batch->runs && !zd_batch_is_stopped(batch); ++*first) {
-        const zd_system system = zd_single_system(batch, *first);
-        int status = zd_single_start(batch, &system, own, *first);
+        const zd_system system = zd_single_run_system(batch, *first);
+        int status = zd_single_run_start(batch, &system, own, *first);
         zd_run *run = status ? NULL : zd_run_create(&system, batch->settings, own->p, own->v, &status, zd_message_of(batch, *first),
                                                     batch->message_size);
         if (run) return run;
-        zd_single_run(batch, own, *first);
+        zd_single_run_execute(batch, own, *first);
     }
     return NULL;
 }
 
-static int run_in_lanes(const zd_batch *batch, const zd_single *own, zd_run *run, int64_t first, const zd_pins_plan *pins)
+static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run *run, int64_t first, const zd_pins_plan *pins)
 {
     zd_arena arena = {NULL, 0};
     lay_out(&arena, batch, own, run, pins);
@@ -272,7 +272,7 @@ static int run_in_lanes(const zd_batch *batch, const zd_single *own, zd_run *run
     return ZD_DONE;
 }
 
-int zd_run_side_by_side(const zd_batch *batch, const zd_single *own)
+int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own)
 {
     int64_t first;
     zd_run *run = create_first(batch, own, &first);
@@ -280,7 +280,7 @@ int zd_run_side_by_side(const zd_batch *batch, const zd_single *own)
     zd_pins_plan plan, *pins = are_of_pins(batch) ? &plan : NULL;
     int status = ZD_DONE;
     if (!run_serves(run))
-        for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run(batch, own, i);
+        for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, own, i);
     else if (!pins) status = run_in_lanes(batch, own, run, first, NULL);
     else if (zd_pins_plan_find(pins, batch->system->pinned)) {
         status = run_in_lanes(batch, own, run, first, pins);

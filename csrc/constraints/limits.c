@@ -32,7 +32,7 @@
 enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* of the iteration for the acceleration from rest */
 
 static const double PATH = 0x1p-17;     /* of differences, in natural units: their errors, PATH^2 and rounding / PATH, are alike */
-static const double LEAST = 0x1p-22;    /* of a row's size, for each unit of path: a smaller rate may be rounding */
+static const double MIN_RATE = 0x1p-22;    /* of a row's size, for each unit of path: a smaller rate may be rounding */
 static const double NEAREST = 0x1p-18;  /* in natural units: nearer to the bifurcation c(v) is more accurate than w v */
 static const double SETTLED = 0x1p-36;  /* of an acceleration: one that changes by no more is that of a branch */
 static const double FALLING = 0.99;     /* of the smallest change so far: a change that is larger is a stall */
@@ -153,7 +153,7 @@ static void set_rates(const zd_point *point)
 static int choose_next(zd_selection *self, int chosen)
 {
     int n = self->n, best = -1;
-    double most = LEAST * LEAST;
+    double most = MIN_RATE * MIN_RATE;
     for (int d = chosen; d < self->m; d++) {
         double left = zd_dot(n, self->Q + d * n, self->Q + d * n);
         if (left > most) best = d, most = left;

@@ -10,7 +10,7 @@
 #include "../point/point.h"
 
 typedef struct zd_limits zd_limits;     /* limits.h */
-typedef struct zd_look zd_look;         /* look.h */
+typedef struct zd_rank_monitor zd_rank_monitor;         /* rank_monitor.h */
 typedef struct zd_selection zd_selection;
 
 /* What every run has. */
@@ -30,10 +30,10 @@ struct zd_rank {
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *terms_square;   /* (m,): squared magnitudes of the terms that the entries of the rows are sums of; where not known, start_square */
     double *rhs;            /* (m,): for formulations that give the point its velocity; else NULL */
-    zd_look *look;          /* NULL where there are few rows, or the formulation's factorization tells that they are independent */
+    zd_rank_monitor *monitor;          /* NULL where there are few rows, or the formulation's factorization tells that they are independent */
     zd_store *store;        /* the run's, for what it takes once rows may be dependent: */
     zd_selection *selection;    /* NULL until then */
-    zd_look *kept;          /* where some rows are redundant, the choice among them and how little it has changed; NULL until then */
+    zd_rank_monitor *kept;          /* where some rows are redundant, the choice among them and how little it has changed; NULL until then */
 };
 
 /* An independent choice of rows, where some may follow from others. */

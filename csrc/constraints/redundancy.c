@@ -9,7 +9,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "../point/units.h"
-#include "redundant.h"
+#include "redundancy_sparse.h"
 #include "rows.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
@@ -165,7 +165,7 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
     zd_rank *self = point->rank;
     if (self->is_large) {
         self->is_started = 1;
-        return zd_redundant_find(point);
+        return zd_redundancy_sparse_find(point);
     }
     int status = zd_rows_find(point);
     self->may_be_deficient = on_singular == ZD_CONTINUE;

@@ -6,14 +6,14 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "limits.h"
-#include "look.h"
+#include "rank_monitor.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
 static void *take_kept(zd_arena *arena, const void *system)
 {
-    return zd_look_take_choice(arena, system);
+    return zd_rank_monitor_take_selection(arena, system);
 }
 
 /* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one, in the metric of M^-1 as
@@ -27,7 +27,7 @@ static int keep_choice(zd_point *point, int is_ill)
     if (!is_whole) return ZD_DONE;
     if (!self->kept) self->kept = zd_store_take(self->store, take_kept, point->system);
     if (!self->kept) return ZD_NO_MEMORY;
-    zd_look_keep_choice(self->kept, point);
+    zd_rank_monitor_keep_selection(self->kept, point);
     return ZD_DONE;
 }
 
@@ -78,17 +78,17 @@ ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
     return self->m == 2 ? are_doubtful(n, 2, self, C) : are_doubtful(n, self->m, self, C);
 }
 
-static void *take_look(zd_arena *arena, const void *system)
+static void *take_monitor(zd_arena *arena, const void *system)
 {
-    return zd_look_take(arena, system, NULL, NULL);
+    return zd_rank_monitor_take(arena, system, NULL, NULL);
 }
 
 /* Where the formulation's factorization should have told, memory for a look is taken only once it did not. */
-static int need_look(zd_rank *self, const zd_system *system)
+static int need_monitor(zd_rank *self, const zd_system *system)
 {
-    if (self->look) return ZD_DONE;
-    self->look = zd_store_take(self->store, take_look, system);
-    return self->look ? ZD_DONE : ZD_NO_MEMORY;
+    if (self->monitor) return ZD_DONE;
+    self->monitor = zd_store_take(self->store, take_monitor, system);
+    return self->monitor ? ZD_DONE : ZD_NO_MEMORY;
 }
 
 int zd_rows_are_long(const zd_point *point)
@@ -122,8 +122,8 @@ void zd_rows_use_all(zd_point *point)
 /* Returns whether there is a choice that still serves. */
 static int use_kept(zd_point *point)
 {
-    const zd_look *kept = point->rank->kept;
-    if (!kept || !zd_look_is_near(kept, point)) return 0;
+    const zd_rank_monitor *kept = point->rank->kept;
+    if (!kept || !zd_rank_monitor_is_unchanged(kept, point)) return 0;
     zd_rank_use(point, kept->row, kept->close.m);
     point->known |= ZD_RANKED;
     return 1;
@@ -141,9 +141,9 @@ static int find_any(zd_point *point)
     if (status) return status;
     if (use_kept(point)) return ZD_DONE;
     if (self->most_rows < self->m || self->m > self->n) return reduce(point);
-    status = need_look(self, point->system);
+    status = need_monitor(self, point->system);
     if (status) return status;
-    if (zd_look_is_doubtful(self->look, point)) return reduce(point);
+    if (zd_rank_monitor_is_doubtful(self->monitor, point)) return reduce(point);
     zd_rows_use_all(point);
     return ZD_DONE;
 }
@@ -163,7 +163,7 @@ int zd_rows_find(zd_point *point)
 
 int zd_rows_give_up_kept(zd_point *point)
 {
-    zd_look *kept = point->rank->kept;
+    zd_rank_monitor *kept = point->rank->kept;
     const int are_kept = kept && kept->is_known;
     if (!are_kept) return 0;
     kept->is_known = 0;

@@ -22,7 +22,7 @@
 enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* by a tenth each, the latter leave BALANCED of all */
 static const double WEIGHT = 0x1p25;            /* of a row in units of what its bodies have as mass in it */
 static const double BALANCED = 0x1p-36;         /* of the terms of the equations: the reactions are found */
-static const double ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
+static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
 
 static void *take(zd_arena *arena, const void *of)
 {
@@ -204,7 +204,7 @@ static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const doubl
     memset(self->lambda, 0, (size_t)zd_constraints(self->point->system) * sizeof *self->lambda);
     for (int i = 0; i < MAX_FOR_MULTIPLIERS; i++) {
         left = find_unbalanced(self, force, x);
-        if (!(left > ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
+        if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
         before = left;
         improve(self, bodies, weight, NULL);
     }
@@ -219,7 +219,7 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
     double before = INFINITY;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         const double left = fmax(find_unbalanced(self, force, x), find_rest(self, rhs, x));
-        if (!(left > ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
+        if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
         before = left;
         improve(self, self->bodies, self->weight, self->rest);
         for (int j = 0; j < n; j++) x[j] += self->step[j];

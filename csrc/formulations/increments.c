@@ -17,7 +17,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-static const double ROUNDING = 4 * 0x1p-52;
+static const double INCREMENT_ROUNDING = 4 * 0x1p-52;
 static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation */
 
 zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
@@ -63,7 +63,7 @@ static double row_rounding(const zd_increments *self, const zd_point *point, int
     double sum = point->unit[j];
     for (int i = 0; i < self->nq; i++)
         sum += fabs(self->inverse[j * self->nq + i]) * fmax(1 / point->inverse_unit_p[i], fabs(point->p[i]));
-    return ROUNDING * sum;
+    return INCREMENT_ROUNDING * sum;
 }
 
 int zd_increments_begin(zd_increments *self, zd_point *point)

@@ -44,9 +44,9 @@ static int state_size(const zd_system *system)
 static int enter(void *memory, zd_point *point, double t, const double *y)
 {
     independent *self = memory;
-    zd_partitioned *many = self->minimal.many;
+    zd_partition_sparse *many = self->minimal.many;
     if (many) {
-        int status = zd_partitioned_place(many, point, t, y);
+        int status = zd_partition_sparse_place(many, point, t, y);
         return status ? status : zd_minimal_enter(&self->minimal, point, y + many->k);
     }
     zd_minimal_note_lead_time(&self->minimal, point, t);
@@ -56,7 +56,7 @@ static int enter(void *memory, zd_point *point, double t, const double *y)
 
 static int leave_many(zd_minimal *minimal, zd_point *point, double *y)
 {
-    int status = zd_partitioned_coordinates(minimal->many, point, y);
+    int status = zd_partition_sparse_coordinates(minimal->many, point, y);
     return status ? status : zd_minimal_leave(minimal, point, y + minimal->many->k);
 }
 
@@ -80,7 +80,7 @@ static int express(void *memory, zd_point *point, double *y)
 {
     independent *self = memory;
     const int k = self->minimal.many ? self->minimal.many->k : self->embedding.k;
-    if (self->minimal.many) zd_partitioned_pick_coordinates(self->minimal.many, point->p, y);
+    if (self->minimal.many) zd_partition_sparse_pick_coordinates(self->minimal.many, point->p, y);
     else zd_embedding_coordinates(&self->embedding, point, y);
     return zd_minimal_express(&self->minimal, point, y + k);
 }
@@ -90,7 +90,7 @@ static int rate(void *memory, zd_point *point, double *ydot)
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
     if (self->minimal.many) {
-        zd_partitioned_pick_coordinates(self->minimal.many, point->v, ydot);               /* (21) */
+        zd_partition_sparse_pick_coordinates(self->minimal.many, point->v, ydot);               /* (21) */
         return zd_minimal_rate(&self->minimal, point, ydot + self->minimal.many->k);       /* (19), (22) */
     }
     int status = zd_point_need(point, ZD_A);

@@ -36,7 +36,7 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *wor
 
 zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system)
 {
-    return (zd_minimal){.many = zd_partitioned_take(arena, system)};
+    return (zd_minimal){.many = zd_partition_sparse_take(arena, system)};
 }
 
 void zd_minimal_lend(void *memory, double **Q, double **G)
@@ -143,7 +143,7 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
 int zd_minimal_settle(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
-    if (self->many) return zd_partitioned_settle(self->many, point);
+    if (self->many) return zd_partition_sparse_settle(self->many, point);
     int status = zd_complement_at(&self->complement, point);
     if (!status && point->rank->lost) return settle_on_branch(self, point);
     if (!status) status = check_size(self);
@@ -167,7 +167,7 @@ int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u)
 {
     if (self->many) {
-        zd_partitioned_express_speeds(self->many, point, u);
+        zd_partition_sparse_express_speeds(self->many, point, u);
         return ZD_DONE;
     }
     int status = zd_complement_at(&self->complement, point);
@@ -181,7 +181,7 @@ int zd_minimal_express(zd_minimal *self, zd_point *point, double *u)
 
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
 {
-    if (self->many) return zd_partitioned_speeds(self->many, point, u);
+    if (self->many) return zd_partition_sparse_speeds(self->many, point, u);
     int status = zd_complement_review(&self->complement, point);
     return status ? status : zd_minimal_express(self, point, u);
 }
@@ -189,7 +189,7 @@ int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot)
 {
     if (!self->many) return zd_complement_rate(&self->complement, point, udot);
-    zd_partitioned_pick_speeds(self->many, point->vdot, udot);
+    zd_partition_sparse_pick_speeds(self->many, point->vdot, udot);
     return ZD_DONE;
 }
 

@@ -4,10 +4,10 @@
 
 #include "complement.h"
 #include "formulation.h"
-#include "partitioned.h"
+#include "partition_sparse.h"
 
 typedef struct zd_minimal {
-    zd_partitioned *many;       /* in place of all that follows, where a declared structure has many rows */
+    zd_partition_sparse *many;       /* in place of all that follows, where a declared structure has many rows */
     zd_complement complement;
     double *memory;     /* (n, n): of M, where the system's own is packed */
     const double *M;    /* (n, n): the point's */

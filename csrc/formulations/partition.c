@@ -25,7 +25,7 @@ enum {
 };
 static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* of a column's square: what may be little */
 static const double WORSE = 0x1p-4;             /* of the pivots' reference: chosen anew */
-static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
 static const double FEW_DIGITS = 0x1p-20;       /* of these terms: what is left of rhs - C x is no rounding */
 
 /* ---- symbolic ---- */
@@ -210,7 +210,7 @@ int zd_partition_solve(zd_partition *self, const double *rhs, double *x)
 {
     const int n = self->bodies->blocks->rows;
     double before = INFINITY, left = find_rest(self, rhs, x);
-    for (int i = 0; i < MAX_REFINEMENTS && left > ROUNDING && left < 0.5 * before; i++) {
+    for (int i = 0; i < MAX_REFINEMENTS && left > RESIDUAL_ROUNDING && left < 0.5 * before; i++) {
         memset(self->b, 0, (size_t)n * sizeof *self->b);
         for (int k = 0; k < self->rows; k++) {
             const zd_row_of_C row = zd_packed_row(self->bodies->layout, self->C, k);

@@ -23,16 +23,16 @@
 #include "../point/matrices.h"
 #include "structured.h"
 
-static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double LEAST = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
-static const double SMALL = 0x1p-20;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
+static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
+static const double SMALL_PIVOT = 0x1p-20;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
 static const double TURNED = 0.25;      /* of the squared sines by which Q turns: with less, Q1 Q0^T + Q0 Q1^T is still positive definite */
 
 typedef struct schur {
     int n, m;
     int most;           /* rows that there is memory for */
     zd_structured *many;        /* in place of all that follows, where the structure has many rows */
-    zd_coupling *coupling;      /* in place of what follows, where the structure is declared and no limits stand for rows */
+    zd_schur_blocks *blocks;      /* in place of what follows, where the structure is declared and no limits stand for rows */
     int is_coupled;             /* whether that was factored */
     double *dense_C;    /* (m, n): where the system's own is packed */
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
@@ -60,7 +60,7 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_take(arena, system)};
-    if (!zd_rank_is_of_many(system)) self.coupling = zd_coupling_take(arena, system);
+    if (!zd_rank_is_of_many(system)) self.blocks = zd_schur_blocks_take(arena, system);
     if (!system->structure) take_matrices(arena, &self);
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -87,7 +87,7 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
         zd_forward(n, self->L, C + k * n, q);
         double square = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
         if (rest < 0.01 * square) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
-        if (!(rest > LEAST * LEAST * square) || !(rest < INFINITY)) return k;
+        if (!(rest > MIN_REMAINDER * MIN_REMAINDER * square) || !(rest < INFINITY)) return k;
         g[k] = 1 / rest;
     }
     return m;
@@ -107,7 +107,7 @@ static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const
     self->m = rows;
     self->C = C;
     const zd_orthogonal it = {self->n, rows, C, self->L, self->Q, self->G, self->b, self->rows, self->correction};
-    zd_shares shares = zd_orthogonalize(&it, LEAST * LEAST);
+    zd_shares shares = zd_orthogonalize(&it, MIN_REMAINDER * MIN_REMAINDER);
     point->rank->was_turned |= !(shares.turned < TURNED);
     point->failed_index = shares.rows;
     return shares;
@@ -165,7 +165,7 @@ static void *take_all(zd_arena *arena, const void *of)
 static int is_told(const schur *self, zd_point *point)
 {
     if (point->known & ZD_RANKED) return 1;
-    return self->coupling->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_coupling_has_long_rows(self->coupling, point);
+    return self->blocks->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_schur_blocks_has_long_rows(self->blocks, point);
 }
 
 /* The same where some are redundant: the choice among them is known beforehand. */
@@ -173,9 +173,9 @@ static int factor_chosen(schur *self, zd_point *point)
 {
     int status = zd_rows_find(point);
     self->is_coupled = 0;
-    if (status || !self->coupling || point->rank->lost || zd_rank_is_full(point)) return status;
-    status = zd_coupling_factor(self->coupling, point);
-    self->is_coupled = !status && self->coupling->share > SMALL;
+    if (status || !self->blocks || point->rank->lost || zd_rank_is_full(point)) return status;
+    status = zd_schur_blocks_factor(self->blocks, point);
+    self->is_coupled = !status && self->blocks->share > SMALL_PIVOT;
     return status == ZD_DEPENDENT_ROWS ? ZD_DONE : status;
 }
 
@@ -185,10 +185,10 @@ static int factor_coupled(schur *self, zd_point *point)
     const zd_rank *rank = point->rank;
     int status = ZD_DEPENDENT_ROWS;
     if (rank->most_rows < rank->m) return factor_chosen(self, point);
-    if (self->coupling && rank->most_rows == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
-        status = zd_coupling_factor(self->coupling, point);
+    if (self->blocks && rank->most_rows == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
+        status = zd_schur_blocks_factor(self->blocks, point);
     if (status && status != ZD_DEPENDENT_ROWS) return status;
-    self->is_coupled = !status && self->coupling->share > SMALL;
+    self->is_coupled = !status && self->blocks->share > SMALL_PIVOT;
     if (self->is_coupled && is_told(self, point)) zd_rows_use_all(point);
     status = zd_rows_find(point);
     if (!status) self->is_coupled &= zd_rank_is_full(point);
@@ -254,7 +254,7 @@ ZD_INLINE int is_any_left(const int n, const int m, const schur *self, const dou
             size += fabs(term);
         }
         rest[k] = sum;
-        left |= fabs(sum) > ROUNDING * size;
+        left |= fabs(sum) > RESIDUAL_ROUNDING * size;
     }
     return left;
 }
@@ -286,7 +286,7 @@ static void solve(void *memory, const double *force, const double *rhs, double *
 {
     schur *self = memory;
     if (self->many) zd_structured_solve(self->many, force, rhs, x, lambda);
-    else if (self->is_coupled) zd_coupling_solve(self->coupling, force, rhs, x, lambda);
+    else if (self->is_coupled) zd_schur_blocks_solve(self->blocks, force, rhs, x, lambda);
     else solve_dense(self, force, rhs, x, lambda);
 }
 

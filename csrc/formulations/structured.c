@@ -7,7 +7,7 @@
 zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system)
 {
     if (!zd_rank_is_of_many(system)) return NULL;
-    zd_structured self = {.coupling = zd_coupling_take(arena, system)};
+    zd_structured self = {.blocks = zd_schur_blocks_take(arena, system)};
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -27,10 +27,10 @@ static int factor_bodywise(zd_structured *self, zd_point *point)
     int status = zd_point_need(point, ZD_M | ZD_C);     /* a system's own products do without them */
     if (status) return status;
     if (!self->bodywise) self->bodywise = zd_bodywise_create(store, point);
-    if (!self->lookout && point->rank->left_out) self->lookout = zd_lookout_create(store, point);
-    if (!self->bodywise || (point->rank->left_out && !self->lookout)) return ZD_NO_MEMORY;
-    if (self->lookout && zd_lookout_look(self->lookout, point))
-        note_pivot(self->lookout->weighted, self->lookout->share, self->lookout->smallest, point);
+    if (!self->monitor && point->rank->left_out) self->monitor = zd_singularity_monitor_create(store, point);
+    if (!self->bodywise || (point->rank->left_out && !self->monitor)) return ZD_NO_MEMORY;
+    if (self->monitor && zd_singularity_monitor_update(self->monitor, point))
+        note_pivot(self->monitor->weighted, self->monitor->share, self->monitor->smallest, point);
     return zd_bodywise_factor(self->bodywise, point);
 }
 
@@ -40,8 +40,9 @@ int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
     int status = ZD_DEPENDENT_ROWS;
     zd_rows_use_all(point);
     self->is_coupled = rank->most_rows == rank->m && rank->m <= rank->n;
-    if (self->is_coupled) status = zd_coupling_factor(self->coupling, point);
-    if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS)) note_pivot(self->coupling->weighted, self->coupling->share, self->coupling->smallest, point);
+    if (self->is_coupled) status = zd_schur_blocks_factor(self->blocks, point);
+    if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS))
+        note_pivot(self->blocks->weighted, self->blocks->share, self->blocks->smallest, point);
     if (!status || (status == ZD_NOT_DEFINITE && inverts_mass) || (status != ZD_NOT_DEFINITE && status != ZD_DEPENDENT_ROWS)) return status;
     self->is_coupled = 0;
     return factor_bodywise(self, point);
@@ -49,6 +50,6 @@ int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
 
 void zd_structured_solve(zd_structured *self, const double *force, const double *rhs, double *x, double *lambda)
 {
-    if (self->is_coupled) zd_coupling_solve(self->coupling, force, rhs, x, lambda);
+    if (self->is_coupled) zd_schur_blocks_solve(self->blocks, force, rhs, x, lambda);
     else zd_bodywise_solve(self->bodywise, force, rhs, x, lambda);
 }

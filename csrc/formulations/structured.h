@@ -4,13 +4,13 @@
 
 #include "../constraints/rank.h"
 #include "bodywise.h"
-#include "coupling.h"
-#include "lookout.h"
+#include "schur_blocks.h"
+#include "singularity_monitor.h"
 
 typedef struct zd_structured {
-    zd_coupling *coupling;
+    zd_schur_blocks *blocks;
     zd_bodywise *bodywise;      /* where M is singular or rows follow from others; NULL until then */
-    zd_lookout *lookout;        /* beside that */
+    zd_singularity_monitor *monitor;        /* beside that */
     int is_coupled;             /* which of the two was factored */
 } zd_structured;
 

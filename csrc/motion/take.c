@@ -1,6 +1,6 @@
 #include "motion.h"
 
-#include "../constraints/look.h"
+#include "../constraints/rank_monitor.h"
 #include "../constraints/rows.h"
 
 /* Which rows count, and what is needed to see that all do. */
@@ -9,16 +9,16 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     const zd_formulation *formulation = motion->formulation;
     const zd_system *system = &motion->system;
     zd_rank *rank = zd_rank_take(arena, system, zd_takes_many_rows(formulation, system));
-    zd_look *look = NULL;
+    zd_rank_monitor *monitor = NULL;
     double *rhs = formulation->settle ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
     int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     const int are_many = zd_takes_many_rows(formulation, system), is_dense = !system->structure;
     int is_told = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)) : are_many;
-    if (!is_told) look = zd_look_take(arena, system, Q, G);
+    if (!is_told) monitor = zd_rank_monitor_take(arena, system, Q, G);
     if (!rank) return NULL;
-    rank->look = look;
+    rank->monitor = monitor;
     rank->rhs = rhs;
     rank->store = &motion->store;
     return rank;

@@ -193,7 +193,7 @@ static void *take(zd_arena *arena, const void *of)
         for (int g = 0; g < it->layout->groups; g++) self.row[g] = self.blocks->at[self.blocks->place[g]];
         fill(&self, &it->pattern, piece);
     }
-    self.strips = zd_strips_take(arena, it->layout, self.row);
+    self.row_groups = zd_row_groups_take(arena, it->layout, self.row);
     return zd_take_filled(arena, &self, sizeof self);
 }
 
@@ -347,7 +347,7 @@ int zd_weighted_leave_out(zd_weighted *self, const double *C, const double *W, d
 void zd_weighted_times(const zd_weighted *self, const double *C, const double *x, const double *rhs, double *y)
 {
     if (zd_weighted_has_welds(self)) memset(y, 0, (size_t)self->blocks->rows * sizeof *y);
-    zd_strips_times(&self->strips, C, x, rhs, y);
+    zd_row_groups_times(&self->row_groups, C, x, rhs, y);
 }
 
 int zd_weighted_row(const zd_weighted *self, int place)

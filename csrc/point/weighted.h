@@ -4,7 +4,7 @@
 #define ZD_WEIGHTED_H
 
 #include "../linalg/blocks.h"
-#include "strips.h"
+#include "row_groups.h"
 
 /* The block of C of a group and a body that it touches; or of a weld, see weighted.c. */
 typedef struct zd_piece {
@@ -36,7 +36,7 @@ typedef struct zd_weighted {
     int *at;                /* (pairs,) where the blocks of each are, for a system's own products: see zd_operations */
     int largest;            /* velocities of that; 0 where there are no welds */
     int *row;               /* (groups,) where the rows of each stand in a right side of S */
-    zd_strips strips;       /* the same rows, for products */
+    zd_row_groups row_groups;       /* the same rows, for products */
     double *product;        /* room for A W */
 } zd_weighted;
 
@@ -60,10 +60,13 @@ void zd_weighted_times(const zd_weighted *self, const double *C, const double *x
 static inline void zd_weighted_solve(const zd_weighted *self, double *y) { zd_blocks_solve(self->blocks, y); }
 static inline void zd_weighted_subtract_transposed(const zd_weighted *self, const double *C, const double *y, double *x)
 {
-    zd_strips_subtract_transposed(&self->strips, C, y, x);
+    zd_row_groups_subtract_transposed(&self->row_groups, C, y, x);
 }
 /* rows (m,) <- y, in the order of C. */
-static inline void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows) { zd_strips_scatter(&self->strips, y, rows); }
+static inline void zd_weighted_scatter(const zd_weighted *self, const double *y, double *rows)
+{
+    zd_row_groups_scatter(&self->row_groups, y, rows);
+}
 /* Whether bodies contribute alike to each row, W is all in its diagonal, and no body is taken as several; least, most (m,): room. */
 int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double *W, double *least, double *most);
 /* Which row of C has this place in the order of S; of a weld, the first. */

@@ -9,7 +9,7 @@
 #include "../integrators/integrator.h"
 #include "../point/matrices.h"
 #include "../point/row_name.h"
-#include "blame.h"
+#include "nonfinite.h"
 #include "status.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"

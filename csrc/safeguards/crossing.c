@@ -21,7 +21,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../constraints/look.h"
+#include "../constraints/rank_monitor.h"
 #include "../constraints/rows.h"
 #include "../linalg/lu.h"
 #include "../linalg/small.h"
@@ -267,7 +267,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
         self->has_begun = self->has_rows = 0;
         return ZD_DONE;
     }
-    zd_look_compare(point);
+    zd_rank_monitor_compare(point);
     const int may_differ = point->rank->was_turned || moved > LONG * LONG || are_few(&motion->system);
     if (self->has_begun && !self->may_pass && may_differ) status = compare(self, h, moved, &is_kept);
     if (!status && !is_kept) status = judge(self);

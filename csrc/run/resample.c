@@ -3,7 +3,7 @@
  *
  * What a run measures its rows, energies and pivots by comes from its start, where this one has begun, too.
  */
-#include "revisit.h"
+#include "resample.h"
 
 #include <string.h>
 
@@ -32,7 +32,7 @@ static int64_t row_before(const zd_saved *saved, double t)
     return low;
 }
 
-static int place(zd_revisit *self, int64_t row)
+static int place(zd_resample *self, int64_t row)
 {
     zd_motion *motion = &self->run->motion;
     zd_stepper *stepper = &self->run->stepper;
@@ -42,7 +42,7 @@ static int place(zd_revisit *self, int64_t row)
     return zd_stepper_place(stepper, time_of(saved, row), p, v);
 }
 
-static int make_step(zd_revisit *self, int64_t row)
+static int make_step(zd_resample *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
     const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1), step = self->run->settings.step;
@@ -52,7 +52,7 @@ static int make_step(zd_revisit *self, int64_t row)
     return status ? status : zd_stepper_land(stepper, next, row + 1, is_last);
 }
 
-static int is_at(const zd_revisit *self, int64_t row)
+static int is_at(const zd_resample *self, int64_t row)
 {
     const zd_point *point = self->run->motion.point;
     const zd_saved *saved = self->saved;
@@ -62,7 +62,7 @@ static int is_at(const zd_revisit *self, int64_t row)
 }
 
 /* To the row, and onto the road that a step takes from there */
-static int begin(zd_revisit *self, int64_t row, int is_general)
+static int begin(zd_resample *self, int64_t row, int is_general)
 {
     zd_motion *motion = &self->run->motion;
     if (is_general) zd_direct_leave(motion);
@@ -73,7 +73,7 @@ static int begin(zd_revisit *self, int64_t row, int is_general)
 
 /* The same where a step of the direct road may have ended at the row: its end has the acceleration from another function, which may round
  * another way, so that step is made first. The step that an event has cut short was made from the row itself. */
-static int begin_from_before(zd_revisit *self, int64_t row)
+static int begin_from_before(zd_resample *self, int64_t row)
 {
     zd_motion *motion = &self->run->motion;
     const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
@@ -86,19 +86,19 @@ static int begin_from_before(zd_revisit *self, int64_t row)
     return ZD_DONE;
 }
 
-static int may_have_polynomial(const zd_revisit *self)
+static int may_have_polynomial(const zd_resample *self)
 {
     return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread;
 }
 
-static int make_general_step(zd_revisit *self, int64_t row)
+static int make_general_step(zd_resample *self, int64_t row)
 {
     int status = begin(self, row, 1);
     return status ? status : make_step(self, row);
 }
 
 /* A run may have left the direct road in the step: that road is taken which leads to the row after, to the last bit, if one does. */
-static int make_again(zd_revisit *self, int64_t row)
+static int make_again(zd_resample *self, int64_t row)
 {
     const int has_roads = self->run->motion.road.direct != NULL;
     int status = begin_from_before(self, row);
@@ -113,7 +113,7 @@ static int make_again(zd_revisit *self, int64_t row)
 
 /* Finds the road of the step from a row, and its polynomial if there is one; what fails is no matter, as a shorter step may do, but for
  * callables. */
-static int find_road(zd_revisit *self, int64_t row)
+static int find_road(zd_resample *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
     const int may_interpolate = may_have_polynomial(self);
@@ -129,7 +129,7 @@ static int find_road(zd_revisit *self, int64_t row)
     return status;
 }
 
-int zd_revisit_move(zd_revisit *self, double t)
+int zd_resample_move(zd_resample *self, double t)
 {
     const int64_t row = row_before(self->saved, t);
     if (t == time_of(self->saved, row)) return place(self, row);

@@ -1,12 +1,12 @@
 /* A run of a batch by itself: created, advanced and freed as any other. */
-#include "single.h"
+#include "single_run.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "../stepping/clock.h"
-#include "found.h"
+#include "event_samples.h"
 
 static const double SLICE = 0.02;       /* s: so soon is seen that nobody waits any more */
 
@@ -20,12 +20,12 @@ static int width_of(const zd_outputs *outputs, const zd_system *system)
     return width;
 }
 
-zd_single zd_single_take(zd_arena *arena, const zd_batch *batch)
+zd_single_run zd_single_run_take(zd_arena *arena, const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_outputs *outputs = batch->settings->outputs;
     const size_t rows = (size_t)batch->capacity, nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)count_constraints(system);
-    return (zd_single){
+    return (zd_single_run){
         .p = zd_take_doubles(arena, nq),
         .v = zd_take_doubles(arena, nv),
         .record = {
@@ -53,7 +53,7 @@ static void redirect(double **column, double *wanted, int64_t run, int64_t size)
 }
 
 /* The record of a run: what is wanted of it goes where it is wanted. */
-static zd_record record_of(const zd_batch *batch, const zd_single *own, int64_t run)
+static zd_record record_of(const zd_batch *batch, const zd_single_run *own, int64_t run)
 {
     const zd_system *system = batch->system;
     const int64_t rows = batch->capacity;
@@ -79,7 +79,7 @@ int zd_batch_is_stopped(const zd_batch *batch)
     return batch->stop && *(const volatile int *)batch->stop;
 }
 
-int zd_single_start(const zd_batch *batch, const zd_system *system, const zd_single *own, int64_t run)
+int zd_single_run_start(const zd_batch *batch, const zd_system *system, const zd_single_run *own, int64_t run)
 {
     if (batch->p0) memcpy(own->p, batch->p0 + run * system->nq, (size_t)system->nq * sizeof(double));
     if (batch->v0) memcpy(own->v, batch->v0 + run * system->nv, (size_t)system->nv * sizeof(double));
@@ -121,33 +121,33 @@ static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64
     if (status) snprintf(zd_message_of(batch, number), (size_t)batch->message_size, "%s", zd_run_message(run));
 }
 
-zd_system zd_single_system(const zd_batch *batch, int64_t number)
+zd_system zd_single_run_system(const zd_batch *batch, int64_t number)
 {
     zd_system system = *batch->system;
-    system.data = zd_single_data(batch, number);
+    system.data = zd_single_run_data(batch, number);
     return system;
 }
 
 /* Its own, or those of all; events are written down for this run. */
-static zd_settings settings_of(const zd_batch *batch, zd_found *found, zd_events *events)
+static zd_settings settings_of(const zd_batch *batch, zd_event_samples *found, zd_events *events)
 {
     zd_settings settings = batch->settings[batch->settings_differ ? found->run : 0];
     if (!settings.events) return settings;
     *events = *settings.events;
-    events->found = zd_found_note;
+    events->found = zd_event_samples_add;
     events->data = found;
     settings.events = events;
     return settings;
 }
 
-static void run_of(const zd_batch *batch, const zd_single *own, const zd_system *system, int64_t number)
+static void run_of(const zd_batch *batch, const zd_single_run *own, const zd_system *system, int64_t number)
 {
     zd_record record = record_of(batch, own, number);
-    zd_found found = {batch, number};
+    zd_event_samples found = {batch, number};
     zd_events events;
     const zd_settings settings = settings_of(batch, &found, &events);
-    zd_found_forget(batch, number);
-    batch->status[number] = zd_single_start(batch, system, own, number);
+    zd_event_samples_clear(batch, number);
+    batch->status[number] = zd_single_run_start(batch, system, own, number);
     if (batch->status[number]) return;
     zd_run *run = zd_run_create(system, &settings, own->p, own->v, &batch->status[number], zd_message_of(batch, number),
                                 batch->message_size);
@@ -155,9 +155,9 @@ static void run_of(const zd_batch *batch, const zd_single *own, const zd_system 
     zd_run_free(run);
 }
 
-void zd_single_run(const zd_batch *batch, const zd_single *own, int64_t number)
+void zd_single_run_execute(const zd_batch *batch, const zd_single_run *own, int64_t number)
 {
-    const zd_system system = zd_single_system(batch, number);
+    const zd_system system = zd_single_run_system(batch, number);
     if (!batch->family) {
         run_of(batch, own, &system, number);
         return;

@@ -12,7 +12,7 @@
  * Where some rows are redundant, C is what was chosen among them: as long as little of that has changed, there are as many independent rows,
  * and the choice is as good as it was. Only beyond is it made anew, see rows.c.
  */
-#include "look.h"
+#include "rank_monitor.h"
 
 #include <math.h>
 #include <string.h>
@@ -25,11 +25,11 @@ static const double FAR = 0.9;              /* of the sum: beyond, rows may have
 static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* the share, squared, from which rows may change by NEAR */
 
-zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
+zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows take their place */
-    zd_look self = {
+    zd_rank_monitor self = {
         .m = (int)m,
         .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
         .weight = zd_take_doubles(arena, m),
@@ -49,10 +49,10 @@ zd_look *zd_look_take(zd_arena *arena, const zd_system *system, double *Q, doubl
 }
 
 /* Rows that are chosen are dense, whatever the system declares. */
-zd_look *zd_look_take_choice(zd_arena *arena, const zd_system *system)
+zd_rank_monitor *zd_rank_monitor_take_selection(zd_arena *arena, const zd_system *system)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    zd_look self = {
+    zd_rank_monitor self = {
         .m = (int)m,
         .row = zd_take(arena, m * sizeof(int)),
         .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
@@ -70,12 +70,12 @@ zd_look *zd_look_take_choice(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static int row_of(const zd_look *self, int k) { return self->row ? self->row[k] : k; }
+static int row_of(const zd_rank_monitor *self, int k) { return self->row ? self->row[k] : k; }
 
 /* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
  * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each
  * entry has a share of its own, and none asks which body it is of. Infinite where nothing is known. */
-static double bound_by_bodies(const zd_look *self, const zd_point *point)
+static double bound_by_bodies(const zd_rank_monitor *self, const zd_point *point)
 {
     const double *C = point->terms.C;
     const int stored = self->is_known ? point->layout->C_at[point->layout->groups] : 0;
@@ -88,7 +88,7 @@ static double bound_by_bodies(const zd_look *self, const zd_point *point)
 }
 
 /* Of the entries of a body in rows that touch it */
-static void find_shares(zd_look *self, const zd_layout *layout, int b)
+static void find_shares(zd_rank_monitor *self, const zd_layout *layout, int b)
 {
     const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
     int rows = 0;
@@ -103,7 +103,7 @@ static void find_shares(zd_look *self, const zd_layout *layout, int b)
 }
 
 /* The sum, or infinity where nothing is known. */
-static double find_change(const zd_look *self, const zd_point *point)
+static double find_change(const zd_rank_monitor *self, const zd_point *point)
 {
     double sum = 0;
     for (int k = 0; k < self->m; k++) {
@@ -122,7 +122,7 @@ static double find_change(const zd_look *self, const zd_point *point)
 }
 
 /* weight <- lengths of the columns of R^-1, from G, in place of which comes its inverse */
-static void find_weights(zd_look *self)
+static void find_weights(zd_rank_monitor *self)
 {
     const int m = self->close.m;
     double *G = self->close.G, *g = self->close.weighted;
@@ -141,7 +141,7 @@ static void find_weights(zd_look *self)
 }
 
 /* The same from blocks: that length is what the diagonal of (C C^T)^-1 has, in its inverse square. */
-static void find_weights_by_blocks(zd_look *self, const zd_layout *layout)
+static void find_weights_by_blocks(zd_rank_monitor *self, const zd_layout *layout)
 {
     const zd_blocks *blocks = self->weighted->blocks;
     zd_blocks_invert(blocks, self->inverse);
@@ -153,7 +153,7 @@ static void find_weights_by_blocks(zd_look *self, const zd_layout *layout)
 }
 
 /* Keeps rows whose shares are known, if these are ample. */
-static void keep(zd_look *self, const zd_point *point)
+static void keep(zd_rank_monitor *self, const zd_point *point)
 {
     const int m = self->close.m, stored = zd_size_of_C(point->system);
     const double *C = point->terms.C, *start_square = point->rank->start_square;
@@ -174,7 +174,7 @@ static void *take_inverse(zd_arena *arena, const void *blocks)
     return zd_take_doubles(arena, (size_t)((const zd_blocks *)blocks)->size);
 }
 
-static int need_blocks(zd_look *self, const zd_point *point)
+static int need_blocks(zd_rank_monitor *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
     if (self->inverse) return 1;
@@ -187,7 +187,7 @@ static int need_blocks(zd_look *self, const zd_point *point)
 /* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those that
  * are eliminated before are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. A body that is taken as
  * several enlarges rows on the diagonal, which makes shares smaller. Without memory, nothing is believed. */
-static zd_shares factor_products(zd_look *self, const zd_point *point)
+static zd_shares factor_products(zd_rank_monitor *self, const zd_point *point)
 {
     if (!need_blocks(self, point)) return (zd_shares){0, 1, 0};
     for (int k = 0; k < self->close.m; k++) {
@@ -199,7 +199,7 @@ static zd_shares factor_products(zd_look *self, const zd_point *point)
     return (zd_shares){least > DOUBTFUL ? self->close.m : 0, 1, least};
 }
 
-int zd_look_is_doubtful(zd_look *self, zd_point *point)
+int zd_rank_monitor_is_doubtful(zd_rank_monitor *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
     const double bound = point->layout ? bound_by_bodies(self, point) : INFINITY;
@@ -221,7 +221,7 @@ int zd_look_is_doubtful(zd_look *self, zd_point *point)
     return 0;
 }
 
-void zd_look_keep_choice(zd_look *self, zd_point *point)
+void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point)
 {
     const zd_selection *selection = point->rank->selection;
     self->is_known = 0;
@@ -231,7 +231,7 @@ void zd_look_keep_choice(zd_look *self, zd_point *point)
     if (zd_orthogonalize(&self->close, DOUBTFUL).rows == self->close.m) keep(self, point);
 }
 
-int zd_look_is_near(const zd_look *self, const zd_point *point)
+int zd_rank_monitor_is_unchanged(const zd_rank_monitor *self, const zd_point *point)
 {
     const double bound = point->layout ? bound_by_bodies(self, point) : INFINITY;
     return bound < NEAR * NEAR || fmin(sqrt(bound), find_change(self, point)) < NEAR;

@@ -1,4 +1,4 @@
-#include "found.h"
+#include "event_samples.h"
 
 #include <string.h>
 
@@ -7,14 +7,14 @@ static int count_events(const zd_batch *batch)
     return batch->settings->events ? batch->settings->events->count : 0;
 }
 
-int64_t *zd_found_count(const zd_batch *batch, int64_t run, int event)
+int64_t *zd_event_samples_count(const zd_batch *batch, int64_t run, int event)
 {
     return batch->found + run * count_events(batch) + event;
 }
 
-void zd_found_forget(const zd_batch *batch, int64_t run)
+void zd_event_samples_clear(const zd_batch *batch, int64_t run)
 {
-    for (int event = 0; event < count_events(batch); event++) *zd_found_count(batch, run, event) = 0;
+    for (int event = 0; event < count_events(batch); event++) *zd_event_samples_count(batch, run, event) = 0;
 }
 
 static void write(double *to, int64_t place, int count, const double *from)
@@ -22,11 +22,11 @@ static void write(double *to, int64_t place, int count, const double *from)
     if (to) memcpy(to + place * count, from, (size_t)count * sizeof *from);
 }
 
-int zd_found_note(void *found, int event, double t, const double *p, const double *v)
+int zd_event_samples_add(void *found, int event, double t, const double *p, const double *v)
 {
-    const zd_found *self = found;
+    const zd_event_samples *self = found;
     const zd_batch *batch = self->batch;
-    const int64_t number = (*zd_found_count(batch, self->run, event))++;
+    const int64_t number = (*zd_event_samples_count(batch, self->run, event))++;
     if (number >= batch->events_capacity) return ZD_DONE;
     const int64_t place = (self->run * count_events(batch) + event) * batch->events_capacity + number;
     write(batch->t_events, place, 1, &t);

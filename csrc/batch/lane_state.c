@@ -6,7 +6,7 @@
 
 /* Of the warnings that a single run gives: it then gets the chance to give them. */
 static const double LARGEST_ENERGY_ERROR = 0.005;   /* of the kinetic energy */
-static const double ROUNDING = 1e-10;               /* of all the energy there is */
+static const double ENERGY_ROUNDING = 1e-10;               /* of all the energy there is */
 
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 {
@@ -17,7 +17,7 @@ void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 
 const void *zd_lane_group_data(const zd_lane_group *self, int lane)
 {
-    return zd_single_data(self->batch, self->run_of[lane].number);
+    return zd_single_run_data(self->batch, self->run_of[lane].number);
 }
 
 /* C (mh, nv) in natural units at y; returns whether that is known. */
@@ -97,5 +97,5 @@ int zd_lane_group_keeps_energy(zd_lane_group *self, int lane)
     const double largest = fmax(run->kinetic, exchanged);
     self->batch->kinetic[run->number] = largest;
     self->batch->energy_error[run->number] = fabs(violation);
-    return fabs(violation) < fmax(LARGEST_ENERGY_ERROR * largest, ROUNDING * (largest + fabs(potential))) || violation == 0;
+    return fabs(violation) < fmax(LARGEST_ENERGY_ERROR * largest, ENERGY_ROUNDING * (largest + fabs(potential))) || violation == 0;
 }

@@ -1,4 +1,4 @@
-#include "partitioned.h"
+#include "partition_sparse.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,13 +12,13 @@ enum { MAX_ITERATIONS = 40 };
 static const double NEARLY = 64;        /* units of rounding: a residual of so many that no longer halves is all that there can be */
 static const double FARTHEST = 0.5;     /* in natural units: a longer prediction is not used as the first iterate */
 
-zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system)
+zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *system)
 {
     if (!zd_rank_is_of_many(system)) return NULL;
     int rows = 0, size = system->nv - zd_constraints(system), k = system->nv - system->mh;
     for (int g = 0; g < system->structure->groups; g++) rows += system->structure->rows[g];
     zd_partition *of_v = zd_partition_take(arena, system->nv, rows, size);
-    zd_partitioned self = {
+    zd_partition_sparse self = {
         .structured = zd_structured_take(arena, system),
         .of_v = of_v,
         .of_p = system->mn ? zd_partition_take(arena, system->nv, rows, k) : of_v,
@@ -35,7 +35,7 @@ zd_partitioned *zd_partitioned_take(zd_arena *arena, const zd_system *system)
 /* ---- v = D u ---- */
 
 /* That of all rows, at the point. */
-static int need_speeds(zd_partitioned *self, zd_point *point)
+static int need_speeds(zd_partition_sparse *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_PHI_T);
     const int begins = !status && !self->of_v->bodies;
@@ -48,7 +48,7 @@ static void note_condition(const zd_partition *of, const zd_point *point)
     point->rank->was_ill_conditioned |= !(of->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED);
 }
 
-int zd_partitioned_settle(zd_partitioned *self, zd_point *point)
+int zd_partition_sparse_settle(zd_partition_sparse *self, zd_point *point)
 {
     int status = need_speeds(self, point);
     if (!status && !(point->known & ZD_COMPLEMENTED)) status = zd_partition_factor(self->of_v, point);
@@ -64,19 +64,19 @@ int zd_partitioned_settle(zd_partitioned *self, zd_point *point)
     return status;
 }
 
-void zd_partitioned_express_speeds(zd_partitioned *self, const zd_point *point, double *u)
+void zd_partition_sparse_express_speeds(zd_partition_sparse *self, const zd_point *point, double *u)
 {
-    zd_partitioned_pick_speeds(self, point->v, self->u);
+    zd_partition_sparse_pick_speeds(self, point->v, self->u);
     memcpy(u, self->u, (size_t)self->size * sizeof *u);
 }
 
-int zd_partitioned_speeds(zd_partitioned *self, zd_point *point, double *u)
+int zd_partition_sparse_speeds(zd_partition_sparse *self, zd_point *point, double *u)
 {
     int status = need_speeds(self, point);
     if (!status) status = zd_partition_review(self->of_v, point, point->known & ZD_COMPLEMENTED);
     if (status) return status;
     point->known |= ZD_COMPLEMENTED;
-    zd_partitioned_express_speeds(self, point, u);
+    zd_partition_sparse_express_speeds(self, point, u);
     return ZD_DONE;
 }
 
@@ -85,26 +85,26 @@ static void pick(const zd_partition *of, const double *x, double *to)
     for (int j = 0; j < of->independents; j++) to[j] = x[of->index[j]];
 }
 
-void zd_partitioned_pick_speeds(const zd_partitioned *self, const double *x, double *of_u) { pick(self->of_v, x, of_u); }
-void zd_partitioned_pick_coordinates(const zd_partitioned *self, const double *x, double *of_q) { pick(self->of_p, x, of_q); }
+void zd_partition_sparse_pick_speeds(const zd_partition_sparse *self, const double *x, double *of_u) { pick(self->of_v, x, of_u); }
+void zd_partition_sparse_pick_coordinates(const zd_partition_sparse *self, const double *x, double *of_q) { pick(self->of_p, x, of_q); }
 
 /* ---- p = g(q) ---- */
 
-static int need_coordinates(zd_partitioned *self, zd_point *point)
+static int need_coordinates(zd_partition_sparse *self, zd_point *point)
 {
     int status = need_speeds(self, point);
     const int begins = !status && !self->of_p->bodies;
     return begins ? zd_partition_begin(self->of_p, point->rank->store, point, point->system->mh) : status;
 }
 
-int zd_partitioned_coordinates(zd_partitioned *self, zd_point *point, double *q)
+int zd_partition_sparse_coordinates(zd_partition_sparse *self, zd_point *point, double *q)
 {
     int status = need_coordinates(self, point);
     const int is_same = self->of_p == self->of_v;
     if (!status) status = zd_partition_review(self->of_p, point, is_same && (point->known & ZD_COMPLEMENTED));
     if (status) return status;
     if (is_same) point->known |= ZD_COMPLEMENTED;
-    zd_partitioned_pick_coordinates(self, point->p, q);
+    zd_partition_sparse_pick_coordinates(self, point->p, q);
     return ZD_DONE;
 }
 
@@ -122,7 +122,7 @@ static double rounding_of(const zd_point *point)
 }
 
 typedef struct problem {
-    zd_partitioned *self;
+    zd_partition_sparse *self;
     zd_point *point;
 } problem;
 
@@ -139,7 +139,7 @@ static int residual(void *context, double *size)
 static int improve(void *context)
 {
     const problem *it = context;
-    zd_partitioned *self = it->self;
+    zd_partition_sparse *self = it->self;
     zd_point *point = it->point;
     int status = zd_partition_factor(self->of_p, point);
     if (!status || status == ZD_SINGULAR) note_condition(self->of_p, point);
@@ -153,7 +153,7 @@ static int improve(void *context)
 }
 
 /* self->p <- where the point's velocity leads, or where that is too far to be an estimate, where the point is; with q. */
-static void predict(zd_partitioned *self, const zd_point *point, double t, const double *q)
+static void predict(zd_partition_sparse *self, const zd_point *point, double t, const double *q)
 {
     const double h = t - point->t;
     const int nq = point->system->nq, is_near = fabs(h) * zd_max_scaled(nq, point->v, point->inverse_unit_p) <= FARTHEST;
@@ -161,7 +161,7 @@ static void predict(zd_partitioned *self, const zd_point *point, double t, const
     for (int j = 0; j < self->k; j++) self->p[self->of_p->index[j]] = q[j];
 }
 
-int zd_partitioned_place(zd_partitioned *self, zd_point *point, double t, const double *q)
+int zd_partition_sparse_place(zd_partition_sparse *self, zd_point *point, double t, const double *q)
 {
     static const zd_newton newton = {residual, improve, 1, MAX_ITERATIONS, 0, NULL, NEARLY};
     problem it = {self, point};

@@ -1,7 +1,7 @@
 /* In the metric of M^-1, pivots of S = C M^-1 C^T are the squares of what is left of each row once those before it are taken out; without the
  * rows that were redundant at the start, all of them are positive but at a bifurcation. Nothing is solved with these factors.
  */
-#include "lookout.h"
+#include "singularity_monitor.h"
 
 #include "../point/mass.h"
 
@@ -13,7 +13,7 @@ typedef struct plan {
 static void *take(zd_arena *arena, const void *of)
 {
     const plan *it = of;
-    zd_lookout self = {
+    zd_singularity_monitor self = {
         .W = zd_take_doubles(arena, (size_t)zd_size_of_M(it->point->system)),
         .without = zd_take(arena, (size_t)it->rows),
     };
@@ -21,7 +21,7 @@ static void *take(zd_arena *arena, const void *of)
 }
 
 /* Rows that were redundant at the start, in the order of S. */
-static void leave_out(zd_lookout *self, const zd_rank *rank)
+static void leave_out(zd_singularity_monitor *self, const zd_rank *rank)
 {
     const zd_layout *layout = self->weighted->layout;
     for (int g = 0; rank->left_out && g < layout->groups; g++)
@@ -29,18 +29,18 @@ static void leave_out(zd_lookout *self, const zd_rank *rank)
             self->without[self->weighted->row[g] + k - layout->row_at[g]] = rank->left_out[k];
 }
 
-zd_lookout *zd_lookout_create(zd_store *store, const zd_point *point)
+zd_singularity_monitor *zd_singularity_monitor_create(zd_store *store, const zd_point *point)
 {
     zd_weighted *weighted = zd_weighted_create(store, point->layout);
     if (!weighted) return NULL;
-    zd_lookout *self = zd_store_take(store, take, &(plan){point, weighted->blocks->rows});
+    zd_singularity_monitor *self = zd_store_take(store, take, &(plan){point, weighted->blocks->rows});
     if (!self) return NULL;
     self->weighted = weighted;
     leave_out(self, point->rank);
     return self;
 }
 
-int zd_lookout_look(zd_lookout *self, const zd_point *point)
+int zd_singularity_monitor_update(zd_singularity_monitor *self, const zd_point *point)
 {
     if (zd_mass_factor(point, self->W) < point->system->nv) return 0;
     const zd_pivots pivots = zd_weighted_factor_without(self->weighted, point->terms.C, self->W, self->without);

@@ -1,7 +1,7 @@
 /* Which term is to blame where numbers are not finite. Nobody looks while all goes well: once a run has failed, the step that failed is
  * made again and watched, so that systems pay nothing for being told what is wrong with them.
  */
-#include "blame.h"
+#include "nonfinite.h"
 
 #include "../linalg/norms.h"
 

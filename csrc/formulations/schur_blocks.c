@@ -12,7 +12,7 @@
  * stored otherwise, and as long as all the rest: so what has many rows, and was found accurate, is compared again after some
  * factorizations, each time after twice as many, or as soon as the pivot is half of what it was.
  */
-#include "coupling.h"
+#include "schur_blocks.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,11 +26,11 @@ enum {
     MAX_REFINEMENTS = 40,
     LONGEST_WAIT = 251,     /* factorizations until solutions are compared again: a prime, so that each stage of a step has its turn */
 };
-static const double ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double GOOD = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
-static const double CALM = 64 * 0x1p-52;        /* of the terms of C x: so little is left of accurate solutions */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
+static const double GOOD_PIVOT = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
+static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* of the terms of C x: so little is left of accurate solutions */
 
-zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
+zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
     int rows = 0;
@@ -38,7 +38,7 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
     const int has_redundant = rows != zd_constraints(system);
     if (!structure || (has_redundant && zd_rank_is_of_many(system))) return NULL;
     size_t n = (size_t)system->nv, m = (size_t)rows, of_redundant = has_redundant ? m : 0;
-    zd_coupling self = {
+    zd_schur_blocks self = {
         .n = (int)n,
         .m = (int)m,
         .W = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
@@ -59,7 +59,7 @@ zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system)
 /* ---- right sides ---- */
 
 /* x <- W y */
-static void times_W(const zd_coupling *self, const double *y, double *restrict x)
+static void times_W(const zd_schur_blocks *self, const double *y, double *restrict x)
 {
     const double *W = self->W;
     const int entries = self->is_diagonal ? self->n : 0;
@@ -68,18 +68,18 @@ static void times_W(const zd_coupling *self, const double *y, double *restrict x
 }
 
 /* y <- C x - rhs in the order of S, x NULL: zero */
-static void find_right_side(zd_coupling *self, const double *x, const double *rhs, double *y)
+static void find_right_side(zd_schur_blocks *self, const double *x, const double *rhs, double *y)
 {
     if (!self->products) {
         zd_weighted_times(self->weighted, self->C, x, rhs, y);
         return;
     }
     if (x) self->products->times_C(self->data, &self->terms, x, self->lambda);
-    zd_strips_gather(&self->weighted->strips, x ? self->lambda : NULL, rhs, y);
+    zd_row_groups_gather(&self->weighted->row_groups, x ? self->lambda : NULL, rhs, y);
 }
 
 /* x <- W force, and y of S lambda = y */
-static double *begin(zd_coupling *self, const zd_right_side *of)
+static double *begin(zd_schur_blocks *self, const zd_right_side *of)
 {
     double *y = self->weighted->blocks->x;
     if (of->force) times_W(self, of->force, of->x);
@@ -89,7 +89,7 @@ static double *begin(zd_coupling *self, const zd_right_side *of)
 
 /* ---- factors ---- */
 
-static int invert_mass(zd_coupling *self, zd_point *point)
+static int invert_mass(zd_schur_blocks *self, zd_point *point)
 {
     if (self->is_known && self->is_constant) return ZD_DONE;
     int status = zd_point_need(point, ZD_M | ZD_C);
@@ -102,18 +102,18 @@ static int invert_mass(zd_coupling *self, zd_point *point)
 }
 
 /* S of the rows that count, of which C is there. Right sides have another order than what is awaited. */
-static zd_pivots factor_chosen(zd_coupling *self)
+static zd_pivots factor_chosen(zd_schur_blocks *self)
 {
     const zd_selection *chosen = self->chosen;
     memset(self->without, 0, (size_t)self->weighted->blocks->rows);
-    for (int d = chosen->independent; d < self->m; d++) self->without[self->weighted->strips.place[chosen->row[d]]] = 1;
+    for (int d = chosen->independent; d < self->m; d++) self->without[self->weighted->row_groups.place[chosen->row[d]]] = 1;
     self->begun.x = NULL;
     return zd_weighted_factor_without(self->weighted, self->C, self->W, self->without);
 }
 
 /* S and its factors, with the right side that is awaited; what it takes of C is there before, or is what a call with ZD_MOVED has left in the
  * scratch. */
-static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
+static int factor(zd_schur_blocks *self, zd_point *point, zd_pivots *pivots)
 {
     int status = !self->products ? zd_point_need(point, ZD_C) : point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
     if (status) return status;
@@ -129,10 +129,10 @@ static int factor(zd_coupling *self, zd_point *point, zd_pivots *pivots)
 }
 
 /* Whether solutions with these factors are compared with what they have to satisfy. */
-static int is_to_be_compared(zd_coupling *self)
+static int is_to_be_compared(zd_schur_blocks *self)
 {
-    if (!self->is_accurate || (self->share < GOOD && self->least)) return 1;
-    if (!(self->share < GOOD)) return 0;
+    if (!self->is_accurate || (self->share < GOOD_PIVOT && self->least)) return 1;
+    if (!(self->share < GOOD_PIVOT)) return 0;
     if (--self->wait > 0 && self->share > self->compared_share / 2) return 0;
     self->compared_share = self->share;
     self->pause = self->pause < LONGEST_WAIT / 2 ? 2 * self->pause + 1 : LONGEST_WAIT;
@@ -146,7 +146,7 @@ static void *take_without(zd_arena *arena, const void *weighted)
 }
 
 /* What is symbolic, once it is first wanted; whether there is memory. */
-static int has_symbolic(zd_coupling *self, const zd_point *point)
+static int has_symbolic(zd_schur_blocks *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
     if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
@@ -154,7 +154,7 @@ static int has_symbolic(zd_coupling *self, const zd_point *point)
     return self->weighted && (self->without || !self->has_redundant);
 }
 
-int zd_coupling_factor(zd_coupling *self, zd_point *point)
+int zd_schur_blocks_factor(zd_schur_blocks *self, zd_point *point)
 {
     zd_pivots pivots;
     if (!has_symbolic(self, point)) return ZD_NO_MEMORY;
@@ -176,23 +176,23 @@ int zd_coupling_factor(zd_coupling *self, zd_point *point)
 }
 
 /* S_kk = sum_i W_i C_ki^2 is at most |C_k|^2 times the largest of these W_i. */
-static void find_least(zd_coupling *self, const zd_point *point)
+static void find_least(zd_schur_blocks *self, const zd_point *point)
 {
     for (int k = 0; k < self->m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double most = 0;
         for (int j = 0; j < row.count; j++) most = fmax(most, self->W[row.column[j]]);
-        self->least[self->weighted->strips.place[k]] = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * point->rank->start_square[k] * most;
+        self->least[self->weighted->row_groups.place[k]] = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED * point->rank->start_square[k] * most;
     }
     self->is_least_known = 1;
 }
 
-int zd_coupling_find_long_rows(zd_coupling *self, zd_point *point)
+int zd_schur_blocks_find_long_rows(zd_schur_blocks *self, zd_point *point)
 {
     const int may_tell = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
     if (may_tell && point->rank->is_started && !self->is_least_known) {
         find_least(self, point);
-        return zd_coupling_has_long_rows(self, point);
+        return zd_schur_blocks_has_long_rows(self, point);
     }
     return zd_point_need(point, ZD_C) == ZD_DONE && zd_rows_are_long(point);
 }
@@ -200,18 +200,18 @@ int zd_coupling_find_long_rows(zd_coupling *self, zd_point *point)
 /* ---- solution ---- */
 
 /* x <- x - W C^T y, y in the order of S */
-static void subtract_weighted(zd_coupling *self, const double *y, double *x)
+static void subtract_weighted(zd_schur_blocks *self, const double *y, double *x)
 {
-    const zd_strips *strips = &self->weighted->strips;
+    const zd_row_groups *row_groups = &self->weighted->row_groups;
     if (!self->products) {
-        zd_strips_subtract_weighted(strips, self->C, self->W, y, x);
+        zd_row_groups_subtract_weighted(row_groups, self->C, self->W, y, x);
         return;
     }
-    self->products->subtract_weighted(self->data, &self->terms, self->W, y, strips->place, x);
+    self->products->subtract_weighted(self->data, &self->terms, self->W, y, row_groups->place, x);
 }
 
 /* x <- W (force - C^T lambda), where x and y are as begin() leaves them, once zd_blocks_forward() is made of y */
-static void finish(zd_coupling *self, const double *force, double *x)
+static void finish(zd_schur_blocks *self, const double *force, double *x)
 {
     double *y = self->weighted->blocks->x;
     const size_t bytes = (size_t)self->n * sizeof *x;
@@ -228,35 +228,35 @@ static void finish(zd_coupling *self, const double *force, double *x)
 }
 
 /* rest <- rhs - C x; returns how much that is of its terms, where it is more than the rounding of x makes it; else 0. */
-static double find_rest(const zd_coupling *self, const double *rhs, const double *x, double *rest)
+static double find_rest(const zd_schur_blocks *self, const double *rhs, const double *x, double *rest)
 {
     double left = 0;
     for (int k = 0; k < self->m; k++) {
         zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double sum = rhs[k], size = fabs(rhs[k]);
         rest[k] = 0;
-        if (self->chosen && self->without[self->weighted->strips.place[k]]) continue;
+        if (self->chosen && self->without[self->weighted->row_groups.place[k]]) continue;
         for (int j = 0; j < row.count; j++) {
             double term = row.x[j] * x[row.column[j]];
             sum -= term;
             size += fabs(term);
         }
         rest[k] = sum;
-        if (fabs(sum) > ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
+        if (fabs(sum) > RESIDUAL_ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
     }
     return left;
 }
 
-static void add_multipliers(zd_coupling *self, double *lambda)
+static void add_multipliers(zd_schur_blocks *self, double *lambda)
 {
     zd_weighted_scatter(self->weighted, self->weighted->blocks->x, self->rest);
     for (int k = 0; k < self->m; k++) lambda[k] += self->rest[k];
 }
 
-static void refine(zd_coupling *self, const double *rhs, double *x, double *lambda)
+static void refine(zd_schur_blocks *self, const double *rhs, double *x, double *lambda)
 {
     double before = INFINITY, left = find_rest(self, rhs, x, self->rest);
-    if (left > CALM) self->wait = self->pause = 0;
+    if (left > ACCURATE_RESIDUAL) self->wait = self->pause = 0;
     for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
         zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->rest, self->step}));
         finish(self, NULL, self->step);
@@ -267,7 +267,7 @@ static void refine(zd_coupling *self, const double *rhs, double *x, double *lamb
     }
 }
 
-static void solve_all(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
+static void solve_all(zd_schur_blocks *self, const double *force, const double *rhs, double *x, double *lambda)
 {
     const zd_right_side *begun = &self->begun;
     const int has_begun = begun->x == x && begun->rhs == rhs && begun->force == force;
@@ -278,7 +278,7 @@ static void solve_all(zd_coupling *self, const double *force, const double *rhs,
     if (self->is_compared) refine(self, rhs, x, lambda);
 }
 
-void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda)
+void zd_schur_blocks_solve(zd_schur_blocks *self, const double *force, const double *rhs, double *x, double *lambda)
 {
     const zd_selection *chosen = self->chosen;
     if (!chosen) {

@@ -19,7 +19,7 @@ pytestmark = needs_compiler
 def program(tmp_path_factory, core_objects):
     """Program that prints the results of both quick checks; it includes the source file of 'schur'."""
     others = [path for unit, path in core_objects.items() if unit != "formulations/schur"]
-    return linked(tmp_path_factory.mktemp("looks") / "looks", ROOT / "tests" / "native" / "looks.c", others)
+    return linked(tmp_path_factory.mktemp("monitor") / "monitor", ROOT / "tests" / "native" / "rank_monitor.c", others)
 
 
 def path_of_matrices(rng, n, m, pattern=1.0):
@@ -62,9 +62,9 @@ def said(program, draws, *options):
     return np.array([line.split()[1:] for line in lines], dtype=int).reshape(-1, 2, 2)
 
 
-def test_looks_believe_nothing_that_the_full_decision_would_refuse(program):
-    """Neither of them calls rows independent that are not, nor the orientation kept where it has changed: `look.c` knows it in
-    the plain metric, `schur` in that of M^-1. Each case comes often enough to count.
+def test_monitors_accept_nothing_that_the_full_decision_refuses(program):
+    """Dependent rows are never accepted as independent, nor a reversed orientation as the old one: `rank_monitor.c` decides in
+    the plain metric, `schur` in that of M^-1. Each case occurs often enough to count.
     """
     rng, draws = np.random.default_rng(3), []
     for n in [*rng.integers(SMALLEST, LARGEST + 1, 150), LARGEST]:

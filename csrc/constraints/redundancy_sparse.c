@@ -13,7 +13,7 @@
  * A row that follows from others here is redundant if it does so wherever the system goes: then accelerations that the others ask for satisfy
  * it at any velocity, (6), and so at this random one. Else it only does so in this position, a bifurcation.
  */
-#include "redundant.h"
+#include "redundancy_sparse.h"
 
 #include <limits.h>
 #include <math.h>
@@ -238,7 +238,7 @@ static int find(search *self, zd_point *point)
     return note(self, point);
 }
 
-int zd_redundant_find(zd_point *point)
+int zd_redundancy_sparse_find(zd_point *point)
 {
     zd_store store = {NULL};
     search *self = zd_store_take(&store, take, point->system);

@@ -1,5 +1,5 @@
 /* Kernels are for bodies of the plane and of space, one or two of them, and groups of as many rows as common joints have. */
-#include "strips.h"
+#include "row_groups.h"
 
 #include "../linalg/small.h"
 
@@ -20,9 +20,9 @@ static int kernel_of(const zd_layout *layout, int g)
     return 100 * bodies + 10 * n + rows;
 }
 
-static zd_strip strip_of(const zd_layout *layout, int g, int y)
+static zd_row_group row_group_of(const zd_layout *layout, int g, int y)
 {
-    zd_strip strip = {
+    zd_row_group group = {
         .kernel = kernel_of(layout, g),
         .C = layout->C_at[g],
         .rows = layout->row_at[g + 1] - layout->row_at[g],
@@ -31,28 +31,28 @@ static zd_strip strip_of(const zd_layout *layout, int g, int y)
         .y = y,
         .column = layout->column_at[g],
     };
-    for (int i = 0; strip.kernel && i < layout->touched_at[g + 1] - layout->touched_at[g]; i++) {
+    for (int i = 0; group.kernel && i < layout->touched_at[g + 1] - layout->touched_at[g]; i++) {
         const int b = layout->touched[layout->touched_at[g] + i];
-        strip.x[i] = layout->velocity_at[b];
-        strip.W[i] = layout->M_at[b];
+        group.x[i] = layout->velocity_at[b];
+        group.W[i] = layout->M_at[b];
     }
-    return strip;
+    return group;
 }
 
-zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
+zd_row_groups zd_row_groups_take(zd_arena *arena, const zd_layout *layout, const int *y)
 {
     const int rows = layout->row_at[layout->groups];
-    zd_strips self = {
+    zd_row_groups self = {
         .count = layout->groups,
-        .strip = zd_take(arena, (size_t)layout->groups * sizeof(zd_strip)),
+        .group = zd_take(arena, (size_t)layout->groups * sizeof(zd_row_group)),
         .column = layout->column,
         .rows = rows,
         .place = zd_take(arena, (size_t)rows * sizeof(int)),
         .are_pairs = 1,
     };
     for (int g = 0; arena->base && g < layout->groups; g++) {
-        self.strip[g] = strip_of(layout, g, y[g]);
-        self.are_pairs &= self.strip[g].rows == 2;
+        self.group[g] = row_group_of(layout, g, y[g]);
+        self.are_pairs &= self.group[g].rows == 2;
         for (int k = layout->row_at[g]; k < layout->row_at[g + 1]; k++) self.place[k] = y[g] + k - layout->row_at[g];
     }
     return self;
@@ -69,7 +69,7 @@ zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
     CASE(step, bodies, 6, 5, __VA_ARGS__) \
     CASE(step, bodies, 6, 6, __VA_ARGS__)
 #define FOR_SIZES(step, any, ...)         \
-    switch (strip->kernel) {              \
+    switch (group->kernel) {              \
         CASES(step, 1, __VA_ARGS__)      \
         CASES(step, 2, __VA_ARGS__)      \
     default: any;                         \
@@ -77,39 +77,39 @@ zd_strips zd_strips_take(zd_arena *arena, const zd_layout *layout, const int *y)
 
 /* ---- y <- C x - rhs ---- */
 
-ZD_INLINE void times(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *x, const double *rhs,
-                     double *y)
+ZD_INLINE void times(const int bodies, const int n, const int rows, const zd_row_group *group, const double *C, const double *x,
+                     const double *rhs, double *y)
 {
-    const double *x1 = x + strip->x[0], *x2 = x + strip->x[1];
-    C += strip->C;
-    y += strip->y;
+    const double *x1 = x + group->x[0], *x2 = x + group->x[1];
+    C += group->C;
+    y += group->y;
     for (int i = 0; i < rows; i++) {
         const double *row = C + i * bodies * n;
-        double sum = (rhs ? -rhs[strip->row + i] : 0) + zd_dot(n, row, x1);
+        double sum = (rhs ? -rhs[group->row + i] : 0) + zd_dot(n, row, x1);
         if (bodies == 2) sum += zd_dot(n, row + n, x2);
         y[i] = sum;
     }
 }
 
-static void begin(const zd_strip *strip, const double *rhs, double *y)
+static void begin(const zd_row_group *group, const double *rhs, double *y)
 {
-    for (int i = 0; i < strip->rows; i++) y[strip->y + i] = rhs ? -rhs[strip->row + i] : 0;
+    for (int i = 0; i < group->rows; i++) y[group->y + i] = rhs ? -rhs[group->row + i] : 0;
 }
 
-static void times_any(const zd_strip *strip, const int *column, const double *C, const double *x, const double *rhs, double *y)
+static void times_any(const zd_row_group *group, const int *column, const double *C, const double *x, const double *rhs, double *y)
 {
-    begin(strip, rhs, y);
-    column += strip->column;
-    for (int i = 0; i < strip->rows; i++)
-        for (int j = 0; j < strip->width; j++) y[strip->y + i] += C[strip->C + i * strip->width + j] * x[column[j]];
+    begin(group, rhs, y);
+    column += group->column;
+    for (int i = 0; i < group->rows; i++)
+        for (int j = 0; j < group->width; j++) y[group->y + i] += C[group->C + i * group->width + j] * x[column[j]];
 }
 
-void zd_strips_times(const zd_strips *self, const double *C, const double *x, const double *rhs, double *y)
+void zd_row_groups_times(const zd_row_groups *self, const double *C, const double *x, const double *rhs, double *y)
 {
-    const zd_strip *strip = self->strip, *end = strip + self->count;
-    for (; x && rhs && strip < end; strip++) FOR_SIZES(times, times_any(strip, self->column, C, x, rhs, y), strip, C, x, rhs, y)
-    for (; x && strip < end; strip++) FOR_SIZES(times, times_any(strip, self->column, C, x, NULL, y), strip, C, x, NULL, y)
-    for (; strip < end; strip++) begin(strip, rhs, y);
+    const zd_row_group *group = self->group, *end = group + self->count;
+    for (; x && rhs && group < end; group++) FOR_SIZES(times, times_any(group, self->column, C, x, rhs, y), group, C, x, rhs, y)
+    for (; x && group < end; group++) FOR_SIZES(times, times_any(group, self->column, C, x, NULL, y), group, C, x, NULL, y)
+    for (; group < end; group++) begin(group, rhs, y);
 }
 
 /* ---- x <- x - C^T y ---- */
@@ -129,57 +129,57 @@ ZD_INLINE void subtract_from(const int n, const int rows, const double *C, int w
     }
 }
 
-ZD_INLINE void subtract(const int bodies, const int n, const int rows, const zd_strip *strip, const double *C, const double *W, const double *y,
-                        double *x)
+ZD_INLINE void subtract(const int bodies, const int n, const int rows, const zd_row_group *group, const double *C, const double *W,
+                        const double *y, double *x)
 {
-    C += strip->C;
-    y += strip->y;
-    subtract_from(n, rows, C, bodies * n, W ? W + strip->W[0] : NULL, y, x + strip->x[0]);
-    if (bodies == 2) subtract_from(n, rows, C + n, bodies * n, W ? W + strip->W[1] : NULL, y, x + strip->x[1]);
+    C += group->C;
+    y += group->y;
+    subtract_from(n, rows, C, bodies * n, W ? W + group->W[0] : NULL, y, x + group->x[0]);
+    if (bodies == 2) subtract_from(n, rows, C + n, bodies * n, W ? W + group->W[1] : NULL, y, x + group->x[1]);
 }
 
 /* W has an entry for each velocity, where it is all in its diagonal. */
-static void subtract_any(const zd_strip *strip, const int *column, const double *C, const double *W, const double *y, double *x)
+static void subtract_any(const zd_row_group *group, const int *column, const double *C, const double *W, const double *y, double *x)
 {
-    column += strip->column;
-    for (int i = 0; i < strip->rows; i++)
-        for (int j = 0; j < strip->width; j++) x[column[j]] -= C[strip->C + i * strip->width + j] * y[strip->y + i] * (W ? W[column[j]] : 1);
+    column += group->column;
+    for (int i = 0; i < group->rows; i++)
+        for (int j = 0; j < group->width; j++) x[column[j]] -= C[group->C + i * group->width + j] * y[group->y + i] * (W ? W[column[j]] : 1);
 }
 
-void zd_strips_subtract_transposed(const zd_strips *self, const double *C, const double *y, double *x)
+void zd_row_groups_subtract_transposed(const zd_row_groups *self, const double *C, const double *y, double *x)
 {
-    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
-        FOR_SIZES(subtract, subtract_any(strip, self->column, C, NULL, y, x), strip, C, NULL, y, x)
+    for (const zd_row_group *group = self->group; group < self->group + self->count; group++)
+        FOR_SIZES(subtract, subtract_any(group, self->column, C, NULL, y, x), group, C, NULL, y, x)
 }
 
-void zd_strips_subtract_weighted(const zd_strips *self, const double *C, const double *W, const double *y, double *x)
+void zd_row_groups_subtract_weighted(const zd_row_groups *self, const double *C, const double *W, const double *y, double *x)
 {
-    for (const zd_strip *strip = self->strip; strip < self->strip + self->count; strip++)
-        FOR_SIZES(subtract, subtract_any(strip, self->column, C, W, y, x), strip, C, W, y, x)
+    for (const zd_row_group *group = self->group; group < self->group + self->count; group++)
+        FOR_SIZES(subtract, subtract_any(group, self->column, C, W, y, x), group, C, W, y, x)
 }
 
 /* `step` rows at once, which stand together on both sides */
-ZD_INLINE void gather(const int step, const zd_strips *self, const double *a, const double *b, double *y)
+ZD_INLINE void gather(const int step, const zd_row_groups *self, const double *a, const double *b, double *y)
 {
     const int rows = self->rows, *place = self->place;
     for (int k = 0; k < rows; k += step)
         for (int i = 0; i < step; i++) y[place[k] + i] = a ? a[k + i] - b[k + i] : -b[k + i];
 }
 
-ZD_INLINE void scatter(const int step, const zd_strips *self, const double *y, double *rows)
+ZD_INLINE void scatter(const int step, const zd_row_groups *self, const double *y, double *rows)
 {
     const int count = self->rows, *place = self->place;
     for (int k = 0; k < count; k += step) zd_copy(step, y + place[k], rows + k);
 }
 
-void zd_strips_gather(const zd_strips *self, const double *a, const double *b, double *y)
+void zd_row_groups_gather(const zd_row_groups *self, const double *a, const double *b, double *y)
 {
     if (!self->are_pairs) gather(1, self, a, b, y);
     else if (a) gather(2, self, a, b, y);
     else gather(2, self, NULL, b, y);
 }
 
-void zd_strips_scatter(const zd_strips *self, const double *y, double *rows)
+void zd_row_groups_scatter(const zd_row_groups *self, const double *y, double *rows)
 {
     if (self->are_pairs) scatter(2, self, y, rows);
     else scatter(1, self, y, rows);

@@ -4,8 +4,8 @@
 #include "lanes_steps.h"
 
 static const double FORGET = 1.0 / 128, SHARE = 1e-3, UNRESOLVED = 0.03, NOTED = 1e-3, AMPLE_PART = 0x1p-4;    /* resolution.c */
-static const double AMPLE = 0x1p-8;     /* guard.c, as are */
-enum { LOOK_EVERY = 8, LOOK_SELDOM = 64 };  /* steps */
+static const double AMPLE_CHANGE = 0x1p-8;     /* guard.c, as are */
+enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };  /* steps */
 
 /* What coordinate i misses in the step, in its own units */
 ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
@@ -34,23 +34,23 @@ ZD_KERNEL zd_condition ZD_NAMED(counts)(zd_real error, zd_real path, double shar
 }
 
 /* Coordinate i of the lanes that look; returns whether it is far from what is noted. */
-ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition looks, zd_real h, zd_real steps)
+ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition checks, zd_real h, zd_real steps)
 {
     const zd_real forget = ZD_WHERE(steps > 8.0, steps / 8 * FORGET, ZD_SPLAT(FORGET)), unit = REAL(self->inverse_unit)[i];
-    const zd_condition first = *REAL(self->looked_at) == 0.0;
+    const zd_condition first = *REAL(self->last_checked) == 0.0;
     const zd_real led = steps * h / 2 * (REAL(self->y0)[self->nq + i] + REAL(self->y)[self->nq + i]) * unit;
     const zd_real at = self->has_A ? REAL(self->place)[i] + led : REAL(self->y)[i] * unit;
     zd_stored *all_errors = REAL(self->error) + i, *all_paths = REAL(self->path) + i, *lowest = REAL(self->lowest) + i, *highest = REAL(self->highest) + i;
     const zd_real error = *all_errors + (steps * self->weight * ZD_NAMED(size_of)(ZD_NAMED(missed)(self, i, h)) * unit - forget * *all_errors);
     const zd_real path = *all_paths + (ZD_NAMED(size_of)(led) - forget * *all_paths);
     const zd_real low = ZD_WHERE(first | (at < *lowest), at, *lowest), high = ZD_WHERE(first | (at > *highest), at, *highest);
-    *all_errors = ZD_WHERE(looks, error, *all_errors);
-    *all_paths = ZD_WHERE(looks, path, *all_paths);
-    *lowest = ZD_WHERE(looks, low, *lowest);
-    *highest = ZD_WHERE(looks, high, *highest);
-    if (self->has_A) REAL(self->place)[i] = ZD_WHERE(looks, at, REAL(self->place)[i]);
+    *all_errors = ZD_WHERE(checks, error, *all_errors);
+    *all_paths = ZD_WHERE(checks, path, *all_paths);
+    *lowest = ZD_WHERE(checks, low, *lowest);
+    *highest = ZD_WHERE(checks, high, *highest);
+    if (self->has_A) REAL(self->place)[i] = ZD_WHERE(checks, at, REAL(self->place)[i]);
     const zd_real range = high - low, bounded = SMALLER(error, range);
-    const zd_condition counts = looks & ZD_NAMED(counts)(bounded, path, 1);
+    const zd_condition counts = checks & ZD_NAMED(counts)(bounded, path, 1);
     if (ZD_ANY(counts)) ZD_NAMED(note_part)(self, i, counts, bounded);
     return ~ZD_NAMED(counts)(error, path, AMPLE_PART);
 }
@@ -68,36 +68,36 @@ ZD_KERNEL zd_condition ZD_NAMED(is_ample)(const zd_lanes *self, zd_real h)
         const zd_real x = (REAL(self->y)[i] - REAL(self->y0)[i]) * REAL(self->inverse_unit_p)[i];
         moved += x * x;
     }
-    return square * square * changed <= AMPLE * self->limit * moved;
+    return square * square * changed <= AMPLE_CHANGE * self->limit * moved;
 }
 
 /* The next look of the lanes that look. */
-ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition looks, zd_condition ample)
+ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition checks, zd_condition ample)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
-    zd_real pause = ZD_WHERE(HOLDS(self->look_soon) | ~ample, ZD_SPLAT((double)LOOK_EVERY), *REAL(self->look_pause));
+    zd_real pause = ZD_WHERE(HOLDS(self->check_soon) | ~ample, ZD_SPLAT((double)CHECK_EVERY), *REAL(self->check_pause));
     const zd_real part = number / pause, whole = (part - 63.0 / 128 + magic) - magic;      /* a pause is no longer than 64 steps, a power of two */
-    const zd_condition grows = ample & (pause < (double)LOOK_SELDOM) & (part == whole);
+    const zd_condition grows = ample & (pause < (double)CHECK_SELDOM) & (part == whole);
     pause = ZD_WHERE(grows, 2.0 * pause, pause);
     const zd_real pauses = (number / pause - 63.0 / 128 + magic) - magic;
-    const zd_real next = ZD_WHERE(number < (double)LOOK_EVERY, 2.0 * number, (pauses + 1.0) * pause);
-    *REAL(self->look_pause) = ZD_WHERE(looks, pause, *REAL(self->look_pause));
-    *REAL(self->next_look) = ZD_WHERE(looks, next, *REAL(self->next_look));
-    *REAL(self->look_soon) = ZD_WHERE(looks, ZD_SPLAT(0.0), *REAL(self->look_soon));
+    const zd_real next = ZD_WHERE(number < (double)CHECK_EVERY, 2.0 * number, (pauses + 1.0) * pause);
+    *REAL(self->check_pause) = ZD_WHERE(checks, pause, *REAL(self->check_pause));
+    *REAL(self->next_check) = ZD_WHERE(checks, next, *REAL(self->next_check));
+    *REAL(self->check_soon) = ZD_WHERE(checks, ZD_SPLAT(0.0), *REAL(self->check_soon));
 }
 
 /* Lanes that are wanted look at the step that they have just made. */
-ZD_KERNEL void ZD_NAMED(look)(zd_lanes *self)
+ZD_KERNEL void ZD_NAMED(check)(zd_lanes *self)
 {
-    const zd_condition looks = HOLDS(self->is_wanted);
-    zd_condition ample = looks;
+    const zd_condition checks = HOLDS(self->is_wanted);
+    zd_condition ample = checks;
     const zd_real speed = *REAL(self->speed), fastest = *REAL(self->fastest);
-    *REAL(self->fastest) = ZD_WHERE(looks & (speed > fastest), speed, fastest);
+    *REAL(self->fastest) = ZD_WHERE(checks & (speed > fastest), speed, fastest);
     if (self->is_fixed) {
-        const zd_real h = *REAL(self->t) - *REAL(self->t_before), steps = *REAL(self->number) - *REAL(self->looked_at);
-        for (int i = 0; i < self->nv; i++) ample &= ZD_NAMED(add_up)(self, i, looks, h, steps);
+        const zd_real h = *REAL(self->t) - *REAL(self->t_before), steps = *REAL(self->number) - *REAL(self->last_checked);
+        for (int i = 0; i < self->nv; i++) ample &= ZD_NAMED(add_up)(self, i, checks, h, steps);
         ample &= ZD_NAMED(is_ample)(self, h);
-        *REAL(self->looked_at) = ZD_WHERE(looks, *REAL(self->number), *REAL(self->looked_at));
+        *REAL(self->last_checked) = ZD_WHERE(checks, *REAL(self->number), *REAL(self->last_checked));
     }
-    ZD_NAMED(pause)(self, looks, ample);
+    ZD_NAMED(pause)(self, checks, ample);
 }

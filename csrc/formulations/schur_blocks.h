@@ -1,12 +1,12 @@
 /* C M^-1 C^T of (13), where M is block-diagonal and each row of C touches few of its blocks. */
-#ifndef ZD_COUPLING_H
-#define ZD_COUPLING_H
+#ifndef ZD_SCHUR_BLOCKS_H
+#define ZD_SCHUR_BLOCKS_H
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../point/weighted.h"
 
-typedef struct zd_coupling {
+typedef struct zd_schur_blocks {
     int n, m;
     zd_weighted *weighted;  /* S(M^-1); NULL until it is first wanted */
     double *W;              /* stored as M is: M^-1, by its factors */
@@ -34,20 +34,20 @@ typedef struct zd_coupling {
     unsigned char *without;     /* (rows of S,), in its order: those left out */
     const zd_selection *chosen; /* those that count, where it was factored; NULL: all do */
     double *rhs_of_all, *lambda_of_all;     /* (m,) */
-} zd_coupling;
+} zd_schur_blocks;
 
 /* NULL where the system declares no structure, or not all of its many rows are to count. */
-zd_coupling *zd_coupling_take(zd_arena *arena, const zd_system *system);
+zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system);
 /* All rows count at the point, or it is known which do, without limits. ZD_DEPENDENT_ROWS: to the precision of C M^-1 C^T, as it is here. */
-int zd_coupling_factor(zd_coupling *self, zd_point *point);
+int zd_schur_blocks_factor(zd_schur_blocks *self, zd_point *point);
 /* zd_rows_are_long() where it was factored, from the diagonal of S if that tells, else from C. */
-int zd_coupling_find_long_rows(zd_coupling *self, zd_point *point);
-static inline int zd_coupling_has_long_rows(zd_coupling *self, zd_point *point)
+int zd_schur_blocks_find_long_rows(zd_schur_blocks *self, zd_point *point);
+static inline int zd_schur_blocks_has_long_rows(zd_schur_blocks *self, zd_point *point)
 {
     const int is_told = self->is_least_known && point->rank->is_started;
-    return (is_told && zd_all_exceed(self->m, self->weighted->blocks->diagonal, self->least)) || zd_coupling_find_long_rows(self, point);
+    return (is_told && zd_all_exceed(self->m, self->weighted->blocks->diagonal, self->least)) || zd_schur_blocks_find_long_rows(self, point);
 }
 /* As the solve of formulation.h, of the rows that count. */
-void zd_coupling_solve(zd_coupling *self, const double *force, const double *rhs, double *x, double *lambda);
+void zd_schur_blocks_solve(zd_schur_blocks *self, const double *force, const double *rhs, double *x, double *lambda);
 
 #endif

@@ -1,5 +1,5 @@
-#ifndef ZD_BLAME_H
-#define ZD_BLAME_H
+#ifndef ZD_NONFINITE_H
+#define ZD_NONFINITE_H
 
 #include "run.h"
 

@@ -1,15 +1,15 @@
-/* What the core's cheap looks say of one matrix after another, that has read them: for constraints/test_looks.py.
+/* What the core's cheap looks say of one matrix after another, that has read them: for constraints/test_rank_monitor.py.
  *
  * Reads n, m, how many matrices C there are, a matrix M (n, n), and then the matrices (m, n), all as doubles, again and again. Prints for each matrix
- * of constraints/look.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same. That file is included for what
+ * of constraints/rank_monitor.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same. That file is included for what
  * it holds against both numbers of an orthogonalization, and the start is the first matrix. With an argument, rows are of a chain of bodies with
- * three velocities each, as many for each two neighbours, and what look.c says of them packed takes the place of what `schur` says. It fails where
+ * three velocities each, as many for each two neighbours, and what rank_monitor.c says of them packed takes the place of what `schur` says. It fails where
  * rows that both keep may change by different amounts, or there never are such rows.
  */
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "constraints/look.h"
+#include "constraints/rank_monitor.h"
 #include "formulations/schur.c"
 #include "workspace.h"
 
@@ -17,7 +17,7 @@ enum { MOST = 64, BODY = 3, MOST_BODIES = MOST / BODY };
 
 static int read_doubles(double *to, size_t count) { return fread(to, sizeof *to, count, stdin) == count; }
 
-static void *take_look(zd_arena *arena, const void *system) { return zd_look_take(arena, system, NULL, NULL); }
+static void *take_monitor(zd_arena *arena, const void *system) { return zd_rank_monitor_take(arena, system, NULL, NULL); }
 
 static void say(const char *which, int is_doubtful, int was_turned) { printf("%s %d %d\n", which, is_doubtful, was_turned); }
 
@@ -25,11 +25,11 @@ static int follow(const zd_system *system, int count, const double *M, double *C
 {
     const int n = system->nv, m = system->mh;
     zd_arena arena = {NULL, 0};
-    take_look(&arena, system);
+    take_monitor(&arena, system);
     take(&arena, system, NULL);
     arena = (zd_arena){zd_allocate(arena.used), 0};
     if (!arena.base) return 1;
-    zd_look *look = take_look(&arena, system);
+    zd_rank_monitor *monitor = take_monitor(&arena, system);
     schur *solver = take(&arena, system, NULL);
     double start_square[MOST];
     zd_rank rank = {.n = n, .m = m, .mh = m, .most_rows = m, .most_holonomic = m, .start_square = start_square};
@@ -38,7 +38,7 @@ static int follow(const zd_system *system, int count, const double *M, double *C
     for (int i = 0; i < count && read_doubles(C, (size_t)(m * n)); i++) {
         for (int k = 0; k < m && !i; k++) start_square[k] = zd_dot(n, C + k * n, C + k * n);
         rank.was_turned = 0;
-        int is_doubtful = zd_look_is_doubtful(look, &point);
+        int is_doubtful = zd_rank_monitor_is_doubtful(monitor, &point);
         say("look", is_doubtful, rank.was_turned);
         rank.was_turned = 0;
         zd_shares shares = orthogonalize_all(solver, &point, m, C);
@@ -54,7 +54,7 @@ static int follow(const zd_system *system, int count, const double *M, double *C
 typedef struct packed {
     zd_system system;
     const zd_layout *layout;
-    zd_look *look;
+    zd_rank_monitor *monitor;
     double *C;
 } packed;
 
@@ -62,7 +62,7 @@ static void *take_packed(zd_arena *arena, const void *of)
 {
     packed self = *(const packed *)of;
     self.layout = zd_layout_take(arena, &self.system);
-    self.look = zd_look_take(arena, &self.system, NULL, NULL);
+    self.monitor = zd_rank_monitor_take(arena, &self.system, NULL, NULL);
     self.C = zd_take_doubles(arena, (size_t)zd_size_of_C(&self.system));
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -76,21 +76,21 @@ static void pack(const packed *self, const double *C)
 }
 
 /* Whether both keep the same rows: what these may change by comes from orthogonal rows, and from blocks of (C C^T)^-1. */
-static int keep_alike(const zd_look *look, const packed *self)
+static int keep_alike(const zd_rank_monitor *monitor, const packed *self)
 {
-    if (!look->is_known || !self->look->is_known) return 0;
+    if (!monitor->is_known || !self->monitor->is_known) return 0;
     for (int k = 0; k < self->system.mh; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         for (int j = 0; j < row.count; j++)
-            if (self->look->C[row.x - self->C + j] != look->C[k * self->system.nv + zd_column(&row, j)]) return 0;
+            if (self->monitor->C[row.x - self->C + j] != monitor->C[k * self->system.nv + zd_column(&row, j)]) return 0;
     }
     return 1;
 }
 
-static int weights_differ(const zd_look *look, const packed *self)
+static int weights_differ(const zd_rank_monitor *monitor, const packed *self)
 {
     for (int k = 0; k < self->system.mh; k++)
-        if (!(fabs(self->look->weight[k] - look->weight[k]) <= 1e-9 * look->weight[k])) return 1;
+        if (!(fabs(self->monitor->weight[k] - monitor->weight[k]) <= 1e-9 * monitor->weight[k])) return 1;
     return 0;
 }
 
@@ -112,20 +112,20 @@ static int follow_packed(const zd_system *system, int count, double *C)
     zd_point dense = {.system = system, .rank = &rank, .terms = {.C = C}}, point = dense;
     point.system = &self->system, point.layout = self->layout, point.terms.C = self->C;
     zd_store of_dense = {NULL};
-    zd_look *look = zd_store_take(&of_dense, take_look, system);
-    if (!look) return 1;
+    zd_rank_monitor *monitor = zd_store_take(&of_dense, take_monitor, system);
+    if (!monitor) return 1;
     for (int i = 0; i < count && read_doubles(C, (size_t)(system->mh * system->nv)); i++) {
         for (int k = 0; k < system->mh && !i; k++) start_square[k] = zd_dot(system->nv, C + k * system->nv, C + k * system->nv);
         pack(self, C);
         rank.was_turned = 0;
-        int is_doubtful = zd_look_is_doubtful(look, &dense);
+        int is_doubtful = zd_rank_monitor_is_doubtful(monitor, &dense);
         say("look", is_doubtful, rank.was_turned);
         rank.was_turned = 0;
-        is_doubtful = zd_look_is_doubtful(self->look, &point);
+        is_doubtful = zd_rank_monitor_is_doubtful(self->monitor, &point);
         say("packed", is_doubtful, rank.was_turned);
-        if (!keep_alike(look, self)) continue;
+        if (!keep_alike(monitor, self)) continue;
         compared++;
-        if (weights_differ(look, self)) return 1;
+        if (weights_differ(monitor, self)) return 1;
     }
     zd_store_release(&store);
     zd_store_release(&of_dense);
