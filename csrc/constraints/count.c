@@ -1,6 +1,6 @@
-/* What a structure costs: the multiplications in S(W) = C W C^T of (13) and (27), in its factors, and in a solve with them. They are counted
- * from the order that a run eliminates in, with fill, so that mechanisms can take the coordinates that cost less. Those in blocks that have a
- * kernel of their size are counted apart from the others, which take several times as long.
+/* Cost of a structure: multiplications to form S(W) = C W C^T of (13) and (27), to factor it, and to solve with the factors. They are
+ * counted in the elimination order of a run, with fill, so that mechanisms can choose the cheapest coordinates. Blocks with a kernel of
+ * their size are counted separately from the others, which take several times as long.
  */
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "../zerodrift.h"
 #include "rank.h"
 
-/* A W B^T: the blocks of two groups and a body. */
+/* Products A W B^T for each pair of groups that share a body. */
 static void count_products(const zd_weighted *self, zd_structure_work *work)
 {
     for (int i = 0; i < self->pairs; i++) {
@@ -19,7 +19,7 @@ static void count_products(const zd_weighted *self, zd_structure_work *work)
     }
 }
 
-/* Of a column with s rows in its pivot and b below that: L, and what it takes from what follows; and its part of a solve. */
+/* Multiplications to eliminate a block column with s rows in its pivot and b rows below. */
 static double count_column(double s, double b) { return s * s * s / 6 + s * s * b + s * b * b / 2; }
 
 static void count_factors(const zd_blocks *blocks, zd_structure_work *work)
@@ -36,7 +36,7 @@ static void count_factors(const zd_blocks *blocks, zd_structure_work *work)
     }
 }
 
-typedef struct place {      /* M, then its inverse, and C at one point, with room for rows */
+typedef struct place {      /* M, then its inverse, and C at one position, with work space (m,) */
     zd_terms terms;
     double *v, *least, *most;
 } place;
@@ -51,7 +51,7 @@ static place take_place(zd_arena *arena, const zd_system *system)
     return it;
 }
 
-/* How much of the digits there is left. */
+/* Smallest relative pivot of S at p: a measure of the digits lost. */
 static int judge(zd_weighted *weighted, const zd_system *system, const double *p, place *at, zd_structure_work *work)
 {
     double *W = at->terms.M;

@@ -1,23 +1,23 @@
-/* At a bifurcation: rows that are lost there are replaced by their limits along the motion.
+/* Limits, along the motion, of the constraints that become dependent at a bifurcation.
  *
- * Where the row C_d comes to follow from others, C_d = T C_r, its own part w = C_d - T C_r vanishes, but not its rate along the
- * motion: the velocity is that of a branch, and the nearer the motion comes along this branch, the more w points like wdot. With
- * phi = Phi_d - T Phi_r, T as it is here, all derivatives of phi along the motion vanish, as everywhere; since w does, too, the
- * second holds without an acceleration, and the third without a jerk:
+ * If the row C_d becomes linearly dependent, C_d = T C_r, its remainder w = C_d - T C_r vanishes, but not its rate along the motion: the
+ * velocity is that of a branch, and the nearer the motion comes along this branch, the better w aligns with wdot. With phi = Phi_d - T
+ * Phi_r, T constant, all derivatives of phi along the motion vanish, as everywhere; since w does, too, the second derivative contains no
+ * acceleration, and the third no jerk:
  *
  *     c(v) := wdot v + ... = T xi_r - xi_d = 0,        so v + dv is on the branch if  wdot dv = -c(v) / 2
  *     3 wdot vdot = d/dt (xi_d - T xi_r)  at this v
  *
- * The factors 1/2 and 3 come from the derivatives of a function of p and t, so that only holonomic rows have such limits. With wdot in
- * place of w there are as many independent rows as elsewhere, and every formulation works as it does elsewhere: it finds the
- * accelerations that the motion has before and after. Only lambda_d has no limit, as it grows beyond bounds, and is left out.
+ * The factors 1/2 and 3 come from the derivatives of a function of p and t, so that only holonomic constraints have such limits. With
+ * wdot in place of w there are as many independent constraints as elsewhere, and every formulation works as it does elsewhere: it finds
+ * the accelerations that the motion has before and after. Only lambda_d has no limit, as it grows beyond bounds, and is left out.
  *
  * At a distance s from the bifurcation, along the path, w differs from s wdot by terms of order s^2. A rounding error e of Phi moves p
- * by e / s and turns the velocity by e / s^2, so that both can be found with w almost down to the bifurcation. Accelerations err by
- * e / s^3 with w, and by s with its limit; so the limit is better within the fourth root of the rounding. If w does not point like wdot
+ * by e / s and turns the velocity by e / s^2, so that both can be found with w almost down to the bifurcation. Accelerations err by e /
+ * s^3 with w, and by s with its limit; so the limit is better within the fourth root of the rounding. If w is not aligned with wdot
  * there, the mechanism only comes near a bifurcation.
  *
- * Rates are found by differences over a short path, and are taken for each natural unit of path rather than of time.
+ * Rates are found by differences over a short path, and are taken per unit of path (characteristic scales) rather than of time.
  */
 #include "limits.h"
 
@@ -29,13 +29,13 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* of the iteration for the acceleration from rest */
+enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* iteration for the acceleration from rest */
 
-static const double PATH = 0x1p-17;     /* of differences, in natural units: their errors, PATH^2 and rounding / PATH, are alike */
-static const double MIN_RATE = 0x1p-22;    /* of a row's size, for each unit of path: a smaller rate may be rounding */
-static const double NEAREST = 0x1p-18;  /* in natural units: nearer to the bifurcation c(v) is more accurate than w v */
-static const double SETTLED = 0x1p-36;  /* of an acceleration: one that changes by no more is that of a branch */
-static const double FALLING = 0.99;     /* of the smallest change so far: a change that is larger is a stall */
+static const double PATH = 0x1p-17;     /* path of differences, characteristic scales: their errors, PATH^2 and rounding / PATH, are equal */
+static const double MIN_RATE = 0x1p-22;    /* rate of a row per unit of path, relative to its size: a smaller one may be rounding */
+static const double NEAREST = 0x1p-18;  /* distance, characteristic scales: nearer to the bifurcation c(v) is more accurate than w v */
+static const double SETTLED = 0x1p-36;  /* relative change of an acceleration with which it has converged to that of a branch */
+static const double FALLING = 0.99;     /* ratio to the smallest change so far: a larger change is a stall */
 static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
 
 static void *take(zd_arena *arena, const void *of)
@@ -64,7 +64,7 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Adds to Cdot and xidot `weight` times what C and xi are `s` further along the motion. */
+/* Adds `weight` times C and xi, evaluated `s` further along the motion, to Cdot and xidot. */
 static int add_ahead(zd_point *point, double s, double weight)
 {
     zd_limits *self = point->rank->selection->limits;
@@ -78,7 +78,7 @@ static int add_ahead(zd_point *point, double s, double weight)
     return ZD_DONE;
 }
 
-/* Cdot, and the part of xidot that no acceleration makes; both for each unit of path. The point comes back to where it is. */
+/* Cdot and the acceleration-free part of xidot, per unit of path. The point is restored. */
 static int differentiate(zd_point *point)
 {
     zd_limits *self = point->rank->selection->limits;
@@ -103,13 +103,14 @@ static double along_others(const zd_selection *self, const double *share, const 
     return sum;
 }
 
-/* y_d - T y_r, of something that there is for every row */
+/* y_d - T y_r, for an array y with one entry per constraint. */
 static double own_part(const zd_selection *self, int row, const double *y, int stride)
 {
     return y[row * stride] - along_others(self, self->limits->T + row * self->m, y, stride);
 }
 
-/* x <- what x, of this row and in natural units, has besides those that count; share (independent,) <- theirs in the rest of it */
+/* x <- remainder of x, a gradient of this constraint in characteristic scales, after the independent rows are projected out; share
+ * (independent,) <- its coefficients in these. */
 static void split(const zd_point *point, int row, double *x, double *share)
 {
     const zd_selection *self = point->rank->selection;
@@ -125,7 +126,7 @@ static void split(const zd_point *point, int row, double *x, double *share)
     for (int a = 0; a < rank; a++) share[a] *= point->inverse_size[self->row[a]] * point->size[row];
 }
 
-/* w = C_d - T C_r and wdot - K C_r of all other holonomic rows, the latter also behind the basis */
+/* Sets w = C_d - T C_r and wdot - K C_r of all dependent holonomic constraints, the latter also in Q after the basis. */
 static void set_rates(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -149,7 +150,7 @@ static void set_rates(const zd_point *point)
     }
 }
 
-/* Brings the row whose rate has most that the chosen ones do not have to the front of those not chosen; whether that is enough. */
+/* Moves the constraint whose rate has the largest residual to the front of the dependent ones; returns 0 if it is below MIN_RATE. */
 static int choose_next(zd_selection *self, int chosen)
 {
     int n = self->n, best = -1;
@@ -172,8 +173,7 @@ static int choose_next(zd_selection *self, int chosen)
     return 1;
 }
 
-/* How far along the path the bifurcation is away, for this lost row, from w = s wdot; infinite where w does not point like wdot, though
- * it is long enough to tell. */
+/* Path length to the bifurcation of this lost constraint, from w = s wdot; infinite if w is resolved but not aligned with wdot. */
 static double distance(const zd_selection *self, int row)
 {
     const double *w = self->limits->w + row * self->n, *wdot = self->limits->wdot + row * self->n;
@@ -196,7 +196,7 @@ static double of_limit(const zd_point *point, int row, const double *x)
     return sum;
 }
 
-/* Puts the limits among the rows that count, behind the holonomic ones. */
+/* Inserts the limits into C, after its holonomic rows. */
 static void insert(zd_point *point, int wanted)
 {
     zd_selection *self = point->rank->selection;
@@ -212,7 +212,7 @@ static void insert(zd_point *point, int wanted)
     point->holonomic += wanted;
 }
 
-/* w and wdot along pdot, and so many rows chosen whose rates are independent; whether there are. */
+/* Finds w and wdot along pdot and selects `wanted` constraints with independent rates; *found = 0 if there are fewer. */
 static int find_rates(zd_point *point, int wanted, int *found)
 {
     zd_selection *self = point->rank->selection;
@@ -230,8 +230,8 @@ static int find_rates(zd_point *point, int wanted, int *found)
 
 /* ---- at rest ---- */
 
-/* x with M x + C^T lambda = force, C x = rhs, of the rows that count and `wanted` limits; returns whether there is one. In natural
- * units, and M in units of its largest entry. */
+/* Solves M x + C^T lambda = force, C x = rhs, with the independent constraints and `wanted` limits, in characteristic scales, M relative
+ * to its largest entry. Returns 0 if the matrix is singular. */
 static int solve(zd_point *point, int wanted, const double *force, const double *rhs, double *x)
 {
     zd_selection *self = point->rank->selection;
@@ -260,7 +260,7 @@ static int solve(zd_point *point, int wanted, const double *force, const double 
     return 1;
 }
 
-/* c of the limits with the acceleration e in place of a velocity, for each unit of path */
+/* c of the limits at the acceleration e in place of a velocity, per unit of path. */
 static int find_curvature(zd_point *point, int wanted, const double *e, double *c)
 {
     zd_selection *self = point->rank->selection;
@@ -274,9 +274,9 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
     return status;
 }
 
-/* Accelerations are to a motion from rest what velocities are to others: c(vdot) = 0. Of those that are on a branch so, the one is taken
- * that differs least, in the metric of M, from that without constraints (Gauss). By iteration: the least of all that satisfy c to first
- * order, and again from there. */
+/* Acceleration from rest. It takes the role that the velocity has otherwise: c(vdot) = 0. Of those that lie on a branch, the one is
+ * taken that differs least, in the metric of M, from the unconstrained one (Gauss). Iteration: minimize subject to c linearized at the
+ * last iterate. */
 static int find_from_rest(zd_point *point, int wanted, int *found)
 {
     zd_selection *self = point->rank->selection;
@@ -308,7 +308,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
     return ZD_DONE;
 }
 
-/* ---- what takes the place of the rows ---- */
+/* ---- right-hand sides of the limits ---- */
 
 int zd_limits_find(zd_point *point)
 {
@@ -331,14 +331,14 @@ int zd_limits_find(zd_point *point)
     return ZD_DONE;
 }
 
-/* (wdot - K C_r) x, from wdot x and from C_r x = rhs */
+/* (wdot - K C_r) x, from wdot x and C_r x = rhs. */
 static double besides_others(const zd_selection *self, int row, double product, const double *rhs)
 {
     return product - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
 }
 
-/* The violation, of Phi or Psi, of the limit that stands for a row: that of the row, divided by its distance; nearest to the bifurcation
- * from c(v). */
+/* Residual of the limit that replaces a constraint, in Phi or Psi: the constraint's own, divided by its distance; at the bifurcation
+ * itself from c(v). */
 static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
 {
     const zd_selection *self = point->rank->selection;
@@ -347,7 +347,7 @@ static double violation(const zd_point *point, int j, int row, enum zd_limit wha
     return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
 }
 
-/* The limit times the velocity that satisfies it: the point's velocity, less its violation. rhs has -Phi_t. */
+/* Product of the limit with the velocity that satisfies it: the point's velocity, less its residual. rhs holds -Phi_t. */
 static double enforced(const zd_point *point, int j, int row, const double *limit, const double *rhs)
 {
     double *Psi = point->rank->selection->lambda;

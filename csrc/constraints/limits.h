@@ -1,28 +1,27 @@
-/* At a bifurcation: rows that are lost there are replaced by their limits along the motion. */
+/* Limits of constraints at a bifurcation, along the motion. */
 #ifndef ZD_LIMITS_H
 #define ZD_LIMITS_H
 
 #include "rank.h"
 
 struct zd_limits {
-    double *distance;   /* (lost,): of path, in natural units, from the bifurcation */
-    double speed;       /* in natural units, by which rates are taken */
-    double t, *p, *v;   /* (nq,), (n,): where that is */
+    double *distance;   /* (lost,): path length to the bifurcation, characteristic scales */
+    double speed;       /* 1/s: path length per time, the unit of the rates below */
+    double t, *p, *v;   /* time, position (nq,) and velocity (n,) at which the rates were taken */
     double *pdot, *moved;       /* (nq,), (nq,) */
     double *Cdot, *xidot;       /* (m, n), (m,) */
-    double *T, *K_rate;         /* (m, independent): of C_d and of wdot, what they have along the rows that count */
-    double *w, *wdot;           /* (m, n): and what besides, in natural units */
-    int is_at_rest;             /* whether the point is */
-    double *e, *x, *force;      /* (n,) each: from rest, its acceleration, the next one, f - d */
+    double *T, *K_rate;         /* (m, independent): components of C_d and wdot along the independent constraints */
+    double *w, *wdot;           /* (m, n): their remainders, in characteristic scales */
+    int is_at_rest;             /* 1: the point is at rest */
+    double *e, *x, *force;      /* (n,) each: acceleration from rest, its next iterate, f - d */
     double *K, *y;              /* (n + m, n + m), (n + m,) */
     int *order;                 /* (n + m,) */
 };
 
-/* Puts limits for the rows that are lost at the point among those that count, if there are such limits. Their memory is taken when they are
- * first wanted. */
+/* Replaces the constraints lost at the point by their limits, if these exist. Memory is allocated at the first call. */
 int zd_limits_find(zd_point *point);
 
-/* What stands for the lost rows in a right side (m,) for all rows: of xi, of Phi, of Psi, or of -Phi_t. */
+/* Right-hand side (m,) of all constraints, in which lost ones get the entry of their limit: xi, Phi, Psi or -Phi_t. */
 enum zd_limit { ZD_LIMIT_XI, ZD_LIMIT_PHI, ZD_LIMIT_PSI, ZD_LIMIT_ENFORCED };
 int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs);
 static inline int zd_limits_replace(zd_point *point, enum zd_limit what, double *rhs)

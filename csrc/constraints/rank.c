@@ -1,18 +1,18 @@
-/* The rank of C from its numbers, and what becomes of rows that follow from others.
+/* Numerical rank of C, and the multipliers of redundant constraints.
  *
- * Rows are orthogonalized, always the one next of which most is left, in two metrics: the plain one, which masses far apart do
- * not disturb, and that of M^-1, which units do not. The larger rank of the two counts. With C_r the rows chosen, and those not
- * chosen C_d = T C_r, the motion is that of the constraints C_r alone, and
+ * Rows are orthogonalized, the row with the largest residual next, in two metrics: the plain one, which is insensitive to masses of
+ * different magnitude, and that of M^-1, which is insensitive to units. The larger of the two ranks is taken. With C_r the selected
+ * rows, and the others C_d = T C_r, the motion is that of the constraints C_r alone, and
  *
  *     C^T lambda = C_r^T lambda_r
  *
- * leaves the multipliers undetermined. The smallest are taken, sum s_k^2 lambda_k^2 = min, with s_k^2 = C_k M^-1 C_k^T: what is
- * smallest are the accelerations that each constraint's own reaction would cause, which no unit of a row or of a coordinate
- * changes. With W = diag(1 / s_k^2) and B = [I; T],
+ * leaves the multipliers undetermined. The smallest are taken, sum s_k^2 lambda_k^2 = min, with s_k^2 = C_k M^-1 C_k^T: this minimizes
+ * the accelerations that each constraint's own reaction would cause, whatever the units of constraints and coordinates. With W = diag(1
+ * / s_k^2) and B = [I; T],
  *
  *     lambda = W B (B^T W B)^-1 lambda_r.
  *
- * Where M is singular, or all but singular, s_k is the plain length of the row.
+ * If M is singular, or nearly so, s_k is the plain norm of the row.
  */
 #include "rank.h"
 
@@ -25,7 +25,7 @@
 #include "../point/matrices.h"
 #include "../point/row_name.h"
 
-enum { MOST_NAMED = 8 };       /* rows in a sentence */
+enum { MOST_NAMED = 8 };       /* constraints named in a message */
 
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
 {
@@ -80,7 +80,7 @@ int zd_rank_need_selection(zd_rank *self, const zd_system *system)
     return ZD_DONE;
 }
 
-/* ---- the choice of rows ---- */
+/* ---- selection of independent constraints ---- */
 
 /* Q <- C, or C L^-T D^-1/2: then plain products are those of M^-1. */
 static void set_rows(const zd_point *point, const double *L)
@@ -100,8 +100,8 @@ static void set_rows(const zd_point *point, const double *L)
     }
 }
 
-/* The row among these of which the largest share is left, weighted by its strength, or -1. A later row is only preferred to an earlier one if
- * twice as much of it is left, so that rounding does not change the choice from point to point. */
+/* Index of the row in [begin, end) with the largest relative residual, weighted by its strength, or -1. A later row is preferred to an
+ * earlier one only if its value is four times as large, so that rounding does not change the selection from point to point. */
 static int choose_row(const zd_selection *self, int begin, int end)
 {
     int best = -1;
@@ -156,7 +156,7 @@ static void set_weights(zd_selection *self)
     for (int k = 0; k < self->m; k++) self->weight[k] = self->square_left[k] != 0 && self->square[k] > 0 ? 1 / self->square[k] : 0;
 }
 
-/* Whether M^-1 can serve as a metric: with a smaller pivot, rounding in that metric would be as large as the tolerance. */
+/* True if M^-1 can serve as a metric: with a smaller pivot, rounding in that metric would be as large as the tolerance. */
 static int has_metric(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -167,7 +167,7 @@ static int has_metric(const zd_point *point)
     return 1;
 }
 
-/* The larger of the ranks in the two metrics. G has the products of all rows with those chosen. */
+/* Maximum of the ranks in the two metrics. G holds the products of all rows with the selected ones. */
 static int rank_of(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -182,7 +182,7 @@ static int rank_of(const zd_point *point)
     return other < rank ? orthogonalize(point, NULL) : other;
 }
 
-/* The same of rows that are chosen already. */
+/* Orthogonalizes the rows that are selected already. */
 static void orthogonalize_chosen(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -190,7 +190,7 @@ static void orthogonalize_chosen(const zd_point *point)
     for (int a = 0; a < self->independent; a++) take_out(self, self->row[a], a);
 }
 
-/* T, in the rows of G that do not count: T G_r = G_d, where G_r is triangular in the order of choice. */
+/* Sets T in the dependent rows of G: T G_r = G_d, where G_r is triangular in the order of selection. */
 static void express_others(zd_selection *self, int rank)
 {
     int m = self->m;
@@ -226,7 +226,7 @@ void zd_rank_use_all(zd_point *point)
     point->rank->lost = 0;
 }
 
-/* T of a choice that was kept. A later step does not depend on whether this was asked for. */
+/* Sets T of a selection that was kept. Flags of the step are restored, so that later steps are independent of this call. */
 static void express_kept(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -237,7 +237,7 @@ static void express_kept(const zd_point *point)
     self->rank->was_ill_conditioned = was_ill_conditioned;
 }
 
-/* The same, and K */
+/* Sets T and K of a selection that was kept. */
 static void express(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
@@ -293,7 +293,7 @@ void zd_rank_use(zd_point *point, const int *row, int independent)
     use_chosen(point, independent);
 }
 
-/* ---- in natural units ---- */
+/* ---- characteristic scales ---- */
 
 void zd_rank_scale(const zd_point *point, int row, double *x)
 {
@@ -321,7 +321,7 @@ void zd_rank_set_basis(const zd_point *point)
     }
 }
 
-/* ---- multipliers of all rows ---- */
+/* ---- multipliers of all constraints ---- */
 
 void zd_rank_share_out(const zd_point *point, double *lambda)
 {
@@ -344,7 +344,7 @@ int zd_rank_redundant(const zd_rank *self, int *rows)
     return count;
 }
 
-/* Rows that do not count, the next from this one on among `all`: those that were not chosen, or were left out at the start. */
+/* Index of the next dependent constraint: not selected, or left out at the start. */
 static int next_of_others(const zd_rank *self, int k)
 {
     if (self->selection) return k < self->m ? self->selection->row[k] : -1;

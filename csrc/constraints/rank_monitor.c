@@ -1,16 +1,16 @@
-/* Whether all rows count, from how little they have changed since it was last looked at closely.
+/* Rank monitor: independence of the constraints from the change of C since the last full check.
  *
- * The closer look orthogonalizes the rows: C0 = R Q. As long as |R^-1 (C - C0)| < 1, C = R (Q + R^-1 (C - C0)) has as many independent
- * rows; and with w_k the length of column k of R^-1, which is 1 / what is left of row k once all others are taken out of it,
+ * The full check orthogonalizes the rows: C0 = R Q. As long as |R^-1 (C - C0)| < 1, C = R (Q + R^-1 (C - C0)) has as many independent
+ * rows; and with w_k the norm of column k of R^-1, which is 1 / residual norm of row k after all others are projected out,
  *
  *     |R^-1 (C - C0)|  <=  sum_k w_k |C_k - C0_k|.
  *
- * Below NEAR, shares are at most so much smaller than they were, and any two such C have rows that span spaces less than a right angle apart,
- * as 2 NEAR + NEAR^2 < 1. So the sum also tells that no bifurcation lies between them, see safeguards/crossing.c. C0 is kept in single
- * precision, whose rounding is nothing beside that. Where the structure is declared, there is a smaller bound, by bodies.
+ * Below NEAR, relative residuals are bounded below, and any two such C have row spaces less than a right angle apart, as 2 NEAR + NEAR^2
+ * < 1. So the sum also shows that no bifurcation lies between them, see safeguards/crossing.c. C0 is stored in single precision, whose
+ * rounding is negligible here. For a declared structure there is a smaller bound, by bodies.
  *
- * Where some rows are redundant, C is what was chosen among them: as long as little of that has changed, there are as many independent rows,
- * and the choice is as good as it was. Only beyond is it made anew, see rows.c.
+ * If some constraints are redundant, C is the selection among them: as long as it has changed little, it has the same rank, and the
+ * selection remains valid. Beyond, it is made anew, see rows.c.
  */
 #include "rank_monitor.h"
 
@@ -20,15 +20,15 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-static const double NEAR = 0.4;             /* of the sum: nothing needs to be looked at */
-static const double FAR = 0.9;              /* of the sum: beyond, rows may have come to lie reversed */
+static const double NEAR = 0.4;             /* change (the sum above): smaller changes need no full check */
+static const double FAR = 0.9;              /* change: beyond, the row space may have reversed */
 static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
-static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* the share, squared, from which rows may change by NEAR */
+static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* squared relative residual for which rows may change by NEAR */
 
 zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
-    const size_t dense = system->structure ? 0 : n;     /* where structure is declared, products of rows take their place */
+    const size_t dense = system->structure ? 0 : n;     /* for a declared structure, products of rows are used instead */
     zd_rank_monitor self = {
         .m = (int)m,
         .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
@@ -48,7 +48,7 @@ zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, 
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Rows that are chosen are dense, whatever the system declares. */
+/* The selected rows are dense, whatever the system declares. */
 zd_rank_monitor *zd_rank_monitor_take_selection(zd_arena *arena, const zd_system *system)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
@@ -72,9 +72,9 @@ zd_rank_monitor *zd_rank_monitor_take_selection(zd_arena *arena, const zd_system
 
 static int row_of(const zd_rank_monitor *self, int k) { return self->row ? self->row[k] : k; }
 
-/* With C = R Q where rows were kept, and those columns of C - C0 that are of body b: |R^-1 (C - C0)|^2 is at most the sum over all b of
- * (sum_k w_k |C_kb - C0_kb|)^2, over the rows that touch it; and that without roots at most their number times the sum of squares. So each
- * entry has a share of its own, and none asks which body it is of. Infinite where nothing is known. */
+/* Bound of |R^-1 (C - C0)|^2 by bodies: with C_b the columns of body b, at most the sum over b of (sum_k w_k |C_kb - C0_kb|)^2 over the
+ * rows that touch b; and that, without square roots, at most their number times the sum of squares. So each entry has a weight of its
+ * own. Infinite if no rows are stored. */
 static double bound_by_bodies(const zd_rank_monitor *self, const zd_point *point)
 {
     const double *C = point->terms.C;
@@ -87,7 +87,7 @@ static double bound_by_bodies(const zd_rank_monitor *self, const zd_point *point
     return self->is_known ? sums[0] + sums[1] + sums[2] + sums[3] : INFINITY;
 }
 
-/* Of the entries of a body in rows that touch it */
+/* Weights of the entries of body b in the rows that touch it. */
 static void find_shares(zd_rank_monitor *self, const zd_layout *layout, int b)
 {
     const int n = layout->velocity_at[b + 1] - layout->velocity_at[b];
@@ -102,7 +102,7 @@ static void find_shares(zd_rank_monitor *self, const zd_layout *layout, int b)
     }
 }
 
-/* The sum, or infinity where nothing is known. */
+/* Change of C (the sum above); infinite if no rows are stored. */
 static double find_change(const zd_rank_monitor *self, const zd_point *point)
 {
     double sum = 0;
@@ -121,7 +121,7 @@ static double find_change(const zd_rank_monitor *self, const zd_point *point)
     return self->is_known ? sum : INFINITY;
 }
 
-/* weight <- lengths of the columns of R^-1, from G, in place of which comes its inverse */
+/* weight <- norms of the columns of R^-1, from G, which is overwritten with its inverse. */
 static void find_weights(zd_rank_monitor *self)
 {
     const int m = self->close.m;
@@ -140,7 +140,7 @@ static void find_weights(zd_rank_monitor *self)
     for (int k = 0; k < self->m; k++) self->weight[k] = sqrt(self->weight[k]);
 }
 
-/* The same from blocks: that length is what the diagonal of (C C^T)^-1 has, in its inverse square. */
+/* weight by blocks: square roots of the diagonal of (C C^T)^-1. */
 static void find_weights_by_blocks(zd_rank_monitor *self, const zd_layout *layout)
 {
     const zd_blocks *blocks = self->weighted->blocks;
@@ -152,8 +152,8 @@ static void find_weights_by_blocks(zd_rank_monitor *self, const zd_layout *layou
     }
 }
 
-/* Keeps rows whose shares are known, if these are ample. */
-static void keep(zd_rank_monitor *self, const zd_point *point)
+/* Stores the rows of a full check, if their relative residuals are large enough. */
+static void store(zd_rank_monitor *self, const zd_point *point)
 {
     const int m = self->close.m, stored = zd_size_of_C(point->system);
     const double *C = point->terms.C, *start_square = point->rank->start_square;
@@ -184,9 +184,9 @@ static int need_blocks(zd_rank_monitor *self, const zd_point *point)
     return self->inverse != NULL;
 }
 
-/* The same from products, where the structure is declared: the pivots of C C^T are the squares of what is left of each row once those that
- * are eliminated before are taken out. Rounding leaves them off by 2^-52 of the row's square times a small number. A body that is taken as
- * several enlarges rows on the diagonal, which makes shares smaller. Without memory, nothing is believed. */
+/* Full check by products, for a declared structure: the pivots of C C^T are the squared residual norms of the rows after those
+ * eliminated before are projected out, to 2^-52 of the squared row times a small number. A body that is split enlarges the rows, which
+ * makes relative residuals smaller. Without memory, all rows are flagged. */
 static zd_shares factor_products(zd_rank_monitor *self, const zd_point *point)
 {
     if (!need_blocks(self, point)) return (zd_shares){0, 1, 0};
@@ -217,7 +217,7 @@ int zd_rank_monitor_is_doubtful(zd_rank_monitor *self, zd_point *point)
     }
     rank->was_ill_conditioned |= is_ill;
     if (is_short || shares.rows < self->close.m) return 1;
-    if (!is_ill) keep(self, point);
+    if (!is_ill) store(self, point);
     return 0;
 }
 
@@ -228,7 +228,7 @@ void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point)
     self->close.m = selection->independent;
     self->close.C = point->C;
     memcpy(self->row, selection->row, (size_t)self->m * sizeof *self->row);
-    if (zd_orthogonalize(&self->close, DOUBTFUL).rows == self->close.m) keep(self, point);
+    if (zd_orthogonalize(&self->close, DOUBTFUL).rows == self->close.m) store(self, point);
 }
 
 int zd_rank_monitor_is_unchanged(const zd_rank_monitor *self, const zd_point *point)

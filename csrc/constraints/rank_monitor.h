@@ -1,4 +1,4 @@
-/* Whether all rows count, from how little they have changed since it was last looked at closely. */
+/* Rank monitor: shows that the constraints are still independent, from the change of C since the last full check. */
 #ifndef ZD_RANK_MONITOR_H
 #define ZD_RANK_MONITOR_H
 
@@ -7,30 +7,30 @@
 #include "rank.h"
 
 struct zd_rank_monitor {
-    int m;                  /* rows of C; of a choice, `close` has fewer */
-    int *row;               /* (m,): that choice and behind it the others; NULL: all rows are looked at */
-    int is_known;           /* whether rows are kept, far enough from dependent ones */
-    float *C;               /* (m, n): the rows then */
-    double *weight;         /* (m,): 1 / the length that was left of each once all others were taken out; 0 of those not looked at */
-    double *share;          /* as stored: of each entry's change, squared, in the bound by bodies; NULL where no structure is declared */
-    zd_orthogonal close;    /* the closer monitor, in memory that may serve others between */
-    zd_weighted *weighted;  /* in its place where the structure is declared, C C^T in blocks; NULL until it is first wanted */
+    int m;                  /* number of rows of C; `close` has fewer for a selection */
+    int *row;               /* (m,): selected constraints, then the others; NULL: all constraints are monitored */
+    int is_known;           /* 1: C holds the rows of the last full check, which were well conditioned */
+    float *C;               /* (m, n): rows at the last full check */
+    double *weight;         /* (m,): 1 / residual norm of each row after all others are projected out; 0 of those not monitored */
+    double *share;          /* stored as C: weight of each entry's squared change in the bound by bodies; NULL: no structure declared */
+    zd_orthogonal close;    /* full check, by orthogonalization; its memory may serve others in between */
+    zd_weighted *weighted;  /* full check of a declared structure: C C^T in blocks; NULL until first needed */
     double *identity;       /* stored as M is */
     double *inverse;        /* blocks of (C C^T)^-1 */
 };
 
-/* `Q` (m, n) and `G` (m, m) are free whenever it is not known which rows count; NULL: there is no such memory. Where the structure is
- * declared, the rank's store has the rest once it is first looked closely. */
+/* Allocates a monitor of all constraints. `Q` (m, n) and `G` (m, m) are work space, free during a full check; NULL: allocated here. For
+ * a declared structure the rest is allocated from the rank's store at the first full check. */
 zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, double *Q, double *G);
-/* Of a choice among rows of which some are redundant */
+/* Allocates a monitor of a selection, if some constraints are redundant. */
 zd_rank_monitor *zd_rank_monitor_take_selection(zd_arena *arena, const zd_system *system);
-/* Keeps the rows that count at the point, if they are far enough from dependent ones. */
+/* Stores the selected rows of C at the point, if they are well conditioned. */
 void zd_rank_monitor_keep_selection(zd_rank_monitor *self, zd_point *point);
-/* Whether rows that are kept are as near to what they were as NEAR says; C is known at the point. */
+/* True if the stored rows have changed by less than NEAR; C is known at the point. */
 int zd_rank_monitor_is_unchanged(const zd_rank_monitor *self, const zd_point *point);
-/* Whether any row at the point might follow from those before it; C is known there. */
+/* True if some constraint may be dependent at the point; C is known there. */
 int zd_rank_monitor_is_doubtful(zd_rank_monitor *self, zd_point *point);
-/* Whether rows may have come to lie reversed, of a structure whose pivots have told that all of them count. */
+/* Updates was_turned for a structure whose pivots have shown all constraints independent. */
 static inline void zd_rank_monitor_compare(zd_point *point)
 {
     const zd_rank *rank = point->rank;

@@ -1,5 +1,5 @@
-/* What becomes of dependent rows at the start: whether they are redundant, dependent only there, or contradict the others. Then
- * comes which rows count anywhere, in rows.c.
+/* Classification of dependent constraints at the start: redundant, dependent only there, or contradicting the others. Then rows.c
+ * selects among those that are independent anywhere.
  */
 #include "redundancy.h"
 
@@ -13,11 +13,11 @@
 #include "rows.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
-static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* of the terms of (6): a larger rest shows a row that is independent elsewhere */
-static const double NO_ROW = 0x1p-80;   /* of the largest row, squared: a row that is shorter at the start counts as zero there */
+static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* residual of (6) relative to its terms: beyond, independent elsewhere */
+static const double NO_ROW = 0x1p-80;   /* squared norm relative to the largest row: a row below it at the start is treated as zero there */
 
-/* The lengths that rows have where nothing is singular. A row that is the rounding of terms is as long as these; one that is zero at the
- * start for another reason is taken to be as long as the longest. */
+/* Reference norms of the rows, where nothing is singular. A row at the rounding of its terms gets their magnitude; a row that is zero at
+ * the start for another reason gets the norm of the largest. */
 static void measure(const zd_point *point)
 {
     const zd_rank *self = point->rank;
@@ -56,7 +56,7 @@ static double unit_of(const zd_selection *self, int k)
     return self->rank->start_square[k] > 0 ? sqrt(self->rank->start_square[k]) : 1;
 }
 
-/* By how much the velocity violates (5), in units of the rows. Psi (m,) */
+/* Largest residual of the velocity in (5), relative to the norms of the rows. Psi (m,) */
 static double largest_violation_of_velocity(const zd_point *point, double *Psi)
 {
     const zd_selection *self = point->rank->selection;
@@ -66,9 +66,9 @@ static double largest_violation_of_velocity(const zd_point *point, double *Psi)
     return most;
 }
 
-/* What the rows that do not count make of (6) at the point's velocity, less what the others make of it. Where they are redundant that is
- * zero, but for rounding and for what is due to a violation of (5) by the velocity: where nothing can move, a computed velocity is
- * nothing but such a violation. w (m,), in units of the rows; the first m - rows entries are set. Returns the first row that is not
+/* Residuals w (m - rows,) of (6) of the dependent constraints at the point's velocity, after those of the independent ones are
+ * eliminated; relative to the norms of the rows. For redundant constraints they are zero up to rounding and the effect of a velocity
+ * that violates (5): where nothing can move, a computed velocity consists of nothing else. Returns the first constraint that is not
  * redundant, or m. */
 static int curvature(const zd_point *point, double *w)
 {
@@ -93,15 +93,15 @@ static int curvature(const zd_point *point, double *w)
     return first;
 }
 
-/* With C_d = T C_r at p, rows d are redundant if xi_d = T xi_r, too, whatever the velocity: else they cease to follow from the others
- * as soon as the system moves. Returns how many of the first `others` do; -1 if that could not be evaluated. */
+/* With C_d = T C_r at p, constraints d are redundant if xi_d = T xi_r, too, for any velocity: else they become independent as soon as
+ * the system moves. Returns how many of the first `others` do; -1 if the evaluation failed. */
 static int count_curved(zd_point *point, int others, double *sample)
 {
     zd_selection *self = point->rank->selection;
     int n = self->n, curved = 0, status = ZD_DONE;
     double *v0 = sample, *v = v0 + n, *basis = v + n;
     unsigned seed = 1;
-    if (self->independent == n) return 0;       /* nothing is free to move: n rows are as many as can be independent anywhere */
+    if (self->independent == n) return 0;       /* no freedom: at most n rows can be independent anywhere */
     zd_copy(n, point->v, v0);
     zd_rank_set_basis(point);
     for (int i = 0; i < n && curved < others && !status; i++) {
@@ -122,14 +122,14 @@ static int count_curved(zd_point *point, int others, double *sample)
     return status ? -1 : curved;
 }
 
-static int tell_redundant(zd_point *point, double *sample)
+static int classify(zd_point *point, double *sample)
 {
     zd_selection *self = point->rank->selection;
     int status = zd_point_need(point, ZD_XI | ZD_PHI_T);
     if (status) return status;
     int first = curvature(point, sample);
     point->failed_index = self->row[first < self->m ? first : 0];
-    if (first < self->m) return ZD_CONTRADICTION;       /* there is no vdot */
+    if (first < self->m) return ZD_CONTRADICTION;       /* no vdot exists */
     int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
     int curved = count_curved(point, others, sample), curved_holonomic = curved > 0 ? count_curved(point, holonomic, sample) : 0;
     if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
@@ -140,12 +140,12 @@ static int tell_redundant(zd_point *point, double *sample)
     return ZD_DONE;
 }
 
-/* The memory for it is only taken where rows are dependent, and given back at once. */
-static int tell_redundant_rows(zd_point *point)
+/* Classifies with temporary memory, which is needed only if constraints are dependent. */
+static int classify_dependent(zd_point *point)
 {
     size_t n = (size_t)point->rank->n, m = (size_t)point->rank->m;
     double *sample = zd_allocate((2 * n + m * m + m) * sizeof(double));
-    int status = sample ? tell_redundant(point, sample) : ZD_NO_MEMORY;
+    int status = sample ? classify(point, sample) : ZD_NO_MEMORY;
     zd_release(sample);
     return status;
 }
@@ -171,7 +171,7 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
     self->may_be_deficient = on_singular == ZD_CONTINUE;
     self->is_started = 1;
     if (status || point->rows == self->m) return status;
-    status = point->system->provides & ZD_XI ? tell_redundant_rows(point) : ZD_DONE;
+    status = point->system->provides & ZD_XI ? classify_dependent(point) : ZD_DONE;
     if (status) return status;
     self->was_deficient = point->rows < self->most_rows;
     if (self->was_deficient && !self->may_be_deficient) return ZD_BIFURCATION;

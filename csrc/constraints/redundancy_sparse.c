@@ -1,17 +1,17 @@
-/* Redundant rows of a structure with many, at a cost that follows these.
+/* Redundant constraints of a structure with many, at a cost proportional to these.
  *
- * Pivots of S = C U^2 C^T, U diagonal, are the squares of what is left of each row once those eliminated before are taken out: of a row that
- * follows from them rounding, which grows along a chain. So all rows are taken aside of which little is left. Then a random velocity is
- * projected onto what the others leave free, again and again until these are satisfied to rounding: it satisfies a row that follows from
- * them, too, and with probability one no other. Where it does not, a row was taken aside that is independent, and with it those may be
- * missed that follow from it: all of this is done again with less that counts as little.
+ * Pivots of S = C U^2 C^T, U diagonal, are the squared residual norms of the rows after those eliminated before are projected out: the
+ * pivot of a dependent row is rounding, which grows along a chain. So all rows with small pivots are set aside as candidates. Then a
+ * random velocity is projected onto the null space of the others, repeatedly until these are satisfied to rounding: it satisfies a row
+ * that is dependent on them, too, and with probability one no other. If it violates a candidate, an independent row was set aside, and
+ * rows that depend on it may have been missed: the search is repeated with a smaller threshold.
  *
- * U says how far bodies move that move alike. A length is the same for all of them, and the angle of each is such that its longest arm
- * moves by as much. With the length of the whole mechanism, as natural units have it,
- * all that angles leave of a row would be small in a long one.
+ * U holds displacements of comparable size for all bodies. A length is the same for all of them, and the angle of each body is such that
+ * its longest arm moves by as much. With the length of the whole mechanism, as in the characteristic scales, the residuals due to angles
+ * would all be small in a long one.
  *
- * A row that follows from others here is redundant if it does so wherever the system goes: then accelerations that the others ask for satisfy
- * it at any velocity, (6), and so at this random one. Else it only does so in this position, a bifurcation.
+ * A row that is dependent here is redundant if it is so in all positions: then accelerations that satisfy the others satisfy it at any
+ * velocity, (6), and so at this random one. Otherwise it is dependent in this position only, a bifurcation.
  */
 #include "redundancy_sparse.h"
 
@@ -24,19 +24,19 @@
 #include "../point/weighted.h"
 
 enum { PROJECTIONS = 6 };
-static const double LITTLE[] = {0x1p-20, 0x1p-30, 0x1p-40};     /* of the square of a row: what is left of one that may follow from others */
-static const double SHORT = 0x1p-20;    /* of the mechanism's length: an arm that is as good as none */
-static const double MOVED = 0x1p-28;    /* of what its terms are: a row that the projected velocity satisfies */
-static const double AGREES = 0x1p-20;   /* of the terms of (6), and of the largest: the accelerations satisfy it */
+static const double LITTLE[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* pivot thresholds relative to the squared row: candidates for dependent rows */
+static const double SHORT = 0x1p-20;    /* arm relative to the mechanism's length: a shorter one counts as zero */
+static const double MOVED = 0x1p-28;    /* residual relative to its terms: the projected velocity satisfies the row */
+static const double AGREES = 0x1p-20;   /* residual relative to the terms of (6) and to the largest: the accelerations satisfy it */
 
 typedef struct search {
     zd_store store;
-    zd_layout whole;        /* in the end with no body taken as several */
+    zd_layout whole;        /* layout, finally without bodies split into several */
     zd_weighted *weighted;
     double *unit;           /* (nv,): the diagonal of U, */
     double *U;              /* and its square, stored as M is */
     double *x, *change;     /* (nv,) */
-    double *v0, *v;         /* (nv,): the start's, and one besides */
+    double *v0, *v;         /* (nv,): velocity at the start, and a random one */
     unsigned char *aside;   /* (m,) */
 } search;
 
@@ -57,7 +57,8 @@ static void *take(zd_arena *arena, const void *of)
 
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[system->nq + i]; }
 
-/* The longest arm of each block: the entry of an angle over the largest of a length in its row. Returns the shortest of these, 0 for none. */
+/* Longest arm of each block: the entry of an angle over the largest entry of a length in its row. Returns the shortest of these, 0 if
+ * there are none. */
 static double find_arms(const zd_point *point, double *arm)
 {
     const zd_system *system = point->system;
@@ -81,7 +82,7 @@ static double find_arms(const zd_point *point, double *arm)
     return shortest < INFINITY ? shortest : 0;
 }
 
-/* Angles of bodies without arms have the natural unit, and all others a smaller one. */
+/* Scales U: angles of bodies without arms get the characteristic scale, all others a smaller one. */
 static void set_units(search *self, const zd_point *point)
 {
     const double *arm = self->change, shortest = find_arms(point, self->change);
@@ -103,7 +104,7 @@ static void set_metric(search *self, const zd_point *point)
     }
 }
 
-/* x <- x - U^2 C^T S^-1 (C x - rhs), with the rows that are not aside; rhs NULL: zero */
+/* x <- x - U^2 C^T S^-1 (C x - rhs), with the rows that are not set aside; rhs NULL: zero. */
 static void project(search *self, const zd_point *point, const double *rhs)
 {
     double *y = self->weighted->blocks->x;
@@ -115,7 +116,7 @@ static void project(search *self, const zd_point *point, const double *rhs)
     for (int i = 0; i < n; i++) self->x[i] += self->unit[i] * self->unit[i] * self->change[i];
 }
 
-/* Whether x satisfies the row, to a share of its terms and of another size. */
+/* True if x satisfies the row: |row x - target| <= share (sum of its terms + other). */
 static int is_satisfied(const zd_row_of_C *row, const double *x, double target, double share, double other)
 {
     double sum = -target, size = fabs(target) + other;
@@ -126,7 +127,7 @@ static int is_satisfied(const zd_row_of_C *row, const double *x, double target, 
     return fabs(sum) <= share * size;
 }
 
-/* Puts rows back that the projected velocity does not satisfy; returns how many are left aside. */
+/* Restores rows that the projected velocity violates; returns how many remain set aside. */
 static int judge(search *self, const zd_point *point, int *holonomic)
 {
     int count = *holonomic = 0;
@@ -141,7 +142,8 @@ static int judge(search *self, const zd_point *point, int *holonomic)
 
 static void *take_note(zd_arena *arena, const void *system) { return zd_take(arena, (size_t)zd_constraints(system)); }
 
-/* Whether accelerations that satisfy the others satisfy the rows aside at this velocity; else the point has one that they do not. */
+/* Check that accelerations that satisfy the other rows satisfy those set aside at this velocity; else point->failed_index is the first
+ * that is violated. */
 static int agree(search *self, zd_point *point, const double *v, int *they_do)
 {
     zd_point_move_velocity(point, v);
@@ -159,8 +161,8 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     return ZD_DONE;
 }
 
-/* At the start's velocity, and with a random one besides, which self->x has. */
-static int tell_redundant(search *self, zd_point *point)
+/* Classifies the rows set aside, with the velocity at the start and a random one in self->x. */
+static int classify(search *self, zd_point *point)
 {
     const int n = point->system->nv;
     const double speed = 1 + zd_max_scaled(n, point->v, point->inverse_unit);
@@ -184,10 +186,11 @@ static int note(search *self, zd_point *point)
     memcpy(rank->left_out, self->aside, (size_t)zd_constraints(point->system));
     rank->most_rows -= count;
     rank->most_holonomic -= holonomic;
-    return tell_redundant(self, point);
+    return classify(self, point);
 }
 
-/* Where it is what welds join that follows from rows, in bodies that are taken as several, these are taken as one. */
+/* Sets rows with small pivots aside. If the dependent rows are the welds that join the parts of a split body, bodies are no longer
+ * split. */
 static int set_aside(search *self, const zd_point *point, double little)
 {
     for (;;) {
@@ -212,7 +215,7 @@ static void project_random(search *self, const zd_point *point)
     for (int i = 0; i < PROJECTIONS; i++) project(self, point, NULL);
 }
 
-/* Whether the projected velocity satisfies all rows, those that are aside and those that are not. */
+/* True if the projected velocity satisfies all rows, including those set aside. */
 static int satisfies_all(const search *self, const zd_point *point)
 {
     int does = 1;

@@ -16,8 +16,7 @@ static void *take_kept(zd_arena *arena, const void *system)
     return zd_rank_monitor_take_selection(arena, system);
 }
 
-/* A choice that is as large as it is anywhere serves for what comes next, too, if it is far from a smaller one, in the metric of M^-1 as
- * well: there `is_ill` tells. */
+/* Keeps a selection of the maximum rank for later points if it is well conditioned, in the metric of M^-1 as well (`is_ill`). */
 static int keep_choice(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
@@ -57,7 +56,7 @@ static int reduce(zd_point *point)
     return status;
 }
 
-/* In the plain metric: whether the second of at most two rows might be the first, or any might be nothing. */
+/* True if, in the plain metric, the rows (at most two) may be parallel or zero. */
 ZD_INLINE int are_doubtful(const int n, const int m, zd_rank *self, const double *C)
 {
     double square[ZD_FEW_ROWS];
@@ -72,7 +71,7 @@ ZD_INLINE int are_doubtful(const int n, const int m, zd_rank *self, const double
     return !((1 - DOUBTFUL) * both > along * along);
 }
 
-/* Two rows are the most common, and their number is then known to the compiler. */
+/* Specialized for two rows, the most common number. */
 ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
 {
     return self->m == 2 ? are_doubtful(n, 2, self, C) : are_doubtful(n, self->m, self, C);
@@ -83,7 +82,7 @@ static void *take_monitor(zd_arena *arena, const void *system)
     return zd_rank_monitor_take(arena, system, NULL, NULL);
 }
 
-/* Where the formulation's factorization should have told, memory for a look is taken only once it did not. */
+/* Allocates the monitor, if the formulation's factorization was inconclusive. */
 static int need_monitor(zd_rank *self, const zd_system *system)
 {
     if (self->monitor) return ZD_DONE;
@@ -99,7 +98,7 @@ int zd_rows_are_long(const zd_point *point)
         const zd_row_of_C row = zd_point_row(point, k);
         const double *c = row.x;
         const int n = row.count;
-        if (row.column) {               /* packed: a few entries */
+        if (row.column) {               /* packed row: few entries */
             are_long &= zd_dot(n, c, c) > ILL * self->start_square[k];
             continue;
         }
@@ -119,7 +118,7 @@ void zd_rows_use_all(zd_point *point)
     point->known |= ZD_RANKED;
 }
 
-/* Returns whether there is a choice that still serves. */
+/* Reuses the kept selection; returns 0 if there is none that is still valid. */
 static int use_kept(zd_point *point)
 {
     const zd_rank_monitor *kept = point->rank->kept;
@@ -129,7 +128,7 @@ static int use_kept(zd_point *point)
     return 1;
 }
 
-/* Of more than a few rows, or of such as follow from others. */
+/* Finds the independent constraints among more than ZD_FEW_ROWS, or where some are redundant. */
 static int find_any(zd_point *point)
 {
     zd_rank *self = point->rank;

@@ -1,23 +1,25 @@
-/* Which rows of C count at a point: all of them, an independent choice, or one in which limits stand for rows that are lost.
+/* Selection of the independent constraints at a point: all of them, an independent subset, or one in which limits replace constraints
+ * that are lost at a bifurcation.
  *
- * That all count costs an ordinary point one cheap look: at the products of two rows; at what a formulation finds anyway as it orthogonalizes
- * them; or at how little they have changed since a closer look. Only where it does not tell, memory for more is taken.
+ * At an ordinary point a quick check shows that all are independent: the products of two rows; the pivots that a formulation computes
+ * anyway; or the change since the last full check. Memory for more is allocated only if this is inconclusive.
  */
 #ifndef ZD_ROWS_H
 #define ZD_ROWS_H
 
 #include "rank.h"
 
-enum { ZD_FEW_ROWS = 2 };       /* so many are looked at themselves */
+enum { ZD_FEW_ROWS = 2 };       /* largest number of constraints checked by their products */
 
-/* Which rows count at the point, into point->rows, point->C. */
+/* Finds the independent constraints at the point; sets point->rows, point->C. */
 int zd_rows_find(zd_point *point);
-/* Whether the rows that count there were chosen before: then they are chosen anew where they are found next. */
+/* Discards a selection kept from an earlier point, so that the next zd_rows_find() selects anew; returns 0 if there was none. */
 int zd_rows_give_up_kept(zd_point *point);
-/* The same again, as the velocity has changed, along which limits are taken. */
+/* Selects again after a change of the velocity, along which limits are taken. */
 int zd_rows_find_again(zd_point *point);
 
-/* For formulations that tell by themselves whether all rows count: whether none is nearly nothing at the point, and that all do. */
+/* For formulations that check independence themselves: true if no row has shrunk to nearly zero at the point; selection of all
+ * constraints. */
 int zd_rows_are_long(const zd_point *point);
 void zd_rows_use_all(zd_point *point);
 

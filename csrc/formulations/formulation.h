@@ -54,10 +54,11 @@ typedef struct zd_formulation {
     void (*pick)(const void *self, const zd_point *point, const double *pdot, const double *vdot, double *ydot);
 } zd_formulation;
 
-/* Whether nothing dense is made of this system: see ZD_LOOKED_ROWS. */
+/* Whether nothing dense is made of this system: see ZD_MAX_DENSE_ROWS. */
 static inline int zd_takes_many_rows(const zd_formulation *self, const zd_system *system)
 {
-    const int takes = self->takes_many_rows == ZD_MANY_ROWS || (self->takes_many_rows == ZD_MANY_ROWS_WITHOUT_A && !(system->provides & ZD_A));
+    const int takes = self->takes_many_rows == ZD_MANY_ROWS
+                   || (self->takes_many_rows == ZD_MANY_ROWS_WITHOUT_A && !(system->provides & ZD_A));
     return takes && zd_rank_is_of_many(system);
 }
 

@@ -16,7 +16,7 @@ typedef struct zd_partition_sparse {
     double rounding;        /* of Phi, in units of its size */
 } zd_partition_sparse;
 
-/* NULL where the system is not of this kind: see ZD_LOOKED_ROWS. It has the system's sizes with as many constraints as count. */
+/* NULL where the system is not of this kind: see ZD_MAX_DENSE_ROWS. It has the system's sizes with as many constraints as count. */
 zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *system);
 /* Gives the point the v with the u that is remembered. */
 int zd_partition_sparse_settle(zd_partition_sparse *self, zd_point *point);

@@ -14,7 +14,7 @@ typedef struct zd_structured {
     int is_coupled;             /* which of the two was factored */
 } zd_structured;
 
-/* NULL where the system is not of this kind: see ZD_LOOKED_ROWS. */
+/* NULL where the system is not of this kind: see ZD_MAX_DENSE_ROWS. */
 zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system);
 /* The leading matrix at the point; `inverts_mass`: M has to be definite. */
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass);
