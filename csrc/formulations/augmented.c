@@ -1,11 +1,11 @@
-/* (8): accelerations and multipliers at once from the (n + m) x (n + m) matrix
+/* (8): accelerations and multipliers together from the (n + m) x (n + m) matrix
  *
  *     G = [M  C^T]        G [vdot; lambda] = [f - d; xi]
  *         [C   0 ]
  *
- * by Gaussian elimination with partial pivoting where that is small, and by Bunch and Kaufman's symmetric factorization with rook pivoting in
- * half the memory where it is not. Both need of M no more than that G is regular. M and the rows of C have different
- * units; each row is scaled to the size of M first, and its multiplier back after, so that pivots are compared like with like.
+ * by Gaussian elimination with partial pivoting if it is small, else by Bunch and Kaufman's symmetric factorization with rook pivoting
+ * in half the memory. Both require only that G is regular. M and the rows of C have different units; each row is first scaled to the
+ * size of M, and its multiplier back afterwards, so that pivots are comparable.
  */
 #include "dependent.h"
 
@@ -22,10 +22,10 @@
 
 typedef struct augmented {
     int n, m;
-    zd_structured *many;    /* in place of all that follows, where a declared structure has many rows */
-    double *M, *C;      /* (n, n), (m, n): where the system's own are packed */
-    double *scale;      /* (m,): of the rows of C in G */
-    int is_small;       /* whether G is stored whole */
+    zd_structured *many;    /* replaces all that follows for a declared structure with many constraints */
+    double *M, *C;      /* (n, n), (m, n): dense M and C, if the system's own are packed */
+    double *scale;      /* (m,): scales of the rows of C in G */
+    int is_small;       /* 1: all of G is stored */
     double *G;          /* (n + m, n + m), or its upper triangle, row after row */
     double *b;          /* (n + m,) */
     int *order;         /* (n + m,) */
@@ -64,7 +64,7 @@ static void lend_workspace(void *memory, double **Q, double **G)
     *G = self->G + self->m * self->n;
 }
 
-/* Powers of two, so that scaling rounds nothing. */
+/* Sets the scales to powers of two, so that scaling is exact. */
 static void set_scales(augmented *self, const double *M, const double *C)
 {
     int n = self->n;
@@ -98,7 +98,7 @@ static void fill_triangle(augmented *self, const double *M, const double *C)
     memset(zd_triangle_row(size, self->G, n) + n, 0, zd_triangle((size_t)m) * sizeof *self->G);
 }
 
-/* Returns n + m, or the column that depends on others. */
+/* Factors G; returns n + m, or the column that is linearly dependent. */
 static int factor_filled(augmented *self)
 {
     int size = self->n + self->m;
@@ -148,8 +148,8 @@ const zd_formulation zd_augmented = {
         .summary = "Dependent variables; accelerations and multipliers at once from one symmetric matrix.",
         .equations = "(8), (25)",
         .description = "Accelerations and multipliers come at once from one symmetric matrix with M, C and its transpose, "
-                       "which is factored with pivoting. It needs of M no more than that the constraints hold what has no "
-                       "mass, and so takes systems that have massless parts. Positions and velocities both drift from their "
+                       "which is factored with pivoting. M may be singular if the constraints leave no massless direction "
+                       "free, so that systems may have massless parts. Positions and velocities both drift from their "
                        "constraints and are corrected with the same matrix.",
         .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
     },
@@ -162,7 +162,7 @@ const zd_formulation zd_augmented = {
     .solve = solve,
 };
 
-/* For motions whose own formulation takes no structure of many rows. */
+/* For motions whose own formulation does not support structures with many constraints. */
 const zd_formulation zd_augmented_dense = {
     ZD_DEPENDENT_STATE,
     .take = take_dense,

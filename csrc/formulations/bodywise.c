@@ -1,13 +1,13 @@
-/* Equations (8) with a matrix that bodies couple in,
+/* Equations (8) with a matrix whose blocks couple bodies,
  *
  *     (M + C^T W C) dx = r + C^T W s,        dlambda = W (C dx - s),        r = force - M x - C^T lambda,  s = rhs - C x
  *
- * again and again from x = 0, lambda = 0 (the method of multipliers: Hestenes, Multiplier and gradient methods, 1969). Each time leaves of s
- * a part that is the smaller the larger W is, and each time the equations are those without W, so that W costs no digits. The matrix is
- * definite where C leaves free nothing that has no mass, whether or not M is, and whether or not rows of C follow from others. Of multipliers
- * that are not determined these are the smallest, sum lambda_k^2 / W_k = min, as they are W times what is in the range of C: with 1 / W_k
- * proportional to C_k M^-1 C_k^T, those of least effect, see constraints/rank.c. As such weights may leave a part of s for many times,
- * where M has a light direction within a block, x is found with weights by its diagonal.
+ * repeated from x = 0, lambda = 0 (the method of multipliers: Hestenes, Multiplier and gradient methods, 1969). Each iteration reduces s
+ * by a factor that is the smaller the larger W is, and its fixed point does not depend on W, so that W costs no digits. The matrix is
+ * definite if C leaves no massless direction free, even if M is singular or constraints are redundant. Of multipliers that are not
+ * unique these are the smallest, sum lambda_k^2 / W_k = min, as they are W times a vector in the range of C: with 1 / W_k proportional
+ * to C_k M^-1 C_k^T, those of minimum effect, see constraints/rank.c. As such weights may reduce s slowly, if M has a light direction
+ * within a block, x is found with weights by its diagonal.
  */
 #include "bodywise.h"
 
@@ -19,10 +19,10 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* by a tenth each, the latter leave BALANCED of all */
-static const double WEIGHT = 0x1p25;            /* of a row in units of what its bodies have as mass in it */
-static const double BALANCED = 0x1p-36;         /* of the terms of the equations: the reactions are found */
-static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* of the terms of the equations: nothing to be corrected */
+enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* reductions of s by a tenth each: the latter leave BALANCED of it */
+static const double WEIGHT = 0x1p25;            /* weight of a constraint relative to the mass its bodies have along it */
+static const double BALANCED = 0x1p-36;         /* residual relative to the terms of the equations with which the reactions have converged */
+static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* residual relative to these terms that needs no refinement */
 
 static void *take(zd_arena *arena, const void *of)
 {
@@ -40,7 +40,7 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Whether M is diagonal, and so the effect of a row that which its diagonal has. */
+/* True if M is diagonal, so that effect() and effect_by_diagonal() agree. */
 static int is_diagonal(const zd_layout *layout)
 {
     int is = 1;
@@ -64,7 +64,7 @@ zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
 
 /* ---- factors ---- */
 
-/* C_k M^-1 C_k^T; or where M has no inverse, the squared length of the row over the largest mass. */
+/* Effect C_k M^-1 C_k^T of a constraint; if M is singular, the squared norm of the row over the largest mass. */
 static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_inverse, double mass)
 {
     const zd_layout *layout = self->layout;
@@ -81,7 +81,7 @@ static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_in
     return sum;
 }
 
-/* The same with the diagonal of M in its place: in no direction is W much less than M then. What has no mass is taken to have all. */
+/* The same with the diagonal of M: then W is not much smaller than M in any direction. Massless directions get the largest mass. */
 static double effect_by_diagonal(const zd_point *point, const zd_row_of_C *row, double mass)
 {
     double sum = 0;
@@ -99,7 +99,7 @@ static double largest_mass(const zd_point *point)
     return mass > 0 ? mass : 1;
 }
 
-/* (M + C^T W C) at the point, factored; as zd_bodies_factor(). */
+/* Forms and factors M + C^T W C at the point; returns as zd_bodies_factor(). */
 static int factor(const zd_bodywise *self, zd_bodies *bodies, const double *weight)
 {
     zd_blocks_clear(bodies->blocks);
@@ -124,7 +124,7 @@ int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
     return failed < 0 ? ZD_DONE : ZD_NOT_DEFINITE;
 }
 
-/* Whether there are such factors. */
+/* Factors with the weights of minimum effect, if required; returns 0 if there are no such factors. */
 static int need_least(zd_bodywise *self)
 {
     const zd_point *point = self->point;
@@ -141,7 +141,7 @@ static int need_least(zd_bodywise *self)
 
 /* ---- solution ---- */
 
-/* unbalanced <- force - M x - C^T lambda. Returns how much that is, at the most, of the largest of its terms. */
+/* unbalanced <- force - M x - C^T lambda. Returns its largest entry relative to the largest of its terms. */
 static double find_unbalanced(zd_bodywise *self, const double *force, const double *x)
 {
     const int n = self->point->system->nv, m = zd_constraints(self->point->system);
@@ -163,7 +163,7 @@ static double find_unbalanced(zd_bodywise *self, const double *force, const doub
     return worst > 0 ? worst / largest : 0;
 }
 
-/* rest <- rhs - C x, likewise, in the metric W */
+/* rest <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W. */
 static double find_rest(zd_bodywise *self, const double *rhs, const double *x)
 {
     double largest = 0, worst = 0;
@@ -196,8 +196,8 @@ static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, 
     }
 }
 
-/* Where C x = rhs, the multipliers are found once more, from C^T lambda = force - M x alone: W times what rounding leaves of rhs - C x is not
- * in them then, nor what that has beside the range of C. Returns how much is left of it. */
+/* Multipliers from C^T lambda = force - M x alone, once C x = rhs: they then contain neither W times the rounding of rhs - C x nor its
+ * part outside the range of C. Returns the relative residual. */
 static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *force, const double *x)
 {
     double before = INFINITY, left = INFINITY;

@@ -10,8 +10,9 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-/* Complete pivoting keeps the entries of W^-1 U near one. A partition is given up as soon as they have grown noticeably, because
- * the motion is the harder to integrate the steeper w depends on u; the margin keeps two equal ones from taking turns. */
+/* Factor by which the entries of W^-1 U may grow before u is selected anew. Complete pivoting keeps them near one; the motion is the
+ * harder to integrate the larger they are, as w then depends steeply on u. The margin prevents two equally good selections from
+ * alternating. */
 static const double WORSE = 1.1;
 
 zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, double *workspace)
@@ -46,7 +47,7 @@ void zd_complement_lend(const zd_complement *self, double **Q, double **G)
 
 static int choose(zd_complement *self, zd_point *point)
 {
-    for (int k = 0; k < self->m; k++)       /* in natural units */
+    for (int k = 0; k < self->m; k++)       /* characteristic scales */
         for (int j = 0; j < self->n; j++)
             self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->choice, self->order);
@@ -105,7 +106,7 @@ static int partition(zd_complement *self, zd_point *point)
     return ZD_DONE;
 }
 
-/* ---- brought by the system ---- */
+/* ---- provided by the system ---- */
 
 static int adopt(zd_complement *self, zd_point *point)
 {
@@ -130,7 +131,7 @@ static void *take_D(zd_arena *arena, const void *of)
     return zd_take_doubles(arena, (size_t)(self->n * self->n));
 }
 
-/* Memory for as many columns as there may ever be, once there are more than where all rows count. */
+/* Allocates as many columns as there can be, once there are more than nv - m. */
 static int need_room(zd_complement *self, const zd_point *point)
 {
     if (self->r <= self->room) return ZD_DONE;
@@ -202,7 +203,7 @@ void zd_complement_multipliers(const zd_complement *self, const double *reaction
     for (int k = 0; k < self->m; k++) lambda[k] = b[k];
 }
 
-/* x with C x = -Phi_t, or with what stands for that where rows are lost */
+/* x with C x = -Phi_t, or with the right-hand side of the limits for constraints lost at a bifurcation. */
 static int enforce(const zd_complement *self, zd_point *point, double *x)
 {
     const double *Phi_t = point->terms.Phi_t;

@@ -1,4 +1,4 @@
-/* What the dependent formulations (8), (9), (13) share: the state is (p, v), and it drifts from (3) and (5). */
+/* State (p, v) of the dependent formulations (8), (9), (13), which drifts from (3) and (5). */
 #ifndef ZD_DEPENDENT_H
 #define ZD_DEPENDENT_H
 

@@ -1,10 +1,10 @@
-/* q are k = nv - mh entries of p. The others follow from Phi(p) = 0 by Newton's iteration in the velocities' directions,
+/* q are k = nv - mh entries of p. The others follow from Phi(p) = 0 by Newton's iteration in the directions of the velocities,
  *
  *     [C_H] delta = [-Phi          ],        p <- p + A delta,
  *     [A_q]         [q - p at index]
  *
- * so that A need not be the identity. Where there are unit quaternions, increments take the place of entries: increments.c. The iteration
- * starts from where the velocity of the point before leads, whose branch it stays on.
+ * so that A need not be the identity. With unit quaternions, increments take the place of entries: increments.c. The iteration starts
+ * from the prediction by the velocity of the point before, whose branch it stays on.
  */
 #include "embedding.h"
 
@@ -19,11 +19,11 @@
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
-enum { MAX_ITERATIONS = 40 };     /* near a bifurcation they halve the distance, rather than square it */
-static const double NEARLY = 64;      /* units of rounding: a residual of so many that no longer halves is all that there can be */
-static const double FARTHEST = 0.5;   /* in natural units: a longer prediction is not used as the first iterate */
-static const double MOST_RESPONSE = 16;   /* of p to the q of the system's own embedding: with more, q is chosen numerically */
-static const double WORSE = 1.1;      /* q is chosen anew when the response of p to it has grown by more than this factor */
+enum { MAX_ITERATIONS = 40 };     /* near a bifurcation convergence is linear, by halves, rather than quadratic */
+static const double NEARLY = 64;      /* residual, units of rounding, that is accepted if it no longer halves */
+static const double FARTHEST = 0.5;   /* displacement, characteristic scales: a longer prediction is not used as the first iterate */
+static const double MOST_RESPONSE = 16;   /* derivative of p with respect to the system's own q: beyond, q is selected numerically */
+static const double WORSE = 1.1;      /* growth of the derivative of p with respect to q after which q is selected anew */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 {
@@ -77,13 +77,13 @@ static void fill_row(const zd_embedding *self, const zd_point *point, int k, dou
         for (int j = 0; j < self->nv; j++) row[j] = zd_entry_of_A(point, self->index[k], j);
 }
 
-/* 1 / the natural size of q_k */
+/* 1 / characteristic scale of q_k */
 static double inverse_unit(const zd_embedding *self, const zd_point *point, int k)
 {
     return has_increments(self) ? point->inverse_unit[self->index[k]] : point->inverse_unit_p[self->index[k]];
 }
 
-/* By how much q_k is off at the point: an entry of p by nothing or too much, an increment in units of its rounding. */
+/* Error of q_k at the point: of an entry of p zero or excessive, of an increment in units of its rounding. */
 static double mismatch(const zd_embedding *self, const zd_point *point, const double *q, int k)
 {
     const int i = self->index[k];
@@ -91,7 +91,7 @@ static double mismatch(const zd_embedding *self, const zd_point *point, const do
     return fabs(zd_increments_value(&self->increments, point, point->p, i) - q[k]) / self->increments.rounding[i];
 }
 
-/* C and A at the point, where as many rows of C_H have to count as q was made for. */
+/* Evaluates C and A at the point, and checks that C_H has as many independent constraints as q was selected for. */
 static int need_rows(zd_embedding *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_A);
@@ -101,8 +101,8 @@ static int need_rows(zd_embedding *self, zd_point *point)
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
 
-/* [C_H; A_q] at the point, factored; and what rounding makes of Phi there, in units of its size. Phi is a sum of terms that may be as
- * large as one natural unit makes them, even where all of p is zero. */
+/* Factors [C_H; A_q] at the point, and finds the rounding of Phi there, relative to its size. Phi is a sum of terms of at least one
+ * characteristic scale, even if all of p is zero. */
 static int factor(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv;
@@ -128,7 +128,8 @@ typedef struct problem {
     const double *q;
 } problem;
 
-/* What cannot be told from zero: where a row is lost, Phi is of second order in what the others leave open. */
+/* Smallest significant |Phi|: at a bifurcation, Phi of a lost constraint is of second order in the directions that the others leave
+ * free. */
 static int find_resolution(const zd_embedding *self, zd_point *point, double *resolution)
 {
     *resolution = self->rounding;
@@ -138,8 +139,9 @@ static int find_resolution(const zd_embedding *self, zd_point *point, double *re
     return status;
 }
 
-/* size <- the largest |Phi| of the rows that the iteration solves, over what cannot be told from zero. Rows that follow from these need only
- * be below the tolerance by which they were found to follow: their gradients may be so small that rounding is large beside them. */
+/* size <- largest |Phi| of the constraints that the iteration solves, relative to the smallest significant one. Redundant constraints
+ * must only be below the tolerance with which they were found redundant: their gradients may be so small that rounding is large relative
+ * to them. */
 static int find_violation(const zd_embedding *self, zd_point *point, double *size)
 {
     double resolution = 0, Phi = self->mh ? zd_point_violation(point) : 0, others = 0;
@@ -157,7 +159,7 @@ static int find_violation(const zd_embedding *self, zd_point *point, double *siz
     return status;
 }
 
-/* In units of rounding; too many as long as q is not what it should be. */
+/* Residual in units of rounding; infinite or excessive as long as q differs from its target. */
 static int residual(void *context, double *size)
 {
     problem *it = context;
@@ -209,8 +211,8 @@ static int place_by_increments(zd_embedding *self, zd_point *point, double t, co
     return ZD_NO_EMBEDDING;
 }
 
-/* self->p <- where the point's velocity leads: near a bifurcation that is what tells one branch from another. Where that is too far to
- * be an estimate, where the point is. */
+/* self->p <- prediction of p by the point's velocity, which distinguishes the branches near a bifurcation; or if that is too far, the
+ * point's p. */
 static void predict(zd_embedding *self, zd_point *point, double t)
 {
     double h = t - point->t;
@@ -220,8 +222,8 @@ static void predict(zd_embedding *self, zd_point *point, double t)
     for (int i = 0; i < self->nq; i++) self->p[i] = far ? point->p[i] : point->p[i] + h * self->p[i];
 }
 
-/* The system's own g has its own q, which does not determine p everywhere: where a crank turns back it does not, and near a bifurcation
- * not with all digits. */
+/* Abandons the system's own g, whose q does not determine p everywhere: not at a turning point of a crank, and with few digits near a
+ * bifurcation. */
 static void give_up_own(zd_embedding *self)
 {
     self->embed = NULL;
@@ -259,10 +261,9 @@ int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double
     return ZD_DONE;
 }
 
-/* ---- the choice of q ---- */
+/* ---- selection of q ---- */
 
-/* Largest entry of the response of the velocities to the rates of q, in natural units: grows beyond bounds where q ceases to
- * determine p. */
+/* Largest derivative of the velocities with respect to qdot, characteristic scales: unbounded where q ceases to determine p. */
 static double response(zd_embedding *self, const zd_point *point)
 {
     double largest = 0;
@@ -275,7 +276,7 @@ static double response(zd_embedding *self, const zd_point *point)
     return largest;
 }
 
-/* Velocities that C_H leaves independent, by pivoting in natural units: their increments are q. */
+/* Selects velocities that C_H leaves independent, by pivoting in characteristic scales: their increments are q. */
 static int choose_increments(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv, mh = self->mh;
@@ -288,7 +289,7 @@ static int choose_increments(zd_embedding *self, zd_point *point)
     return ZD_DONE;
 }
 
-/* Rows of A that complete those of C_H, by pivoting in natural units. */
+/* Selects rows of A that complete those of C_H to a regular matrix, by pivoting in characteristic scales. */
 static int choose(zd_embedding *self, zd_point *point)
 {
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
@@ -319,7 +320,7 @@ static int choose_anew(zd_embedding *self, zd_point *point, int *changed)
     return ZD_DONE;
 }
 
-/* Increments begin anew in any case. */
+/* Increments always get a new base. */
 static int review_increments(zd_embedding *self, zd_point *point, int *changed)
 {
     int status = zd_increments_begin(&self->increments, point);

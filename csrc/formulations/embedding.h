@@ -1,40 +1,40 @@
-/* p = g(q), (18): all coordinates from independent ones. The system's own function, or numerically. */
+/* Embedding p = g(q), (18): all coordinates from independent ones, by the system's own function or numerically. */
 #ifndef ZD_EMBEDDING_H
 #define ZD_EMBEDDING_H
 
 #include "increments.h"
 
 typedef struct zd_embedding {
-    int nq, nv, mh, k;      /* mh: holonomic rows that count */
-    zd_embed *embed;        /* the system's own g; NULL: there is none, or it is for more rows */
-    int chosen;             /* whether q has been */
-    double reference;       /* how well q was conditioned when it was */
-    double rounding;        /* of Phi */
-    int *index;             /* (k,): which entries of p are q, or which increments */
-    zd_increments increments;   /* where there are unit quaternions */
+    int nq, nv, mh, k;      /* mh: number of independent holonomic constraints */
+    zd_embed *embed;        /* the system's own g; NULL: none, or not applicable, as constraints are redundant */
+    int chosen;             /* 1: q has been selected */
+    double reference;       /* condition of q when it was selected */
+    double rounding;        /* rounding of Phi */
+    int *index;             /* (k,): indices of the entries of p, or of the increments, that are q */
+    zd_increments increments;   /* used with unit quaternions */
     int *order;             /* (mh + nq,) */
-    double *memory;         /* (m, nv): of C, where the system's own is packed */
-    const double *C;        /* (m, nv): the rows that count */
-    double *K;              /* (nv, nv): [C_H; A_q], factored, where A_q gives qdot of v */
+    double *memory;         /* (m, nv): dense C, if the system's own is packed */
+    const double *C;        /* (m, nv): independent rows of C */
+    double *K;              /* (nv, nv): factors of [C_H; A_q], where qdot = A_q v */
     int *pivots;            /* (nv,) */
-    double *choice;         /* (nv, mh + nq): where q is chosen, K and what follows it */
+    double *choice;         /* (nv, mh + nq): work space of the selection of q, of K and what follows it */
     double *delta;          /* (nv,) */
     double *p;              /* (nq,) */
 } zd_embedding;
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system);
-/* Memory (m, nv) that is free but while q is chosen. */
+/* Work space (m, nv), free except while q is selected. */
 double *zd_embedding_workspace(const zd_embedding *self);
-/* q (k,) where the point is, and its rate where p has that. */
+/* q (k,) of the point, and qdot (k,) from pdot. */
 void zd_embedding_coordinates(const zd_embedding *self, const zd_point *point, double *q);
 void zd_embedding_rates(const zd_embedding *self, const double *pdot, double *qdot);
-/* Moves the point to p = g(q) at time t, starting from where it is. */
+/* Moves the point to p = g(q) at time t, starting from its present p. */
 int zd_embedding_place(zd_embedding *self, zd_point *point, double t, const double *q);
-/* At the point, where p = g(q): the first nq of each row of T (k, width) <- what p changes by with that entry of q. */
+/* First nq entries of each row of T (k, width) <- derivative of p with respect to that entry of q; at the point, p = g(q). */
 int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double *T);
-/* The largest response of a coordinate to q, in natural units, that q is kept up to; 0: q is not chosen. */
+/* Largest derivative of a coordinate with respect to q, characteristic scales, for which q is kept; 0: q is not selected. */
 double zd_embedding_steepest(const zd_embedding *self);
-/* Chooses q anew where the present choice is badly conditioned at the point; *changed tells. */
+/* Selects q anew if it is badly conditioned at the point; *changed: it was. */
 int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed);
 
 #endif

@@ -1,13 +1,13 @@
-/* With unit quaternions no nv entries of p determine it everywhere. Instead, about the p0 where a step begins,
+/* Increments. With unit quaternions no nv entries of p determine it everywhere. Instead, relative to the p0 at the start of a step,
  *
  *     q = A(p0)^+ (p - p0),        A^+ A = I,
  *
- * which is linear in p: so qdot = A(p0)^+ A(p) v, with no rates of a rotation vector, and an integrator keeps its order. At p0, qdot = v.
- * Of a rotation by the angle a from p0 it is 2 sin(a / 2) along the axis: near half a turn it no longer tells how far that goes. Where a step
- * turns a body by more than a third of a turn, it has to be made in parts.
+ * which is linear in p: so qdot = A(p0)^+ A(p) v, without rates of a rotation vector, and an integrator keeps its order. At p0, qdot =
+ * v. For a rotation by the angle a from p0, q is 2 sin(a / 2) along the axis, which is not unique beyond half a turn: a step that turns
+ * a body by more than a third of a turn is divided.
  *
- * A^+ is that of least squares in natural units. One natural unit is added to each increment: relative errors of chosen steps are then
- * relative to that, as those of a p are, and not to the increment, which is zero where a step begins.
+ * A^+ is that of least squares in characteristic scales. One characteristic scale is added to each increment: relative errors of
+ * adaptive steps then refer to it, as for coordinates p, and not to the increment, which is zero at the start of a step.
  */
 #include "increments.h"
 
@@ -18,7 +18,7 @@
 #include "../point/matrices.h"
 
 static const double INCREMENT_ROUNDING = 4 * 0x1p-52;
-static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation */
+static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation angle a of a step */
 
 zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
 {
@@ -34,8 +34,8 @@ zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
     };
 }
 
-/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the natural units of p and v. What follows other coordinates says nothing
- * that these do not, and is left out. */
+/* inverse <- (W A U)^T, gram <- its product with W A U: W, U the characteristic scales of p and v. Coordinates that follow others are
+ * left out, as they add no information. */
 static void weigh(zd_increments *self, const zd_point *point)
 {
     const int nq = self->nq, nv = self->nv, leading = nq - point->system->followers;
@@ -48,7 +48,7 @@ static void weigh(zd_increments *self, const zd_point *point)
             self->gram[j * nv + l] = self->gram[l * nv + j] = zd_dot(nq, self->inverse + j * nq, self->inverse + l * nq);
 }
 
-/* Column i of the inverse: gram^-1 times what stands there, with the units. `column` (nv,) */
+/* Column i of the inverse: gram^-1 times its present entries, with the scales. `column` (nv,): work space */
 static void invert_column(zd_increments *self, const zd_point *point, int i, double *column)
 {
     const int nq = self->nq, nv = self->nv;

@@ -17,7 +17,7 @@ typedef struct independent {
 
 extern const zd_formulation zd_independent;
 
-/* What ties surplus coordinates has to be known: a unit quaternion has one too many, and what follows others is one. */
+/* True if the relations of surplus coordinates are known: each unit quaternion has one, and each coordinate that follows others is one. */
 static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions + system->followers; }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *given)
@@ -124,7 +124,7 @@ static int have_same(int count, const int *a, const int *b)
     return same == count;
 }
 
-/* Those of (19); and of nonholonomic constraints alone, where q is p. */
+/* True for (19), and for nonholonomic constraints alone, where q is p. */
 static int may_have_entries(const zd_system *system)
 {
     return zd_minimal_may_have_entries(system) && !(system->provides & ZD_A) && !(system->mh && system->mn);
@@ -146,10 +146,10 @@ const zd_formulation zd_independent = {
         .name = "independent",
         .summary = "Independent coordinates and velocities: no constraint can be violated.",
         .equations = "(19), (22)",
-        .description = "As few coordinates q as there are degrees of freedom are integrated, and all others follow from p = "
+        .description = "As many coordinates q as there are degrees of freedom are integrated, and all others follow from p = "
                        "g(q), which is solved at each evaluation, or is known in closed form. Nothing can be violated and "
-                       "nothing has to be corrected, but each evaluation takes an iteration. The independent coordinates are "
-                       "chosen anew where others serve better. It takes systems with as many coordinates as velocities, besides "
+                       "nothing has to be corrected, but each evaluation requires an iteration. The independent coordinates are "
+                       "chosen anew when they become badly conditioned. Systems must have as many coordinates as velocities, plus "
                        "one for each unit quaternion.",
         .reference = "R. A. Wehage, E. J. Haug, Generalized coordinate partitioning for dimension reduction in analysis of "
                      "constrained dynamic systems, Journal of Mechanical Design 104 (1982) 247-255",

@@ -16,8 +16,8 @@
 #include "../point/matrices.h"
 
 enum { MAX_ITERATIONS = 12 };
-static const double SETTLED = 0x1p-46;  /* of the speed: the velocity is found if it changes by no more */
-static const double NEARLY = 0x1p-30;   /* of the speed: a change so small that no longer halves is rounding */
+static const double SETTLED = 0x1p-46;  /* change relative to the speed with which the velocity has converged */
+static const double NEARLY = 0x1p-30;   /* change relative to the speed that is accepted if it no longer halves */
 
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace)
 {
@@ -51,7 +51,7 @@ static void *take_Mu(zd_arena *arena, const void *of)
     return zd_take_doubles(arena, (size_t)(self->complement.n * self->complement.n));
 }
 
-/* As the complement has it. */
+/* Allocates Mu for the columns of the complement. */
 static int need_room(zd_minimal *self, const zd_point *point)
 {
     if (self->complement.r <= self->room) return ZD_DONE;
@@ -102,13 +102,13 @@ void zd_minimal_solve(void *memory, const double *force, const double *rhs, doub
     zd_complement_multipliers(&self->complement, self->b, lambda);
 }
 
-/* Where fewer rows count than when the state was laid out, u has too few numbers to determine the motion. */
+/* Check that u determines the velocity: it does not if fewer constraints are independent than when the state was laid out. */
 static int check_size(const zd_minimal *self)
 {
     return self->complement.r == self->size ? ZD_DONE : ZD_BIFURCATION;
 }
 
-/* Gives the point the v of u; *change is by how much that has changed it, in natural units. */
+/* Sets v of the point from u; *change is the change of v, in characteristic scales. */
 static int update_velocity(zd_minimal *self, zd_point *point, double *change)
 {
     int status = zd_complement_velocity(&self->complement, point, self->u, self->b);
@@ -120,8 +120,9 @@ static int update_velocity(zd_minimal *self, zd_point *point, double *change)
     return ZD_DONE;
 }
 
-/* At a bifurcation u determines the velocity on each branch, but not the branch. The one is taken whose velocity is nearest to that which
- * the last known acceleration leads to. Limits depend on the velocity, so that this is Newton's iteration for c(v) = 0 of limits.c. */
+/* Velocity at a bifurcation. u determines it on each branch, but not the branch. The branch is taken whose velocity is nearest to the
+ * extrapolation with the last known acceleration. Limits depend on the velocity, so that this is Newton's iteration for c(v) = 0 of
+ * limits.c. */
 static int settle_on_branch(zd_minimal *self, zd_point *point)
 {
     zd_copy(self->complement.n, point->v, self->b);

@@ -1,4 +1,4 @@
-/* What the formulations in independent velocities, (17), (19) and (22), share: the matrix D^T M D, and v = D u. */
+/* Formulations in independent velocities, (17), (19) and (22): the matrix D^T M D, and v = D u. */
 #ifndef ZD_MINIMAL_H
 #define ZD_MINIMAL_H
 
@@ -7,40 +7,40 @@
 #include "partition_sparse.h"
 
 typedef struct zd_minimal {
-    zd_partition_sparse *many;       /* in place of all that follows, where a declared structure has many rows */
+    zd_partition_sparse *many;       /* replaces all that follows for a declared structure with many constraints */
     zd_complement complement;
-    double *memory;     /* (n, n): of M, where the system's own is packed */
+    double *memory;     /* (n, n): dense M, if the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *Mu;         /* (r, r): Cholesky factor of D^T M D */
-    int room;           /* rows of it that there is memory for */
-    int size;           /* of the u in the state */
-    double *u;          /* (size,): that */
+    int room;           /* number of its rows allocated */
+    int size;           /* number of u in the state */
+    double *u;          /* (size,): u of the state */
     double *b;          /* (n,) */
     double *du;         /* (n,) */
-    double lead_time;   /* s: from where the point's acceleration was computed to where it is wanted; 0: it is not known */
+    double lead_time;   /* s: time from the point's last acceleration to the present; 0: unknown */
 } zd_minimal;
 
-/* `workspace` (m, n) as the complement's. */
+/* `workspace` (m, n): see zd_complement_take(). */
 zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace);
-/* Where a declared structure has many rows. */
+/* For a declared structure with many constraints. */
 zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system);
 void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);
-/* Notes, before the point moves to time t, how far ahead of its acceleration that is: this serves where u alone does not determine v. */
+/* Records, before the point moves to time t, the time since its acceleration: used where u alone does not determine v. */
 void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t);
-/* Remembers u, and gives the point the v that belongs to it. */
+/* Stores u, and sets v of the point from it. */
 int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
-/* The point's u, once the choice of independent velocities has been reviewed; and with the choice as it is. */
+/* u of the point, after a review of the independent velocities; and without. */
 int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);
-/* T (positions + size, nq + nv), whose first rows have the dp of each coordinate of the state: their dv, and the rows of u. Psi_p as
- * tangents() has it. */
+/* T (positions + size, nq + nv): its first rows hold the dp of each coordinate of the state and get their dv; the rows of u follow.
+ * Psi_p: see tangents(). */
 int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_p, int positions, double *T);
-/* Whether a system's velocities u are entries of v, and, where they have been chosen, which. */
+/* True if a system's u are entries of v; and, once they have been selected, their indices. */
 int zd_minimal_may_have_entries(const zd_system *system);
 int zd_minimal_entries(const void *self, zd_entries *entries);
 

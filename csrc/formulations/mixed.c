@@ -70,9 +70,9 @@ const zd_formulation zd_mixed = {
         .summary = "Dependent coordinates and independent velocities: only position constraints can be violated.",
         .equations = "(17)",
         .description = "All coordinates p and as many velocities u as there are degrees of freedom are integrated, and v = D u "
-                       "satisfies the velocity constraints by itself; only positions drift and are corrected. Nonholonomic "
-                       "constraints, which are about velocities alone, so cannot be violated at all. The independent velocities "
-                       "are chosen anew where others serve better.",
+                       "satisfies the velocity constraints identically; only positions drift and are corrected. Nonholonomic "
+                       "constraints, which restrict velocities alone, thus cannot be violated at all. The independent velocities "
+                       "are chosen anew when they become badly conditioned.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody "
                      "systems, Multibody System Dynamics 7 (2002) 265-284, section 2.3",
     },

@@ -17,12 +17,12 @@
 #include "structured.h"
 
 typedef struct nullspace {
-    zd_structured *many;    /* in place of all that follows, where a declared structure has many rows */
+    zd_structured *many;    /* replaces all that follows for a declared structure with many constraints */
     zd_complement complement;
-    double *memory;     /* (n, n): of M, where the system's own is packed */
+    double *memory;     /* (n, n): dense M, if the system's own is packed */
     const double *M;    /* (n, n): the point's */
     double *H;          /* (n, n): rows scaled, then factored */
-    double *scale;      /* (n,): of the rows; powers of two */
+    double *scale;      /* (n,): scales of the rows; powers of two */
     int *order;         /* (n,) */
     double *b;          /* (n,) */
 } nullspace;
@@ -53,7 +53,7 @@ static void lend_workspace(void *memory, double **Q, double **G)
     zd_complement_lend(&self->complement, Q, G);
 }
 
-/* Rows of different units are made comparable before pivots are. */
+/* Scales rows of different units, so that pivots are comparable. */
 static void scale_row(int n, double *row, double *scale)
 {
     int exponent = 0;
@@ -118,9 +118,9 @@ const zd_formulation zd_nullspace = {
         .name = "nullspace",
         .summary = "Dependent variables; motion along the free directions beside the constraints, in one matrix.",
         .equations = "(9), (26)",
-        .description = "The equations of motion are projected on the free directions D of (14), and stand with the constraints "
-                       "(6) in one matrix of the size of v. Multipliers are found only where they are wanted. M may be singular "
-                       "where constraints hold what has no mass.",
+        .description = "The equations of motion are projected on the free directions D of (14), and combined with the constraints "
+                       "(6) in one matrix of the size of v. Multipliers are computed only if they are required. M may be singular "
+                       "if the constraints leave no massless direction free.",
         .reference = "W. Blajer, A geometric unification of constrained system dynamics, Multibody System Dynamics 1 (1997) 3-21",
     },
     ZD_DEPENDENT_STATE,

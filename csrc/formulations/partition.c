@@ -1,15 +1,15 @@
-/* C = [C_u C_w] in some order of the velocities, C_w square: x_w follows from C x = rhs by
+/* Sparse variable partitioning. C = [C_u C_w] in some order of the velocities, C_w square: x_w follows from C x = rhs by
  *
  *     C_w^T W C_w dx_w = C_w^T W (rhs - C x)
  *
- * again and again, until nothing is left but rounding, with W the inverse squares of the rows' sizes. Its block rows are bodies, of which
- * what is independent is left out; rows that follow from others have no weight. So D is never formed, and what is solved has the pattern
- * of the bodies, whatever is chosen.
+ * repeatedly, until the residual is rounding, with W the inverse squares of the rows' sizes. Its block rows are bodies, without their
+ * independent velocities; redundant constraints have no weight. So D is never formed, and the matrix has the pattern of the bodies,
+ * whatever is selected.
  *
- * The choice is an elimination, too: of C^T W C, all columns, outermost bodies first, so that as much as possible of each follows from those
- * nearer to the ground. A pivot is the square of what is left of a velocity's column once those eliminated before are taken out: where
- * that is little, the velocity is independent of them, and left out. How little is told by how many have to be: the largest share by which
- * no more are left out than are independent.
+ * The selection is an elimination, too: of C^T W C, all columns, outermost bodies first, so that velocities depend on those nearer to
+ * the ground. A pivot is the squared residual norm of a velocity's column after those eliminated before are projected out: where it is
+ * small, the velocity is independent of them, and left out. The threshold is the largest with which no more velocities are left out than
+ * are independent.
  */
 #include "partition.h"
 
@@ -21,16 +21,16 @@
 
 enum {
     MAX_REFINEMENTS = 40,
-    MANY_JOINTS = 12,       /* a body with more joints is eliminated last: it would couple all that hang on it */
+    MANY_JOINTS = 12,       /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
 };
-static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* of a column's square: what may be little */
-static const double WORSE = 0x1p-4;             /* of the pivots' reference: chosen anew */
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double FEW_DIGITS = 0x1p-20;       /* of these terms: what is left of rhs - C x is no rounding */
+static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* pivot thresholds relative to a column's square */
+static const double WORSE = 0x1p-4;             /* ratio of the smallest pivot to its reference below which velocities are selected anew */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
+static const double FEW_DIGITS = 0x1p-20;       /* residual relative to these terms beyond which it is not rounding */
 
 /* ---- symbolic ---- */
 
-/* Puts the bodies that these groups touch behind those already reached. */
+/* Appends the bodies that group g touches to those already reached. */
 static int reach(const zd_layout *layout, int g, char *is_reached, int *reached, int count)
 {
     for (int i = layout->touched_at[g]; i < layout->touched_at[g + 1]; i++) {
@@ -53,7 +53,7 @@ static int reach_from(const zd_layout *layout, int next, char *is_met, char *is_
     return count;
 }
 
-/* All bodies from the ground outwards, breadth first; what does not hang on it follows, from its first body. */
+/* Orders all bodies from the ground outwards, breadth first; bodies not connected to it follow. */
 static void find_outwards(const zd_layout *layout, char *is_reached, int *reached)
 {
     char *is_met = is_reached + layout->blocks;
@@ -69,7 +69,7 @@ static void find_outwards(const zd_layout *layout, char *is_reached, int *reache
     }
 }
 
-/* order (blocks,): outermost first, and those of many joints last */
+/* order (blocks,): outermost bodies first, those of many joints last */
 static void find_order(const zd_layout *layout, const int *reached, int *order)
 {
     int next = 0;
@@ -123,7 +123,7 @@ int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *poin
 
 /* ---- factors ---- */
 
-/* With a share, the velocities of which no more is left are noted as independent; below zero, those that are noted are. */
+/* Eliminates. share >= 0: velocities with a smaller relative pivot are marked independent; share < 0: the marks are kept. */
 static zd_pivots eliminate(zd_partition *self, double share)
 {
     zd_blocks_clear(self->bodies->blocks);
@@ -187,7 +187,8 @@ int zd_partition_review(zd_partition *self, zd_point *point, int is_factored)
 
 /* ---- solution ---- */
 
-/* rest <- rhs - C x of the rows that count; returns how much that is, at the most, of the largest terms, both in units of the rows' sizes. */
+/* rest <- rhs - C x of the independent constraints; returns its largest entry relative to the largest terms, both scaled by the rows'
+ * sizes. */
 static double find_rest(zd_partition *self, const double *rhs, const double *x)
 {
     double worst = 0, largest = 0;

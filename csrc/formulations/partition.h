@@ -1,5 +1,5 @@
-/* Variable partitioning (16) where a declared structure has many rows: which velocities are independent, and the others from them, at a cost
- * that follows the bodies. */
+/* Variable partitioning (16) of a declared structure with many constraints: selects independent velocities and solves for the others, at
+ * a cost proportional to the number of bodies. */
 #ifndef ZD_PARTITION_H
 #define ZD_PARTITION_H
 
@@ -7,28 +7,28 @@
 #include "../point/point.h"
 
 typedef struct zd_partition {
-    zd_bodies *bodies;      /* C_w^T W C_w: of the dependent velocities w; NULL until there is a point */
-    int rows;               /* the first of C, that it is of */
+    zd_bodies *bodies;      /* C_w^T W C_w of the dependent velocities w; NULL before the first point */
+    int rows;               /* number of rows of C, the first ones, that are partitioned */
     int independents;
     int is_chosen;
-    int *index;             /* (independents,): which velocities these are, increasing */
-    unsigned char *left_out;    /* (nv,), in the order of elimination: whether the velocity is independent */
-    double share;           /* the smallest pivot of a dependent velocity, of its diagonal entry, where it was factored, */
-    double reference;       /* and the largest of these since the choice */
-    double *weight;         /* (m,): W, zero for rows that do not count */
+    int *index;             /* (independents,): indices of the independent velocities, increasing */
+    unsigned char *left_out;    /* (nv,), in the order of elimination: 1 if the velocity is independent */
+    double share;           /* smallest pivot of a dependent velocity relative to its diagonal entry, at the last factorization, */
+    double reference;       /* and the largest of these since the selection */
+    double *weight;         /* (m,): W, zero for redundant constraints */
     double *rest, *step, *b;    /* (m,), (nv,), (nv,) */
-    const double *C;        /* of the point where it was factored */
+    const double *C;        /* C of the point at the factorization */
 } zd_partition;
 
-/* Of at most so many rows of C, which leave so many of nv velocities independent. */
+/* Allocates a partition of at most `rows` rows of C, which leave `independents` of nv velocities independent. */
 zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independents);
-/* Of the first `rows` of them, at a point, where it is known which rows count. ZD_NO_MEMORY */
+/* Begins with the first `rows` rows of C, at a point whose independent constraints are known. ZD_NO_MEMORY */
 int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *point, int rows);
-/* At the point, with the velocities that were chosen. C is known there. */
+/* Factors at the point, with the velocities selected. C is known there. */
 int zd_partition_factor(zd_partition *self, zd_point *point);
-/* The same, where that has not been done there, and chooses anew where the present choice is badly conditioned. */
+/* Factors unless that is done, and selects anew if the selection is badly conditioned. */
 int zd_partition_review(zd_partition *self, zd_point *point, int is_factored);
-/* The dependent entries of x (nv,), added to by what makes C x = rhs (rows,). ZD_SINGULAR: the factors have too few digits for it. */
+/* Adds to the dependent entries of x (nv,) so that C x = rhs (rows,). ZD_SINGULAR: the factors have too few digits. */
 int zd_partition_solve(zd_partition *self, const double *rhs, double *x);
 
 #endif

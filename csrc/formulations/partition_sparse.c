@@ -9,8 +9,8 @@
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 40 };
-static const double NEARLY = 64;        /* units of rounding: a residual of so many that no longer halves is all that there can be */
-static const double FARTHEST = 0.5;     /* in natural units: a longer prediction is not used as the first iterate */
+static const double NEARLY = 64;        /* residual, units of rounding, that is accepted if it no longer halves */
+static const double FARTHEST = 0.5;     /* displacement, characteristic scales: a longer prediction is not used as the first iterate */
 
 zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *system)
 {
@@ -34,7 +34,7 @@ zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *
 
 /* ---- v = D u ---- */
 
-/* That of all rows, at the point. */
+/* Partition of all constraints at the point. */
 static int need_speeds(zd_partition_sparse *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_PHI_T);
@@ -42,7 +42,7 @@ static int need_speeds(zd_partition_sparse *self, zd_point *point)
     return begins ? zd_partition_begin(self->of_v, point->rank->store, point, zd_constraints(point->system)) : status;
 }
 
-/* Where little is left of a column, v = D u loses digits: see stepping/variables.c. */
+/* Flags v = D u as ill-conditioned if a pivot is small: see stepping/variables.c. */
 static void note_condition(const zd_partition *of, const zd_point *point)
 {
     point->rank->was_ill_conditioned |= !(of->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED);
@@ -108,7 +108,7 @@ int zd_partition_sparse_coordinates(zd_partition_sparse *self, zd_point *point, 
     return ZD_DONE;
 }
 
-/* What rounding makes of Phi, in units of its size: a sum of terms that may be as large as one natural unit makes them. */
+/* Rounding of Phi, relative to its size: a sum of terms of at least one characteristic scale. */
 static double rounding_of(const zd_point *point)
 {
     double gradient = 0;
@@ -129,7 +129,7 @@ typedef struct problem {
 static int residual(void *context, double *size)
 {
     const problem *it = context;
-    int status = zd_point_need(it->point, ZD_PHI | ZD_C);       /* C for the next iterate, or else for (14) */
+    int status = zd_point_need(it->point, ZD_PHI | ZD_C);       /* C for the next iterate, or for (14) */
     if (status) return status;
     if (!(it->self->rounding > 0)) it->self->rounding = rounding_of(it->point);
     *size = it->point->system->mh ? zd_point_violation(it->point) / it->self->rounding : 0;
@@ -152,7 +152,7 @@ static int improve(void *context)
     return status;
 }
 
-/* self->p <- where the point's velocity leads, or where that is too far to be an estimate, where the point is; with q. */
+/* self->p <- prediction of p by the point's velocity, or if that is too far, the point's p; with q inserted. */
 static void predict(zd_partition_sparse *self, const zd_point *point, double t, const double *q)
 {
     const double h = t - point->t;

@@ -1,5 +1,5 @@
-/* What formulations in independent variables, (17), (19) and (22), are made of where a declared structure has many rows: accelerations of the
- * elimination that all share, and v = D u, p = g(q) without D. */
+/* Formulations in independent variables, (17), (19) and (22), of a declared structure with many constraints: accelerations from
+ * structured.h, and v = D u, p = g(q) without forming D. */
 #ifndef ZD_PARTITION_SPARSE_H
 #define ZD_PARTITION_SPARSE_H
 
@@ -8,27 +8,27 @@
 
 typedef struct zd_partition_sparse {
     zd_structured *structured;
-    zd_partition *of_v, *of_p;      /* of all rows, and of the holonomic ones: the same where there are no others */
-    int size, k;            /* how many u and q there are */
+    zd_partition *of_v, *of_p;      /* partition of all constraints, and of the holonomic ones: identical if there are no others */
+    int size, k;            /* number of u, and of q */
     double *u;              /* (size,) */
     double *rhs, *x, *p;    /* (m,), (nv,), (nq,) */
-    const double *q;        /* (k,), while p is being found */
-    double rounding;        /* of Phi, in units of its size */
+    const double *q;        /* (k,): q during the iteration for p */
+    double rounding;        /* rounding of Phi, relative to its size */
 } zd_partition_sparse;
 
-/* NULL where the system is not of this kind: see ZD_MAX_DENSE_ROWS. It has the system's sizes with as many constraints as count. */
+/* Returns NULL unless the system exceeds ZD_MAX_DENSE_ROWS. It has the system's sizes with the independent constraints only. */
 zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *system);
-/* Gives the point the v with the u that is remembered. */
+/* Sets v of the point from the stored u. */
 int zd_partition_sparse_settle(zd_partition_sparse *self, zd_point *point);
-/* The point's u, of velocities that are reviewed first. */
+/* u of the point, after a review of the independent velocities. */
 int zd_partition_sparse_speeds(zd_partition_sparse *self, zd_point *point, double *u);
-/* With the choice as it is */
+/* u of the point, without a review. */
 void zd_partition_sparse_express_speeds(zd_partition_sparse *self, const zd_point *point, double *u);
-/* The point's q, of coordinates that are reviewed first; and where they are in p, after that. */
+/* q of the point, after a review of the independent coordinates. */
 int zd_partition_sparse_coordinates(zd_partition_sparse *self, zd_point *point, double *q);
-/* Moves the point to p = g(q) at time t, starting from where its velocity leads. (18) */
+/* Moves the point to p = g(q) at time t, starting from the prediction by its velocity. (18) */
 int zd_partition_sparse_place(zd_partition_sparse *self, zd_point *point, double t, const double *q);
-/* Entries of x (nv,) that belong to u, to q. */
+/* Entries of x (nv,) at the indices of u, of q. */
 void zd_partition_sparse_pick_speeds(const zd_partition_sparse *self, const double *x, double *of_u);
 void zd_partition_sparse_pick_coordinates(const zd_partition_sparse *self, const double *x, double *of_q);
 

@@ -4,16 +4,15 @@
  *     C L^-T = G Q                    rows of Q orthogonal in the metric D^-1, G with ones on its diagonal
  *     C M^-1 C^T = G E G^T            E = Q D^-1 Q^T, diagonal
  *
- * G and E are the same factors of C M^-1 C^T, found by orthogonalizing the rows of C L^-T instead of multiplying them: so the
- * condition of the constraints enters once and not squared, for the same work. With y = L^-1 (f - d) and z = G^-1 xi, (13)
- * reads
+ * G and E are the same factors of C M^-1 C^T, found by orthogonalizing the rows of C L^-T instead of multiplying them: so the condition
+ * of the constraints enters once and not squared, for the same work. With y = L^-1 (f - d) and z = G^-1 xi, (13) reads
  *
  *     mu = E^-1 (Q D^-1 y - z),    lambda = G^-T mu,    vdot = L^-T D^-1 (y - Q^T mu),
  *
- * that is: what y has along the constraints is taken out and z put in its place. A correction, (27), has y = 0.
+ * that is: the components of y along the constraints are replaced by z. A correction, (27), has y = 0.
  *
- * M^-1 enlarges the rounding of large reactions that meet in a light link. But C vdot = xi shows that error, and a correction by
- * what is left of it, (27b) again, removes it: so the digits do not depend on how far masses are apart.
+ * M^-1 amplifies the rounding of large reactions on a light body. But C vdot = xi shows that error, and a correction by its residual,
+ * (27b) again, removes it: so the accuracy does not depend on mass ratios.
  */
 #include "dependent.h"
 
@@ -23,25 +22,25 @@
 #include "../point/matrices.h"
 #include "structured.h"
 
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* of a row when others are taken out: what is left then is rounding */
-static const double SMALL_PIVOT = 0x1p-20;           /* of the diagonal of C M^-1 C^T: a smaller pivot has lost too many digits */
-static const double TURNED = 0.25;      /* of the squared sines by which Q turns: with less, Q1 Q0^T + Q0 Q1^T is still positive definite */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
+static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* relative residual norm of a row that is rounding */
+static const double SMALL_PIVOT = 0x1p-20;           /* pivot of C M^-1 C^T relative to its diagonal below which too many digits are lost */
+static const double TURNED = 0.25;      /* bound of the squared sines by which Q turns: below, Q1 Q0^T + Q0 Q1^T is positive definite */
 
 typedef struct schur {
     int n, m;
-    int most;           /* rows that there is memory for */
-    zd_structured *many;        /* in place of all that follows, where the structure has many rows */
-    zd_schur_blocks *blocks;      /* in place of what follows, where the structure is declared and no limits stand for rows */
-    int is_coupled;             /* whether that was factored */
-    double *dense_C;    /* (m, n): where the system's own is packed */
+    int most;           /* number of rows allocated */
+    zd_structured *many;        /* replaces all that follows for a declared structure with many constraints */
+    zd_schur_blocks *blocks;      /* replaces what follows for a declared structure, unless limits replace constraints */
+    int is_coupled;             /* 1: blocks were factored */
+    double *dense_C;    /* (m, n): dense C, if the system's own is packed */
     double *L;      /* (n, n), with D in reciprocals on the diagonal */
     double *Q;      /* (m, n) */
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
-    const double *C;    /* (m, n): the point's rows that count */
+    const double *C;    /* (m, n): independent rows of C of the point */
     double *b;      /* (m,) */
-    double *rows;   /* (4, n), of large systems: see orthogonal.h */
-    double *rest, *correction;  /* (m,), (n,): what is left of C x = rhs, and what removes it */
+    double *rows;   /* (4, n), for large systems: see orthogonal.h */
+    double *rest, *correction;  /* (m,), (n,): residual rhs - C x, and its correction */
 } schur;
 
 static void take_matrices(zd_arena *arena, schur *self)
@@ -52,7 +51,7 @@ static void take_matrices(zd_arena *arena, schur *self)
     self->G = zd_take_doubles(arena, m * m);
     self->b = zd_take_doubles(arena, m);
     self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
-    self->rest = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* one is for solves, the other for factorizations */
+    self->rest = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* rest is for solves, rows for factorizations */
     self->correction = zd_take_doubles(arena, n);
 }
 
@@ -65,8 +64,8 @@ static void *take(zd_arena *arena, const zd_system *system, const void *given)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Takes out of q what it has along the first k rows of Q; how much that was goes to g, row k of G, or is added if it is done
- * again. Gives what is left of q, squared. */
+/* Projects the first k rows of Q out of q; the coefficients are written to g, row k of G, or added if this is repeated. Returns the
+ * squared norm of the remaining q. */
 ZD_INLINE double orthogonalize(const int n, const int m, int k, const int again, const schur *self, double *q, double *g)
 {
     for (int j = 0; j < k; j++) {
@@ -78,7 +77,7 @@ ZD_INLINE double orthogonalize(const int n, const int m, int k, const int again,
     return zd_metric_dot(n, self->L, q, q);
 }
 
-/* Returns m, or the row of which only rounding is left when those before it are taken out. */
+/* Factors; returns m, or the first row whose residual is rounding. */
 ZD_INLINE int factor_all(const int n, const int m, const schur *self)
 {
     const double *C = self->C;
@@ -95,7 +94,7 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
 
 ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(factor_all, n, self->m, self); }
 
-/* ---- large systems, whose rows tell by what is left of them whether all count ---- */
+/* ---- large systems, whose residual norms show independence ---- */
 
 static int finds_rows(const zd_system *system)
 {
@@ -113,7 +112,7 @@ static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const
     return shares;
 }
 
-/* Whether M^-1 is a metric in which shares mean something. */
+/* True if M^-1 is well conditioned enough to serve as a metric. */
 static int has_metric(const schur *self, const double *M)
 {
     int has = 1;
@@ -161,14 +160,14 @@ static void *take_all(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Where its pivots tell that all rows count, or that is known. */
-static int is_told(const schur *self, zd_point *point)
+/* True if its pivots show that all constraints are independent, or that is known. */
+static int are_independent(const schur *self, zd_point *point)
 {
     if (point->known & ZD_RANKED) return 1;
     return self->blocks->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED && zd_schur_blocks_has_long_rows(self->blocks, point);
 }
 
-/* The same where some are redundant: the choice among them is known beforehand. */
+/* The same with redundant constraints: their selection is known beforehand. */
 static int factor_chosen(schur *self, zd_point *point)
 {
     int status = zd_rows_find(point);
@@ -179,7 +178,7 @@ static int factor_chosen(schur *self, zd_point *point)
     return status == ZD_DEPENDENT_ROWS ? ZD_DONE : status;
 }
 
-/* By C M^-1 C^T, where all rows count and it keeps enough digits. */
+/* Factors C M^-1 C^T in blocks, if all constraints are independent and it keeps enough digits. */
 static int factor_coupled(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
@@ -189,13 +188,13 @@ static int factor_coupled(schur *self, zd_point *point)
         status = zd_schur_blocks_factor(self->blocks, point);
     if (status && status != ZD_DEPENDENT_ROWS) return status;
     self->is_coupled = !status && self->blocks->share > SMALL_PIVOT;
-    if (self->is_coupled && is_told(self, point)) zd_rows_use_all(point);
+    if (self->is_coupled && are_independent(self, point)) zd_rows_use_all(point);
     status = zd_rows_find(point);
     if (!status) self->is_coupled &= zd_rank_is_full(point);
     return status;
 }
 
-/* Matrices are dense, in memory that is taken when it is first needed, where rows are left out, or where C M^-1 C^T has lost too many
+/* Factors by blocks; or by dense matrices, allocated when first needed, if constraints are left out or C M^-1 C^T has lost too many
  * digits. */
 static int factor_packed(schur *self, zd_point *point)
 {
@@ -214,7 +213,7 @@ static int factor_few(schur *self, zd_point *point)
     return point->layout ? factor_packed(self, point) : factor_dense(self, point, point->terms.M);
 }
 
-/* A choice of rows that was kept was good in the plain metric: where it is not in that of M^-1, another may be. */
+/* Factors; if a selection kept from an earlier point, which was good in the plain metric, is not in that of M^-1, it is made anew. */
 static int factor(void *memory, zd_point *point)
 {
     schur *self = memory;
@@ -223,7 +222,7 @@ static int factor(void *memory, zd_point *point)
     return status == ZD_DEPENDENT_ROWS && zd_rows_give_up_kept(point) ? factor_few(self, point) : status;
 }
 
-/* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b comes as z */
+/* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b holds z */
 ZD_INLINE void exchange_all(const int n, const int m, const schur *self, const double *force, double *b, double *x)
 {
     if (force) zd_forward(n, self->L, force, x);                            /* y */
@@ -242,7 +241,7 @@ ZD_INLINE void exchange(const int n, const schur *self, const double *force, dou
     ZD_ROWS(exchange_all, n, self->m, self, force, b, x);
 }
 
-/* rest <- rhs - C x; returns whether it is more than the rounding of x makes it */
+/* rest <- rhs - C x; returns 1 if it exceeds the rounding of x */
 ZD_INLINE int is_any_left(const int n, const int m, const schur *self, const double *rhs, const double *x, double *rest)
 {
     int left = 0;
@@ -296,9 +295,9 @@ const zd_formulation zd_schur = {
         .summary = "Dependent variables; multipliers from the small matrix C M^-1 C^T, then accelerations.",
         .equations = "(13), (27)",
         .description = "M is factored by Cholesky, then the small matrix C M^-1 C^T gives the multipliers, and these the "
-                       "accelerations. It is usually the fastest, and the one that is taken where nothing else is asked for. M "
-                       "has to be positive definite. Light parts beside heavy ones cost no digits, as an error of C vdot = xi is "
-                       "seen and corrected.",
+                       "accelerations. It is usually the fastest, and the default. M "
+                       "must be positive definite. Large mass ratios cost no digits, as an error of C vdot = xi is "
+                       "detected and corrected.",
         .reference = "R. von Schwerin, MultiBody System SIMulation, Springer, 1999",
     },
     ZD_DEPENDENT_STATE,

@@ -1,16 +1,16 @@
 /* (13) without dense matrices:
  *
- *     W = M^-1                                each block by itself
- *     S = C W C^T                             blocks of groups of rows that touch a body both: point/weighted.c
+ *     W = M^-1                                block by block
+ *     S = C W C^T                             blocks of pairs of groups that touch the same body: point/weighted.c
  *     S lambda = C W (f - d) - xi,   vdot = W (f - d - C^T lambda)
  *
- * S has the condition of the constraints squared, which the orthogonalization in schur.c avoids; and W enlarges the rounding of large
- * reactions that meet in a light body. Both show: in a small pivot of S, and in a row of C to which its bodies contribute unequally. Where
- * either is so, the solution is compared with C vdot = xi and corrected with the same factors until nothing is left of it.
+ * S has the squared condition number of the constraints, which the orthogonalization in schur.c avoids; and W amplifies the rounding of
+ * large reactions on a light body. Both can be detected: by a small pivot of S, and by a row of C to which its bodies contribute
+ * unequally. In either case the solution is verified with C vdot = xi and refined with the same factors until the residual is rounding.
  *
- * The smallest pivot of a long chain is small for its length alone, and its solutions are accurate. To compare them takes C, which is not
- * stored otherwise, and as long as all the rest: so what has many rows, and was found accurate, is compared again after some
- * factorizations, each time after twice as many, or as soon as the pivot is half of what it was.
+ * The smallest pivot of a long chain is small because of its length alone, and its solutions are accurate. Verification requires C,
+ * which is not stored otherwise, and takes as long as all the rest: so systems with many constraints that were found accurate are
+ * verified again only after a number of factorizations that doubles each time, or as soon as the pivot has halved.
  */
 #include "schur_blocks.h"
 
@@ -24,11 +24,11 @@
 
 enum {
     MAX_REFINEMENTS = 40,
-    LONGEST_WAIT = 251,     /* factorizations until solutions are compared again: a prime, so that each stage of a step has its turn */
+    LONGEST_WAIT = 251,     /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
 };
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* of the terms of C x: nothing to be corrected */
-static const double GOOD_PIVOT = 0x1p-10;             /* of the diagonal of S: with pivots that are larger, few digits are lost */
-static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* of the terms of C x: so little is left of accurate solutions */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
+static const double GOOD_PIVOT = 0x1p-10;             /* pivot relative to the diagonal of S above which few digits are lost */
+static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* residual relative to the terms of C x of accurate solutions */
 
 zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
 {
@@ -56,7 +56,7 @@ zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* ---- right sides ---- */
+/* ---- right-hand sides ---- */
 
 /* x <- W y */
 static void times_W(const zd_schur_blocks *self, const double *y, double *restrict x)
@@ -101,7 +101,7 @@ static int invert_mass(zd_schur_blocks *self, zd_point *point)
     return ZD_DONE;
 }
 
-/* S of the rows that count, of which C is there. Right sides have another order than what is awaited. */
+/* Factors S of the selected constraints, whose C is evaluated. Pending right-hand sides have another order and are not eliminated. */
 static zd_pivots factor_chosen(zd_schur_blocks *self)
 {
     const zd_selection *chosen = self->chosen;
@@ -111,8 +111,8 @@ static zd_pivots factor_chosen(zd_schur_blocks *self)
     return zd_weighted_factor_without(self->weighted, self->C, self->W, self->without);
 }
 
-/* S and its factors, with the right side that is awaited; what it takes of C is there before, or is what a call with ZD_MOVED has left in the
- * scratch. */
+/* Forms and factors S, and eliminates the pending right-hand side. C is evaluated before, or a call with ZD_MOVED has left the system's
+ * own data in its scratch memory. */
 static int factor(zd_schur_blocks *self, zd_point *point, zd_pivots *pivots)
 {
     int status = !self->products ? zd_point_need(point, ZD_C) : point->known & ZD_MOVED ? ZD_DONE : zd_point_need_missing(point, 0);
@@ -128,7 +128,7 @@ static int factor(zd_schur_blocks *self, zd_point *point, zd_pivots *pivots)
     return ZD_DONE;
 }
 
-/* Whether solutions with these factors are compared with what they have to satisfy. */
+/* True if solutions with these factors are to be verified. */
 static int is_to_be_compared(zd_schur_blocks *self)
 {
     if (!self->is_accurate || (self->share < GOOD_PIVOT && self->least)) return 1;
@@ -145,7 +145,7 @@ static void *take_without(zd_arena *arena, const void *weighted)
     return zd_take(arena, (size_t)((const zd_weighted *)weighted)->blocks->rows);
 }
 
-/* What is symbolic, once it is first wanted; whether there is memory. */
+/* Allocates the symbolic structure at the first call; returns 0 without memory. */
 static int has_symbolic(zd_schur_blocks *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
@@ -167,7 +167,7 @@ int zd_schur_blocks_factor(zd_schur_blocks *self, zd_point *point)
     int status = invert_mass(self, point);
     if (!status) status = factor(self, point, &pivots);
     if (status) return status;
-    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
+    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* upper bound: rounding */
     self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
     self->is_compared = pivots.failed >= 0 || is_to_be_compared(self);
     if (pivots.failed < 0) return self->is_compared ? zd_point_need(point, ZD_C) : ZD_DONE;
@@ -210,7 +210,7 @@ static void subtract_weighted(zd_schur_blocks *self, const double *y, double *x)
     self->products->subtract_weighted(self->data, &self->terms, self->W, y, row_groups->place, x);
 }
 
-/* x <- W (force - C^T lambda), where x and y are as begin() leaves them, once zd_blocks_forward() is made of y */
+/* x <- W (force - C^T lambda), from x and y of begin(), y after zd_blocks_forward() */
 static void finish(zd_schur_blocks *self, const double *force, double *x)
 {
     double *y = self->weighted->blocks->x;
@@ -227,7 +227,7 @@ static void finish(zd_schur_blocks *self, const double *force, double *x)
     times_W(self, self->force, x);                                                          /* (13), (27) */
 }
 
-/* rest <- rhs - C x; returns how much that is of its terms, where it is more than the rounding of x makes it; else 0. */
+/* rest <- rhs - C x; returns the largest entry relative to its terms, 0 if it is within the rounding of x. */
 static double find_rest(const zd_schur_blocks *self, const double *rhs, const double *x, double *rest)
 {
     double left = 0;

@@ -1,5 +1,6 @@
-/* In the metric of M^-1, pivots of S = C M^-1 C^T are the squares of what is left of each row once those before it are taken out; without the
- * rows that were redundant at the start, all of them are positive but at a bifurcation. Nothing is solved with these factors.
+/* In the metric of M^-1, the pivots of S = C M^-1 C^T are the squared residual norms of the rows after those before them are projected
+ * out; without the constraints that were redundant at the start, all of them are positive except at a bifurcation. No equations are
+ * solved with these factors.
  */
 #include "singularity_monitor.h"
 
@@ -7,7 +8,7 @@
 
 typedef struct plan {
     const zd_point *point;
-    int rows;               /* of S */
+    int rows;               /* number of rows of S */
 } plan;
 
 static void *take(zd_arena *arena, const void *of)
@@ -20,7 +21,7 @@ static void *take(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* Rows that were redundant at the start, in the order of S. */
+/* Marks the constraints that were redundant at the start, in the order of S. */
 static void leave_out(zd_singularity_monitor *self, const zd_rank *rank)
 {
     const zd_layout *layout = self->weighted->layout;
@@ -44,7 +45,7 @@ int zd_singularity_monitor_update(zd_singularity_monitor *self, const zd_point *
 {
     if (zd_mass_factor(point, self->W) < point->system->nv) return 0;
     const zd_pivots pivots = zd_weighted_factor_without(self->weighted, point->terms.C, self->W, self->without);
-    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* or less: rounding */
+    self->share = pivots.failed < 0 ? pivots.pivot / pivots.diagonal : 0x1p-52;     /* upper bound: rounding */
     self->smallest = pivots.failed < 0 ? pivots.smallest : pivots.failed;
     return 1;
 }

@@ -1,5 +1,5 @@
-/* (8), (9) and (13) are the same equations, and their elimination is: of the rows, (13), as long as M is definite and no row follows from
- * others; of the bodies else. So these formulations differ in what they take, and in nothing else, where matrices are not formed. */
+/* (8), (9) and (13) are the same equations, solved by the same eliminations: of the constraints, (13), if M is definite and no
+ * constraint is redundant; else of the bodies. Where matrices are not formed, these formulations differ only in the systems they accept. */
 #include "structured.h"
 
 #include "../constraints/rows.h"
@@ -11,7 +11,8 @@ zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* A small pivot is told, and decides nothing: somewhere in a long chain there is one wherever the motion comes near a bifurcation. */
+/* Records the smallest pivot for the statistics. It has no further consequence: in a long chain some pivot is small whenever the motion
+ * comes near a bifurcation. */
 static void note_pivot(const zd_weighted *weighted, double share, int smallest, const zd_point *point)
 {
     zd_statistics *statistics = point->statistics;
@@ -24,7 +25,7 @@ static void note_pivot(const zd_weighted *weighted, double share, int smallest, 
 static int factor_bodywise(zd_structured *self, zd_point *point)
 {
     zd_store *store = point->rank->store;
-    int status = zd_point_need(point, ZD_M | ZD_C);     /* a system's own products do without them */
+    int status = zd_point_need(point, ZD_M | ZD_C);     /* not evaluated yet if the system provides its own products */
     if (status) return status;
     if (!self->bodywise) self->bodywise = zd_bodywise_create(store, point);
     if (!self->monitor && point->rank->left_out) self->monitor = zd_singularity_monitor_create(store, point);
