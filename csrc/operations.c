@@ -83,26 +83,26 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
 }
 
 /* What the corrections that are given hold. */
-static zd_hold hold_of(const zd_settings *settings)
+static zd_constraint_target target_of(const zd_settings *settings)
 {
-    zd_hold hold = {0};
+    zd_constraint_target target = {0};
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
         const zd_correction *correction = zd_correction_of(row);
-        if (settings->correction[row].given && correction->hold) hold = correction->hold(settings->correction[row].value);
+        if (settings->correction[row].given && correction->target) target = correction->target(settings->correction[row].value);
     }
-    return hold;
+    return target;
 }
 
 static int project(zd_store *store, const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                    const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size)
 {
-    const zd_hold hold = hold_of(settings);
+    const zd_constraint_target target = target_of(settings);
     int status = ZD_DONE;
-    if (hold.positions) {
+    if (target.positions) {
         const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;     /* (25a) has all rows of C */
         status = holding ? project_stage(holding, settings, ZD_PHI, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
     }
-    if (!status && hold.velocities) {
+    if (!status && target.velocities) {
         const zd_system *holding = zd_hold_velocities(store, system, hold_v, v);
         status = holding ? project_stage(holding, settings, ZD_C, t, p, v, NULL, message, message_size) : ZD_NO_MEMORY;
     }

@@ -9,16 +9,16 @@ static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval || settings->events) zd_output_keep_beginning(&run->output);
-    int status = zd_course_take_step(&run->course);
+    int status = zd_step_loop_take_step(&run->loop);
     if (status || !settings->events) return status;
-    return zd_watch_after(&run->watch, zd_course_is_corrected(&run->course), &run->course.end);
+    return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }
 
 static int save_what_is_due(zd_run *run, zd_record *record)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval) return zd_output_after(&run->output, record, run->watch.ended);
-    return zd_course_is_due(&run->course, settings->save_every) ? zd_recorder_add(&run->recorder, record) : ZD_DONE;
+    return zd_step_loop_is_due(&run->loop, settings->save_every) ? zd_recorder_add(&run->recorder, record) : ZD_DONE;
 }
 
 static int save(zd_run *run, zd_record *record)
@@ -31,7 +31,7 @@ static int save(zd_run *run, zd_record *record)
 static int is_over(const zd_run *run)
 {
     const zd_settings *settings = &run->settings;
-    return run->stepper.t == run->course.end || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
+    return run->stepper.t == run->loop.end || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
 }
 
 /* Saves the start, or what the record before had no room for. */
@@ -45,11 +45,11 @@ static int begin(zd_run *run, zd_record *record)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
-    const int64_t first = run->course.step;    /* no slice is so short that nothing happens in it */
+    const int64_t first = run->loop.step;    /* no slice is so short that nothing happens in it */
     int status = run->outcome.status;
     if (!status) status = begin(run, record);
     while (!status && !is_over(run)) {
-        const int64_t step = run->course.step;
+        const int64_t step = run->loop.step;
         if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() >= deadline) return ZD_PAUSED;
         status = take_step(run);
         if (!status) status = save(run, record);

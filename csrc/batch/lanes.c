@@ -148,13 +148,13 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .direct = direct, .method = method_of(run->stepper.integrator), .lanes = functions->lanes,
         .nq = system->nq, .nv = system->nv, .m = zd_constraints(system), .mh = system->mh, .size = run->motion.rate.size,
         .has_A = (system->provides & ZD_A) != 0, .has_input = run->motion.balance.input != NULL,
-        .max_iterations = run->motion.hold.max_iterations, .corrects = run->motion.corrections > 0,
-        .is_fixed = settings->step > 0, .t0 = settings->t0, .end = settings->t1, .step = settings->step, .steps = (double)run->course.steps,
+        .max_iterations = run->motion.target.max_iterations, .corrects = run->motion.corrections > 0,
+        .is_fixed = settings->step > 0, .t0 = settings->t0, .end = settings->t1, .step = settings->step, .steps = (double)run->loop.steps,
         .rtol = settings->rtol, .atol = settings->atol, .longest = settings->max_step > 0 ? settings->max_step : INFINITY,
         .tiny = 16 * 0x1p-52 * fmax(fabs(settings->t0), fabs(settings->t1)),
         .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
         .decay = run->stepper.integrator->decay,
-        .every = run->motion.hold.every,
+        .every = run->motion.target.every,
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
         .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };
@@ -193,7 +193,7 @@ static void load_state(zd_lanes *self, int lane, const zd_run *run)
 static void load_road(zd_lanes *self, int lane, zd_run *run)
 {
     zd_direct_measure(&run->motion);
-    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.road.scale, self->scale);
+    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.path.scale, self->scale);
     self->order[lane] = NAN;
 }
 
@@ -216,7 +216,7 @@ static void load_units(zd_lanes *self, int lane, const zd_run *run)
     load(self, lane, self->nq, point->inverse_unit_p, self->inverse_unit_p);
     load(self, lane, self->nv, point->inverse_unit, self->inverse_unit);
     load(self, lane, self->mh, point->inverse_size, self->inverse_size);
-    for (int k = 0; k < self->mh; k++) zd_lane_set(self, self->allowed, k, lane, run->motion.hold.tolerance * point->size[k]);
+    for (int k = 0; k < self->mh; k++) zd_lane_set(self, self->allowed, k, lane, run->motion.target.tolerance * point->size[k]);
 }
 
 static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers)
@@ -245,6 +245,6 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     else load_pins(self, lane, run, data);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
-    self->h[lane] = run->course.control.h;
+    self->h[lane] = run->loop.control.h;
     set_look(self, lane);
 }

@@ -51,11 +51,11 @@ static int rest_serves(const zd_run *run)
 static int run_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
-    const zd_hold *hold = &motion->hold;
-    if (!(motion->road.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
+    const zd_constraint_target *target = &motion->target;
+    if (!(motion->path.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
-    return rest_serves(run) && hold->positions && hold->velocities && hold->in_mass_metric && (hold->every == 1 || motion->road.direct);
+    return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric && (target->every == 1 || motion->path.direct);
 }
 
 /* ---- memory ---- */
@@ -147,7 +147,7 @@ static int say_event(const zd_lane_group *self, int lane)
     const zd_lane_run *run = &self->run_of[lane];
     char *message = zd_message_of(batch, run->number);
     const size_t size = (size_t)batch->message_size, said = zd_say_where(message, size, lanes->t[lane], (int64_t)lanes->number[lane],
-                                                                         self->run->course.steps);
+                                                                         self->run->loop.steps);
     zd_say_event(message + said, size - said, run->search.ended - 1);
     return ZD_EVENT;
 }

@@ -64,10 +64,10 @@ static int every(const void *memory)
     return (int)given->every;
 }
 
-static zd_hold hold(const void *memory)
+static zd_constraint_target target(const void *memory)
 {
     const given_projection *given = memory;
-    return (zd_hold){given->positions != 0, given->velocities != 0, (int)given->every, (int)given->metric == MASS, given->tol, (int)given->max_iterations};
+    return (zd_constraint_target){given->positions != 0, given->velocities != 0, (int)given->every, (int)given->metric == MASS, given->tol, (int)given->max_iterations};
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *memory)
@@ -200,7 +200,7 @@ static int iterate(const zd_newton *newton, position_problem *problem)
 
 static int correct_positions(projection *self, zd_motion *motion)
 {
-    zd_newton newton = {position_residual, improve_position, motion->hold.tolerance, motion->hold.max_iterations,
+    zd_newton newton = {position_residual, improve_position, motion->target.tolerance, motion->target.max_iterations,
                         motion->in_run ? ZD_TRUSTED_SHARE : 0, NULL, 0};
     position_problem problem = {self, motion, 0};
     int status = iterate(&newton, &problem);
@@ -240,9 +240,9 @@ static int direct_residual(void *context, double *size)
     position_problem *problem = context;
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
-    const zd_elimination *order = problem->motion->road.order;
+    const zd_elimination *order = problem->motion->path.order;
     problem->motion->statistics.evaluations++;
-    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, problem->motion->road.dp, self->x);
+    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, problem->motion->path.dp, self->x);
     if (status) return ZD_CALLBACK;
     *size = zd_point_violation(point);
     return ZD_DONE;
@@ -253,7 +253,7 @@ static int improve_directly(void *context)
     position_problem *problem = context;
     projection *self = problem->self;
     zd_point *point = problem->motion->point;
-    ZD_SIZED(zd_subtract, point->system->nq, point->p, problem->motion->road.dp, self->p);      /* (25a), (26a), (27a) */
+    ZD_SIZED(zd_subtract, point->system->nq, point->p, problem->motion->path.dp, self->p);      /* (25a), (26a), (27a) */
     zd_quaternions_normalise(point->system, self->p);
     zd_point_move_position(point, self->p);
     return ZD_DONE;
@@ -262,7 +262,7 @@ static int improve_directly(void *context)
 static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
 {
     zd_point *point = motion->point;
-    zd_newton newton = {direct_residual, improve_directly, motion->hold.tolerance, motion->hold.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
+    zd_newton newton = {direct_residual, improve_directly, motion->target.tolerance, motion->target.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
     position_problem problem = {self, motion, 0};
     double size;
     int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
@@ -276,15 +276,15 @@ static int correct_directly(projection *self, zd_motion *motion, int positions, 
 static int after_step(void *memory, zd_motion *motion)
 {
     projection *self = memory;
-    int positions = motion->hold.positions && (motion->corrects & ZD_PHI);
-    int velocities = motion->hold.velocities && (motion->corrects & ZD_C);
+    int positions = motion->target.positions && (motion->corrects & ZD_PHI);
+    int velocities = motion->target.velocities && (motion->corrects & ZD_C);
     int status = ZD_DONE;
     if (zd_is_direct(motion) && !self->plain) {
         positions &= (motion->drifts_from & ZD_PHI) != 0;
         velocities &= (motion->drifts_from & ZD_C) != 0;
         if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
         zd_point *point = motion->point;
-        if (motion->road.lands) return zd_direct_land(motion, point->t, point->p, point->v);
+        if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
         status = correct_directly(self, motion, positions, velocities);
         /* What is corrected next goes by the velocities that follow from these positions. */
         return !status && zd_is_embedded(motion) && motion->corrections > 1 ? zd_embed_settle(motion) : status;
@@ -310,7 +310,7 @@ const zd_correction zd_projection_row = {
         .parameter = parameters,
     },
     .every = every,
-    .hold = hold,
+    .target = target,
     .take = take,
     .after_step = after_step,
 };

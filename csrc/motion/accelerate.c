@@ -18,7 +18,7 @@ static void stabilize(zd_motion *motion)
 static int accelerate_directly(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     const double *added = NULL;
     int status = zd_point_need(point, motion->corrections_need);
     if (status) return status;
@@ -27,15 +27,15 @@ static int accelerate_directly(zd_motion *motion)
         stabilize(motion);
         added = point->rhs;
     }
-    if (road->embeds) status = zd_embed_accelerate(motion, added);
+    if (path->embeds) status = zd_embed_accelerate(motion, added);
     else {
         motion->statistics.evaluations++;
-        status = road->order->accelerate(point->system->data, &point->t, point->p, point->v, added, road->pdot, point->vdot, point->lambda,
-                                         motion->balance.input ? &road->power : NULL, road->pivots);
+        status = path->order->accelerate(point->system->data, &point->t, point->p, point->v, added, path->pdot, point->vdot, point->lambda,
+                                         motion->balance.input ? &path->power : NULL, path->pivots);
     }
     if (status) return ZD_CALLBACK;
     point->known |= ZD_ACCELERATED;
-    road->smallest = 0;
+    path->smallest = 0;
     return ZD_DONE;
 }
 
@@ -96,10 +96,10 @@ static int direct_rate_of_point(zd_motion *motion, double t, const double *y, do
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
-    zd_copy_all(nq, point->terms.A ? motion->road.pdot : point->v, ydot);
+    zd_copy_all(nq, point->terms.A ? motion->path.pdot : point->v, ydot);
     zd_copy_all(nv, point->vdot, ydot + nq);
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
-    if (motion->balance.input) ydot[motion->rate.size - 1] = motion->road.power;
+    if (motion->balance.input) ydot[motion->rate.size - 1] = motion->path.power;
     return ZD_DONE;
 }
 
@@ -116,6 +116,6 @@ int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot
     motion->statistics.evaluations++;
     if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = motion->road.order->accelerate(point->system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
+    int status = motion->path.order->accelerate(point->system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }

@@ -5,7 +5,7 @@ static int correct(zd_motion *motion, int64_t step, int forced, int constraints_
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
-        if (constraints_hold && active->row->hold) continue;
+        if (constraints_hold && active->row->target) continue;
         int status = active->row->after_step(active->self, motion);
         if (status) return status;
     }

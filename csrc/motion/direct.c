@@ -41,7 +41,7 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
     const zd_direct *direct = zd_direct_of(system, motion->formulation, unit);
     if (!direct) return;
     const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
-    motion->road = (zd_road){
+    motion->path = (zd_path){
         .direct = direct,
         .first = embeds ? direct->embedding : direct->order,
         .orders = orders,
@@ -53,12 +53,12 @@ void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
         .dp = zd_take_doubles(arena, (size_t)system->nq),
         .allowed = zd_take_doubles(arena, (size_t)system->mh),
     };
-    if (embeds) zd_embed_take(&motion->road, arena, system);
+    if (embeds) zd_embed_take(&motion->path, arena, system);
 }
 
 static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 {
-    return motion->road.scale + (order - motion->road.first) * motion->system.nv;
+    return motion->path.scale + (order - motion->path.first) * motion->system.nv;
 }
 
 /* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. Pivots of D^T M D are shares
@@ -74,14 +74,14 @@ static void measure(const zd_motion *motion, const zd_elimination *order)
 
 void zd_direct_measure(zd_motion *motion)
 {
-    for (int i = 0; i < motion->road.direct->orders; i++) measure(motion, motion->road.direct->order + i);
+    for (int i = 0; i < motion->path.direct->orders; i++) measure(motion, motion->path.direct->order + i);
 }
 
 /* The smallest pivot of the rows at the point, in parts of what it is measured by; 0: D^T M D has lost too much, or one is no number */
 static double smallest_pivot(const zd_motion *motion)
 {
-    const zd_elimination *order = motion->road.order;
-    const double *pivots = motion->road.pivots, *scale = scale_of(motion, order);
+    const zd_elimination *order = motion->path.order;
+    const double *pivots = motion->path.pivots, *scale = scale_of(motion, order);
     const int solves = order->solves, all = solves + motion->system.nv - zd_constraints(&motion->system);
     double smallest = INFINITY;
     for (int k = 0; k < solves; k++) {
@@ -95,14 +95,14 @@ static double smallest_pivot(const zd_motion *motion)
 
 static int count_pivots(const zd_motion *motion)
 {
-    return motion->road.order->solves + motion->system.nv - zd_constraints(&motion->system);
+    return motion->path.order->solves + motion->system.nv - zd_constraints(&motion->system);
 }
 
 /* Whether a step ends with the projection, after which the energy may be corrected, and nothing else is integrated or added. */
 static int ends_with_projection(const zd_motion *motion)
 {
-    const zd_hold *hold = &motion->hold;
-    return !motion->is_stabilized && hold->positions && hold->velocities && hold->in_mass_metric && motion->corrects == (ZD_PHI | ZD_C)
+    const zd_constraint_target *target = &motion->target;
+    return !motion->is_stabilized && target->positions && target->velocities && target->in_mass_metric && motion->corrects == (ZD_PHI | ZD_C)
         && motion->rate.size == motion->formulation_size;
 }
 
@@ -118,10 +118,10 @@ static const zd_range NOWHERE = {UINT64_MAX, 0};    /* but at a number that is n
 /* Of another order: a glance says nothing of them until they have been compared. */
 static void forget_pivots(zd_motion *motion)
 {
-    motion->road.ranges = count_pivots(motion);
+    motion->path.ranges = count_pivots(motion);
     for (int k = 0; k < motion->system.nv; k++) {
-        motion->road.pivots[k] = 0;
-        motion->road.range[k] = NOWHERE;
+        motion->path.pivots[k] = 0;
+        motion->path.range[k] = NOWHERE;
     }
 }
 
@@ -129,26 +129,26 @@ static void forget_pivots(zd_motion *motion)
  * two steps none has shrunk by more than sixteen in the second. */
 static void remember_pivots(zd_motion *motion)
 {
-    zd_road *road = &motion->road;
-    const double *scale = scale_of(motion, road->order), factor = 1 / sqrt(SHRUNK);
-    if (road->order != road->first) return;
+    zd_path *path = &motion->path;
+    const double *scale = scale_of(motion, path->order), factor = 1 / sqrt(SHRUNK);
+    if (path->order != path->first) return;
     for (int k = 0; k < count_pivots(motion); k++) {
-        const double x = road->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
+        const double x = path->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
         const uint64_t from = bits_of(copysign(least, x)), to = bits_of(copysign(most, x));
-        road->range[k] = least <= most ? (zd_range){from, to - from} : NOWHERE;
+        path->range[k] = least <= most ? (zd_range){from, to - from} : NOWHERE;
     }
 }
 
 static void use(zd_motion *motion, const zd_elimination *order)
 {
-    if (motion->road.order == order) return;
+    if (motion->path.order == order) return;
     motion->point->known &= ~ZD_ACCELERATED;
-    motion->road.order = order;
-    motion->road.continues = 0;
+    motion->path.order = order;
+    motion->path.continues = 0;
     if (order) forget_pivots(motion);
-    motion->road.lands = order && order->land && ends_with_projection(motion);
-    for (int k = 0; k < motion->system.mh; k++) motion->road.allowed[k] = motion->hold.tolerance * motion->point->size[k];
-    const int embeds = motion->road.embeds;
+    motion->path.lands = order && order->land && ends_with_projection(motion);
+    for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
+    const int embeds = motion->path.embeds;
     motion->rate.evaluate = !order ? zd_motion_rate : embeds ? zd_motion_embedded_rate : zd_motion_direct_rate;
     motion->rate.direct = motion->is_stabilized || embeds || motion->rate.size > motion->formulation_size ? NULL : order;
 }
@@ -160,26 +160,26 @@ void zd_direct_leave(zd_motion *motion)
 
 void zd_direct_remember_energy(zd_motion *motion)
 {
-    motion->road.energy_skipped = motion->statistics.energy_skipped;
-    motion->road.energy_corrections = motion->statistics.energy_corrections;
-    motion->road.energy_corrected = motion->statistics.energy_corrected;
-    motion->road.skipped_since_row = motion->tally->energy_skipped;
+    motion->path.energy_skipped = motion->statistics.energy_skipped;
+    motion->path.energy_corrections = motion->statistics.energy_corrections;
+    motion->path.energy_corrected = motion->statistics.energy_corrected;
+    motion->path.skipped_since_row = motion->tally->energy_skipped;
 }
 
 void zd_direct_forget_energy(zd_motion *motion)
 {
-    motion->statistics.energy_skipped = motion->road.energy_skipped;
-    motion->statistics.energy_corrections = motion->road.energy_corrections;
-    motion->statistics.energy_corrected = motion->road.energy_corrected;
-    motion->tally->energy_skipped = motion->road.skipped_since_row;
+    motion->statistics.energy_skipped = motion->path.energy_skipped;
+    motion->statistics.energy_corrections = motion->path.energy_corrections;
+    motion->statistics.energy_corrected = motion->path.energy_corrected;
+    motion->tally->energy_skipped = motion->path.skipped_since_row;
 }
 
 /* A step that begins at the point. */
 static void begin(zd_motion *motion)
 {
-    zd_copy_all(count_pivots(motion), motion->road.pivots, motion->road.before);
+    zd_copy_all(count_pivots(motion), motion->path.pivots, motion->path.before);
     zd_direct_remember_energy(motion);
-    if (motion->road.embeds) zd_embed_begin(motion);
+    if (motion->path.embeds) zd_embed_begin(motion);
 }
 
 /* Whether the pivots of an order are so large at the point. */
@@ -195,9 +195,9 @@ static int takes(zd_motion *motion, const zd_elimination *order, double enough)
 /* The first order whose pivots are so large at the point, if there is one. */
 static int find_order(zd_motion *motion, double enough)
 {
-    const zd_road *road = &motion->road;
-    for (int i = 0; i < road->orders; i++)
-        if (takes(motion, road->first + i, enough)) return 1;
+    const zd_path *path = &motion->path;
+    for (int i = 0; i < path->orders; i++)
+        if (takes(motion, path->first + i, enough)) return 1;
     return 0;
 }
 
@@ -210,27 +210,27 @@ static int find_embedding(zd_motion *motion)
 
 void zd_direct_choose(zd_motion *motion)
 {
-    const zd_road *road = &motion->road;
+    const zd_path *path = &motion->path;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
     /* Mostly it is the one of the step before, whose end this is. */
-    if (all_count && road->order == road->first && (motion->point->known & ZD_ACCELERATED) && road->smallest >= LARGE) begin(motion);
-    else if (!all_count || !(road->embeds ? find_embedding(motion) : find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH)))
+    if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= LARGE) begin(motion);
+    else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH)))
         use(motion, NULL);
 }
 
 int zd_direct_compare(zd_motion *motion, double moved)
 {
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
     const double smallest = smallest_pivot(motion);
     if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
     const int count = count_pivots(motion);
     for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
-        if (!(road->pivots[k] * road->before[k] >= SHRUNK * road->before[k] * road->before[k])) return ZD_SINGULAR;
-    if (road->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
-    road->smallest = smallest;
-    road->was_taken = 1;
+        if (!(path->pivots[k] * path->before[k] >= SHRUNK * path->before[k] * path->before[k])) return ZD_SINGULAR;
+    if (path->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
+    path->smallest = smallest;
+    path->was_taken = 1;
     remember_pivots(motion);
     return ZD_DONE;
 }

@@ -20,17 +20,17 @@ enum { MAX_ITERATIONS = 8 };
 static const double ROUNDING = 16 * 0x1p-52;    /* of the sizes of Phi and p: what is left of Phi then */
 static const double LEAST_TERMS = 16;           /* of a row, for whose rounding that is enough */
 
-void zd_embed_take(zd_road *road, zd_arena *arena, const zd_system *system)
+void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system)
 {
     const size_t nv = (size_t)system->nv, m = (size_t)zd_constraints(system), mh = (size_t)system->mh;
-    road->embeds = 1;
-    road->p = zd_take_doubles(arena, (size_t)system->nq);
-    road->v = zd_take_doubles(arena, nv);
-    road->vdot = zd_take_doubles(arena, nv);
-    road->Phi = zd_take_doubles(arena, mh);
-    road->unbounded = zd_take_doubles(arena, mh);
-    road->D = zd_take_doubles(arena, m * (nv - m));
-    for (size_t k = 0; road->unbounded && k < mh; k++) road->unbounded[k] = INFINITY;
+    path->embeds = 1;
+    path->p = zd_take_doubles(arena, (size_t)system->nq);
+    path->v = zd_take_doubles(arena, nv);
+    path->vdot = zd_take_doubles(arena, nv);
+    path->Phi = zd_take_doubles(arena, mh);
+    path->unbounded = zd_take_doubles(arena, mh);
+    path->D = zd_take_doubles(arena, m * (nv - m));
+    for (size_t k = 0; path->unbounded && k < mh; k++) path->unbounded[k] = INFINITY;
 }
 
 /* ---- the order for the state's velocities ---- */
@@ -45,12 +45,12 @@ static int solves_for(const zd_elimination *order, int m, int j)
 const zd_elimination *zd_embed_find(zd_motion *motion)
 {
     const int m = zd_constraints(&motion->system), r = motion->system.nv - m;
-    zd_road *road = &motion->road;
-    if (!motion->formulation->entries || !motion->formulation->entries(motion->solver, &road->state)) return NULL;
-    for (int i = 0; i < road->orders; i++) {
+    zd_path *path = &motion->path;
+    if (!motion->formulation->entries || !motion->formulation->entries(motion->solver, &path->state)) return NULL;
+    for (int i = 0; i < path->orders; i++) {
         int serves = 1;
-        for (int j = 0; j < r; j++) serves &= !solves_for(road->first + i, m, road->state.u[j]);
-        if (serves) return road->first + i;
+        for (int j = 0; j < r; j++) serves &= !solves_for(path->first + i, m, path->state.u[j]);
+        if (serves) return path->first + i;
     }
     return NULL;
 }
@@ -58,25 +58,25 @@ const zd_elimination *zd_embed_find(zd_motion *motion)
 void zd_embed_begin(zd_motion *motion)
 {
     const zd_point *point = motion->point;
-    if (!motion->road.state.q) return;
+    if (!motion->path.state.q) return;
     const double of_p = fmax(1, zd_max_scaled(point->system->nq, point->p, point->inverse_unit_p));
     const double terms = fmax(1, point->system->nv / LEAST_TERMS);
-    for (int k = 0; k < point->system->mh; k++) motion->road.allowed[k] = ROUNDING * terms * of_p * point->size[k];
+    for (int k = 0; k < point->system->mh; k++) motion->path.allowed[k] = ROUNDING * terms * of_p * point->size[k];
 }
 
 int zd_embed_is_steep(const zd_motion *motion)
 {
     const zd_point *point = motion->point;
-    const zd_elimination *order = motion->road.order;
+    const zd_elimination *order = motion->path.order;
     const int m = zd_constraints(&motion->system), n = motion->system.nv;
-    const double *D = motion->road.D;
+    const double *D = motion->path.D;
     double steepest = 0;
     for (int j = 0; j < n; j++) {
         if (solves_for(order, m, j)) continue;
         for (int k = 0; k < m; k++) steepest = fmax(steepest, fabs(D[k * (n - m)]) * point->inverse_unit[order->column[k]] * point->unit[j]);
         D++;
     }
-    return !(steepest <= motion->road.state.steepest);
+    return !(steepest <= motion->path.state.steepest);
 }
 
 /* ---- between the state and p, v ---- */
@@ -85,7 +85,7 @@ int zd_embed_is_steep(const zd_motion *motion)
 static int positions(const zd_motion *motion)
 {
     const zd_system *system = &motion->system;
-    return motion->road.state.q ? system->nv - system->mh : system->nq;
+    return motion->path.state.q ? system->nv - system->mh : system->nq;
 }
 
 /* p where the motion leads from the point, where nothing is nearer. */
@@ -98,29 +98,29 @@ static void predict(const zd_motion *motion, double t, double *p)
 
 void zd_embed_read(zd_motion *motion, double t, const double *y)
 {
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     const zd_system *system = &motion->system;
     const int k = positions(motion), r = system->nv - zd_constraints(system);
-    if (road->state.q) predict(motion, t, road->p);
-    for (int i = 0; i < k; i++) road->p[road->state.q ? road->state.q[i] : i] = y[i];
+    if (path->state.q) predict(motion, t, path->p);
+    for (int i = 0; i < k; i++) path->p[path->state.q ? path->state.q[i] : i] = y[i];
     /* Those that are solved for begin at zero, so that they follow from the others to the last bit. */
-    for (int j = 0; j < system->nv; j++) road->v[j] = 0;
-    for (int j = 0; j < r; j++) road->v[road->state.u[j]] = y[k + j];
+    for (int j = 0; j < system->nv; j++) path->v[j] = 0;
+    for (int j = 0; j < r; j++) path->v[path->state.u[j]] = y[k + j];
 }
 
 static void read_point(zd_motion *motion)
 {
     const zd_point *point = motion->point;
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     const int r = point->system->nv - zd_constraints(point->system);
-    zd_copy_all(point->system->nq, point->p, road->p);
-    for (int j = 0; j < point->system->nv; j++) road->v[j] = 0;
-    for (int j = 0; j < r; j++) road->v[road->state.u[j]] = point->v[road->state.u[j]];
+    zd_copy_all(point->system->nq, point->p, path->p);
+    for (int j = 0; j < point->system->nv; j++) path->v[j] = 0;
+    for (int j = 0; j < r; j++) path->v[path->state.u[j]] = point->v[path->state.u[j]];
 }
 
 void zd_embed_write(const zd_motion *motion, const double *p, const double *v, double *y)
 {
-    const zd_entries *state = &motion->road.state;
+    const zd_entries *state = &motion->path.state;
     const int k = positions(motion), r = motion->system.nv - zd_constraints(&motion->system);
     for (int i = 0; i < k; i++) y[i] = p[state->q ? state->q[i] : i];
     for (int j = 0; j < r; j++) y[k + j] = v[state->u[j]];
@@ -131,23 +131,23 @@ void zd_embed_write(const zd_motion *motion, const double *p, const double *v, d
 /* Whether an iteration may follow, and p after it */
 static int improve(zd_motion *motion, int iteration, double *first)
 {
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     double residual = 0;
-    for (int k = 0; k < motion->system.mh; k++) residual = fmax(residual, fabs(road->Phi[k]) * motion->point->inverse_size[k]);
+    for (int k = 0; k < motion->system.mh; k++) residual = fmax(residual, fabs(path->Phi[k]) * motion->point->inverse_size[k]);
     if (iteration == MAX_ITERATIONS || (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first))) return ZD_NO_EMBEDDING;
     if (iteration == 0) *first = residual;
-    ZD_SIZED(zd_subtract, motion->system.nq, road->p, road->dp, road->p);
+    ZD_SIZED(zd_subtract, motion->system.nq, path->p, path->dp, path->p);
     return ZD_DONE;
 }
 
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to)
 {
-    zd_road *road = &motion->road;
-    const double *allowed = finds_p ? road->allowed : road->unbounded;
+    zd_path *path = &motion->path;
+    const double *allowed = finds_p ? path->allowed : path->unbounded;
     double first = 0;
     for (int iteration = 0;; iteration++) {
         motion->statistics.evaluations++;
-        int status = road->order->embed(motion->system.data, &t, road->p, road->v, added, allowed, road->Phi, road->dp, to->D, road->pdot,
+        int status = path->order->embed(motion->system.data, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, path->pdot,
                                         to->vdot, to->lambda, to->power, to->pivots);
         if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
         else {
@@ -161,8 +161,8 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
 /* The same with all that the point has of its acceleration */
 static int embed_point(zd_motion *motion, double t, int finds_p, const double *added)
 {
-    zd_road *road = &motion->road;
-    const zd_embedded of_point = {road->D, motion->point->vdot, motion->point->lambda, motion->balance.input ? &road->power : NULL, road->pivots};
+    zd_path *path = &motion->path;
+    const zd_embedded of_point = {path->D, motion->point->vdot, motion->point->lambda, motion->balance.input ? &path->power : NULL, path->pivots};
     return zd_embed_entries(motion, t, finds_p, added, &of_point);
 }
 
@@ -176,17 +176,17 @@ int zd_embed_accelerate(zd_motion *motion, const double *added)
 
 static void move_there(zd_motion *motion, double t)
 {
-    zd_point_move(motion->point, t, motion->road.p, motion->road.v);
+    zd_point_move(motion->point, t, motion->path.p, motion->path.v);
     if (!motion->is_stabilized) motion->point->known |= ZD_ACCELERATED;
     else motion->point->known &= ~ZD_ACCELERATED;       /* what is added to (6) is missing */
 }
 
 int zd_embed_enter(zd_motion *motion, double t, const double *y)
 {
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     zd_embed_read(motion, t, y);
-    const int finds_p = road->state.q != NULL, is_corrected_first = !finds_p && motion->corrections < 2;
-    if (!finds_p) zd_quaternions_normalise(&motion->system, road->p);
+    const int finds_p = path->state.q != NULL, is_corrected_first = !finds_p && motion->corrections < 2;
+    if (!finds_p) zd_quaternions_normalise(&motion->system, path->p);
     int status = is_corrected_first ? ZD_DONE : embed_point(motion, t, finds_p, NULL);
     if (status) return status;
     move_there(motion, t);

@@ -5,7 +5,7 @@
 #include "motion.h"
 
 /* Memory of the road that this takes besides */
-void zd_embed_take(zd_road *road, zd_arena *arena, const zd_system *system);
+void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system);
 /* The order that solves for all velocities but those of the state, which the road notes; NULL: there is none. */
 const zd_elimination *zd_embed_find(zd_motion *motion);
 /* A step that begins at the point. */

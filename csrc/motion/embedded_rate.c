@@ -5,22 +5,22 @@
 
 static void write_rates(const zd_motion *motion, const double *v, const double *vdot, double power, double *ydot)
 {
-    zd_embed_write(motion, motion->point->terms.A ? motion->road.pdot : v, vdot, ydot);
+    zd_embed_write(motion, motion->point->terms.A ? motion->path.pdot : v, vdot, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = power;
 }
 
 /* Of the point, to which the state is brought: what is added to the right side of (6) depends on its p and v. */
 static int rate_of_point(zd_motion *motion, double t, double *ydot)
 {
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     zd_point *point = motion->point;
-    int status = zd_embed_entries(motion, t, road->state.q != NULL, NULL, &(zd_embedded){.vdot = road->vdot});
+    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.vdot = path->vdot});
     if (status) return status;
-    zd_point_move(point, t, road->p, road->v);
+    zd_point_move(point, t, path->p, path->v);
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
     status = zd_motion_accelerate(motion);
     if (status) return status;
-    write_rates(motion, point->v, point->vdot, road->power, ydot);
+    write_rates(motion, point->v, point->vdot, path->power, ydot);
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     return ZD_DONE;
 }
@@ -29,26 +29,26 @@ static int rate_of_point(zd_motion *motion, double t, double *ydot)
 static int is_known(const zd_motion *motion, double t)
 {
     const zd_point *point = motion->point;
-    const zd_road *road = &motion->road;
+    const zd_path *path = &motion->path;
     const int r = point->system->nv - zd_constraints(point->system);
     int same = (point->known & ZD_ACCELERATED) && t == point->t;
-    for (int j = 0; j < r; j++) same &= road->v[road->state.u[j]] == point->v[road->state.u[j]];
-    return same && !memcmp(road->p, point->p, (size_t)point->system->nq * sizeof(double));
+    for (int j = 0; j < r; j++) same &= path->v[path->state.u[j]] == point->v[path->state.u[j]];
+    return same && !memcmp(path->p, point->p, (size_t)point->system->nq * sizeof(double));
 }
 
 int zd_motion_embedded_rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     motion->state = y;
     zd_embed_read(motion, t, y);
     if (motion->is_stabilized) return rate_of_point(motion, t, ydot);
     if (is_known(motion, t)) {
-        write_rates(motion, motion->point->v, motion->point->vdot, road->power, ydot);
+        write_rates(motion, motion->point->v, motion->point->vdot, path->power, ydot);
         return ZD_DONE;
     }
     double power = 0;
-    int status = zd_embed_entries(motion, t, road->state.q != NULL, NULL, &(zd_embedded){.vdot = road->vdot, .power = motion->balance.input ? &power : NULL});
-    if (!status) write_rates(motion, road->v, road->vdot, power, ydot);
+    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.vdot = path->vdot, .power = motion->balance.input ? &power : NULL});
+    if (!status) write_rates(motion, path->v, path->vdot, power, ydot);
     return status;
 }

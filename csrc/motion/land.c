@@ -18,10 +18,10 @@ static int improve(zd_motion *motion, int iteration, double *first, double *p)
     zd_point *point = motion->point;
     const double residual = point->residual_left = zd_point_violation(point);
     if (!isfinite(residual)) return ZD_NOT_FINITE;
-    if (iteration == motion->hold.max_iterations) return ZD_NO_CONVERGENCE;
+    if (iteration == motion->target.max_iterations) return ZD_NO_CONVERGENCE;
     if (iteration == 0) *first = residual;
     if (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first)) return ZD_NO_CONVERGENCE;
-    ZD_SIZED(zd_subtract_pairs, point->system->nq, p, motion->road.dp, p);    /* (25a), (26a), (27a) */
+    ZD_SIZED(zd_subtract_pairs, point->system->nq, p, motion->path.dp, p);    /* (25a), (26a), (27a) */
     zd_quaternions_normalise(point->system, p);
     return ZD_DONE;
 }
@@ -29,13 +29,13 @@ static int improve(zd_motion *motion, int iteration, double *first, double *p)
 int zd_direct_land(zd_motion *motion, double t, double *p, double *v)
 {
     zd_point *point = motion->point;
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     const zd_system *system = &motion->system;
     double first = 0;
     int iterations = 0, status;
     for (;; iterations++) {
-        status = road->order->land(system->data, &t, p, v, road->allowed, point->terms.Phi, road->dp, road->pdot,
-                                   point->vdot, point->lambda, NULL, road->pivots);
+        status = path->order->land(system->data, &t, p, v, path->allowed, point->terms.Phi, path->dp, path->pdot,
+                                   point->vdot, point->lambda, NULL, path->pivots);
         if (status != ZD_NO_CONVERGENCE) break;
         status = improve(motion, iterations, &first, p);
         if (status) break;

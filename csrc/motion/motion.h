@@ -71,7 +71,7 @@ typedef struct zd_range {
 
 /* The direct road: a step whose accelerations and corrections come from the system's direct functions. The general road, by the formulation's
  * leading matrix, is all that there is where `direct` is NULL, and what is taken in any doubt: see direct.c. */
-typedef struct zd_road {
+typedef struct zd_path {
     const zd_direct *direct;
     const zd_elimination *order;    /* that this step is made with; NULL: it takes the general road */
     int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
@@ -97,7 +97,7 @@ typedef struct zd_road {
     double *p, *v, *vdot, *Phi;     /* (nq,), (nv,), (nv,), (mh,): of the state that is looked at; the point may be another */
     double *unbounded;      /* (mh,): what is allowed of Phi where p is what it is */
     double *D;              /* (m, nv - m): at the point, of the velocities that are solved for */
-} zd_road;
+} zd_path;
 
 /* Memory for the Jacobian of the rate, by the chain rule from the derivatives that the system brings */
 typedef struct zd_chain {
@@ -119,7 +119,7 @@ struct zd_motion {
     zd_span memory_of_chosen;   /* and all that was laid out for that of the settings */
     int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
     int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
-    zd_hold hold;           /* what they promise of both */
+    zd_constraint_target target;            /* what they promise of both */
     int corrections_need;   /* terms behind the corrections that are on */
     int matrices;           /* ZD_M, ZD_C: what the formulation's factorization does not have evaluated itself */
     int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
@@ -131,7 +131,7 @@ struct zd_motion {
     int formulation_size;   /* of the state's first part: the formulation's. Corrections' and the energy input (28) follow */
     int corrections_size;   /* of what corrections integrate along */
     zd_balance balance;
-    zd_road road;
+    zd_path path;
     zd_chain chain;
     zd_store store;         /* what is taken once something rare has happened */
     int in_run;             /* whether steps begin where the constraints are known to hold */
@@ -202,24 +202,24 @@ void zd_direct_measure(zd_motion *motion);
 /* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
  * ZD_SINGULAR, and the step has to be made on the general road. */
 int zd_direct_compare(zd_motion *motion, double moved);
-static inline int zd_is_direct(const zd_motion *motion) { return motion->road.order != NULL; }
+static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
 
 /* Whether functions failed that nothing can take the place of: a direct one that does leaves its work to the others. */
 static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
 /* Whether a step begins where a glance at the one before has seen that it may be made likewise. */
 static inline int zd_direct_continues(zd_motion *motion)
 {
-    int continues = motion->road.continues && (motion->point->known & ZD_ACCELERATED);
-    motion->road.continues = 0;
+    int continues = motion->path.continues && (motion->point->known & ZD_ACCELERATED);
+    motion->path.continues = 0;
     if (!continues) return 0;
-    double *pivots = motion->road.pivots;       /* copies would wait for them */
-    motion->road.pivots = motion->road.before;
-    motion->road.before = pivots;
+    double *pivots = motion->path.pivots;       /* copies would wait for them */
+    motion->path.pivots = motion->path.before;
+    motion->path.before = pivots;
     if (motion->corrections > 1) zd_direct_remember_energy(motion);
     return 1;
 }
 
-static inline int zd_is_embedded(const zd_motion *motion) { return motion->road.order && motion->road.embeds; }
+static inline int zd_is_embedded(const zd_motion *motion) { return motion->path.order && motion->path.embeds; }
 /* embed.c: as a formulation's enter(), leave() and settle() are on the general road, from and to the state of a step that begins or ends at
  * the point. */
 int zd_embed_enter(zd_motion *motion, double t, const double *y);

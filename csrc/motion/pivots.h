@@ -8,14 +8,14 @@
 
 /* Then the next step may begin with the same order, the first. Compared are their bits, which lie as the sizes do: what computes is busy
  * with the step that follows. */
-ZD_INLINE int zd_pivots_stay(zd_road *road)
+ZD_INLINE int zd_pivots_stay(zd_path *path)
 {
-    for (int k = 0; k < road->ranges; k++) {
+    for (int k = 0; k < path->ranges; k++) {
         uint64_t bits;
-        memcpy(&bits, road->pivots + k, sizeof bits);
-        if (bits - road->range[k].least > road->range[k].width) return 0;
+        memcpy(&bits, path->pivots + k, sizeof bits);
+        if (bits - path->range[k].least > path->range[k].width) return 0;
     }
-    road->was_taken = road->continues = 1;
+    path->was_taken = path->continues = 1;
     return 1;
 }
 

@@ -68,7 +68,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
     int every = correction->every ? correction->every(given) : 1;
     int size = correction->extra_size ? correction->extra_size(&motion->system, given) : 0;
     void *self = correction->take ? correction->take(arena, &motion->system, given) : NULL;
-    if (correction->hold) motion->hold = correction->hold(given);
+    if (correction->target) motion->target = correction->target(given);
     motion->active[motion->corrections++] = (zd_active){correction, self, every, motion->corrections_size, size};
     motion->acceleration_needs |= correction->needs;
     motion->corrections_need |= correction->needs;

@@ -16,10 +16,10 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_steppe
         .has_polynomial = !(settings->step > 0) && stepper->integrator->spread,
     };
     if (settings->t_eval || settings->events) {
-        self.before = zd_place_take(arena, stepper->motion);
-        self.after = zd_place_take(arena, stepper->motion);
+        self.before = zd_state_take(arena, stepper->motion);
+        self.after = zd_state_take(arena, stepper->motion);
         self.rates = zd_rates_take(arena, stepper->motion);
-        self.aside = zd_aside_take(arena, stepper);
+        self.aside = zd_checkpoint_take(arena, stepper);
         self.y = zd_take_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
     }
     return self;
@@ -43,14 +43,14 @@ static void keep_end(zd_output *self)
 void zd_output_leave_end(zd_output *self)
 {
     keep_end(self);
-    zd_aside_set(&self->aside, self->stepper);
+    zd_checkpoint_set(&self->aside, self->stepper);
     self->is_away = 1;
     self->is_spread = self->is_short = 0;
 }
 
 static int return_to_end(zd_output *self)
 {
-    int status = self->aside.is_set ? zd_aside_return(&self->aside, self->stepper, &self->after)
+    int status = self->aside.is_set ? zd_checkpoint_return(&self->aside, self->stepper, &self->after)
                                     : zd_stepper_return_to(self->stepper, &self->after);
     if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
     /* A matrix that is factored for a right side is solved for that in other operations. */
@@ -81,7 +81,7 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     self->is_short = may_stay && zd_short_may_stay(stepper);
     self->after.t = stepper->t;
     if (!self->is_short) keep_end(self);
-    if (stepper->motion->formulation->settle) zd_aside_set_variables(&self->aside, stepper);
+    if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->aside, stepper);
     int status = self->is_spread ? ZD_DONE : zd_spread(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
     self->is_spread = !status;

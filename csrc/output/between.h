@@ -2,7 +2,7 @@
 #ifndef ZD_BETWEEN_H
 #define ZD_BETWEEN_H
 
-#include "../stepping/aside.h"
+#include "../stepping/checkpoint.h"
 #include "../stepping/short_step.h"
 #include "../stepping/spread.h"
 #include "record.h"
@@ -14,10 +14,10 @@ typedef struct zd_output {
     int64_t t_evals;
     int64_t next;              /* of them */
     int has_polynomial;     /* whether that of the method is taken */
-    zd_place before, after; /* the step: where it began and where it has ended, */
-    zd_rates_there rates;   /* with the acceleration there, */
+    zd_state before, after; /* the step: where it began and where it has ended, */
+    zd_cached_accelerations rates;   /* with the acceleration there, */
     int is_factored;        /* or else the leading matrix; */
-    zd_aside aside;         /* and what goes into the next step besides */
+    zd_checkpoint aside;         /* and what goes into the next step besides */
     int is_waiting;         /* whether the record was full before all was saved that is due; then, and within the step: */
     int is_open;            /* whether rows of it are left, */
     int is_spread;          /* its polynomial is made, */

@@ -33,10 +33,10 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
         .bracket = zd_take(arena, count * sizeof(zd_bracket)),
-        .end = zd_place_take(arena, motion),
-        .early = zd_place_take(arena, motion),
-        .late = zd_place_take(arena, motion),
-        .mixed = zd_place_take(arena, motion),
+        .end = zd_state_take(arena, motion),
+        .early = zd_state_take(arena, motion),
+        .late = zd_state_take(arena, motion),
+        .mixed = zd_state_take(arena, motion),
         .found = zd_take(arena, count * sizeof(int)),
     };
 }
@@ -87,7 +87,7 @@ static int correct(zd_stepper *stepper)
 static int move(zd_watch *self, double t)
 {
     zd_stepper *stepper = self->output->stepper;
-    const zd_place *before = &self->output->before, *end = &self->end;
+    const zd_state *before = &self->output->before, *end = &self->end;
     if (t > before->t && t < end->t) return zd_output_go(self->output, t);
     int status = zd_stepper_return_to(stepper, t == end->t ? end : before);
     return status || t == end->t ? status : correct(stepper);
@@ -154,11 +154,11 @@ static void mix_doubles(int n, const double *a, const double *b, double share, d
 }
 
 /* The mixture of the states at both sides of an event, at the time of the later one */
-static const zd_place *mix(zd_watch *self, double share)
+static const zd_state *mix(zd_watch *self, double share)
 {
     const zd_motion *motion = self->output->stepper->motion;
-    const zd_place *early = &self->early, *late = &self->late;
-    zd_place *mixed = &self->mixed;
+    const zd_state *early = &self->early, *late = &self->late;
+    zd_state *mixed = &self->mixed;
     if (share == 1) return late;
     mixed->t = late->t;
     mix_doubles(motion->system.nq, early->p, late->p, share, mixed->p);
@@ -169,13 +169,13 @@ static const zd_place *mix(zd_watch *self, double share)
 }
 
 /* Where the function of the mixture is zero */
-static int settle_between(zd_watch *self, int event, const zd_place **there)
+static int settle_between(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
     zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, RESOLUTION);
     while (it.gb != 0 && it.b - it.a > RESOLUTION) {
         double g, share = zd_bracket_choose(&it);
-        const zd_place *mixed = mix(self, share);
+        const zd_state *mixed = mix(self, share);
         int status = evaluate(self, event, mixed->t, mixed->p, mixed->v, &g);
         if (status) return status;
         zd_bracket_narrow(&it, share, g);
@@ -185,7 +185,7 @@ static int settle_between(zd_watch *self, int event, const zd_place **there)
 }
 
 /* Where the event happens, the motion being there or next to it. */
-static int settle(zd_watch *self, int event, const zd_place **there)
+static int settle(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
     const zd_stepper *stepper = self->output->stepper;
@@ -201,7 +201,7 @@ static int settle(zd_watch *self, int event, const zd_place **there)
 static int report_one(zd_watch *self, int event)
 {
     const zd_events *events = self->events;
-    const zd_place *there;
+    const zd_state *there;
     int status = settle(self, event, &there);
     if (!status) status = events->found(events->data, event, there->t, there->p, there->v);
     if (!status) self->found[event]++;

@@ -12,8 +12,8 @@ typedef struct zd_watch {   /* where there are events, (events,) each */
     zd_reader reader;       /* of those that the core knows */
     double *before, *now;   /* their values at the ends of the step */
     zd_bracket *bracket;    /* when they happen in it; at infinity where they do not */
-    zd_place end;           /* of the step, corrected */
-    zd_place early, late, mixed;    /* the states at both sides of an event, and between them where they are mixed */
+    zd_state end;           /* of the step, corrected */
+    zd_state early, late, mixed;    /* the states at both sides of an event, and between them where they are mixed */
     int *found;             /* how often they have */
     int failed;             /* which could not be evaluated, counted from 1 */
     int ended;              /* which ended the run, counted from 1 */

@@ -75,14 +75,14 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     /* Also of a step that is made again, whose size is given, but whose run chose it. */
     if (run->stepper.memory && integrator->aim && settings->atol > 0) integrator->aim(run->stepper.memory, settings->rtol, settings->atol);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
-    run->course = (zd_course){
+    run->loop = (zd_step_loop){
         .settings = &run->settings,
         .motion = motion,
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
         .end = settings->t1,
     };
-    if (!(settings->step > 0)) run->course.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
+    if (!(settings->step > 0)) run->loop.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
     run->recorder = zd_recorder_take(arena, settings, motion);
     run->output = zd_output_take(arena, settings, &run->stepper, &run->recorder);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
@@ -171,7 +171,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     if (*status) return NULL;
     zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, status, message, message_size);
     if (!run) return NULL;
-    run->course.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
+    run->loop.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_start(run, *status, p0, v0);
     if (!why && zd_output_looks_between(&run->output)) why = zd_spread_prepare(&run->stepper);
     *status = why;

@@ -95,7 +95,7 @@ static int digits_of(double from, double to)
 static void describe_steps(const zd_run *run, char *to, size_t size)
 {
     double a, b;
-    zd_pace_half(&run->course.control.pace, &a, &b);
+    zd_step_histogram_half(&run->loop.control.histogram, &a, &b);
     int digits = digits_of(a, b);
     snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
              "%s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
@@ -142,9 +142,9 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
 
 static void describe_correction(const zd_run *run, const char *rows, char *to, size_t size)
 {
-    const zd_hold *hold = &run->motion.hold;
+    const zd_constraint_target *target = &run->motion.target;
     snprintf(to, size, "the position correction left max |Phi| = %.3g of its size after %d iterations, full and shortened "
-             "(tolerance %.3g)%s%s%s", run->motion.point->residual_left, hold->max_iterations, hold->tolerance,
+             "(tolerance %.3g)%s%s%s", run->motion.point->residual_left, target->max_iterations, target->tolerance,
              *rows ? "; " : "", rows, *rows ? " from the others, and may contradict them" : "");
     add_cause(run, 1, "", to, size);
 }
@@ -210,9 +210,9 @@ static int is_for_jacobians(zd_run *run, int status)
     const zd_last *last = &run->stepper.last;
     if (status != ZD_NO_CONVERGENCE && status != ZD_NO_STEP && status != ZD_NO_EMBEDDING) return 0;
     if (!consistency->compares || last->h == 0) return 0;
-    if (zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN) return 1;
+    if (zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN) return 1;
     zd_point_move(run->motion.point, last->t, last->p, last->v);
-    return zd_consistency_jacobian(consistency, run->course.step) == ZD_NOT_JACOBIAN;
+    return zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN;
 }
 
 static int cause_of(zd_run *run, int status, double *t)
@@ -234,9 +234,9 @@ int zd_explain(zd_run *run, int status)
     double t;
     status = cause_of(run, status, &t);
     describe(run, status, what, sizeof what);
-    const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->course.step, run->course.steps);
+    const size_t said = zd_say_where(run->outcome.message, sizeof run->outcome.message, t, run->loop.step, run->loop.steps);
     snprintf(run->outcome.message + said, sizeof run->outcome.message - said, "%s", what);
-    if (run->course.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
+    if (run->loop.parts && status != ZD_BIFURCATION && strlen(run->outcome.message) < sizeof run->outcome.message - 48)
         strcat(run->outcome.message, ", also when it is made in parts");
     return status;
 }

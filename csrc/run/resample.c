@@ -47,7 +47,7 @@ static int make_step(zd_resample *self, int64_t row)
     zd_stepper *stepper = &self->run->stepper;
     const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1), step = self->run->settings.step;
     const int is_last = row + 2 == self->saved->rows;
-    if (!(step > 0)) zd_adaptive_weigh(&self->run->course);
+    if (!(step > 0)) zd_adaptive_weigh(&self->run->loop);
     int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : next - t);
     return status ? status : zd_stepper_land(stepper, next, row + 1, is_last);
 }
@@ -67,7 +67,7 @@ static int begin(zd_resample *self, int64_t row, int is_general)
     zd_motion *motion = &self->run->motion;
     if (is_general) zd_direct_leave(motion);
     int status = place(self, row);
-    if (!status && motion->road.direct && !is_general) zd_direct_choose(motion);
+    if (!status && motion->path.direct && !is_general) zd_direct_choose(motion);
     return status;
 }
 
@@ -78,7 +78,7 @@ static int begin_from_before(zd_resample *self, int64_t row)
     zd_motion *motion = &self->run->motion;
     const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
     int status = begin(self, row, 0);
-    if (status || !motion->road.lands || row == 0 || is_cut) return status;
+    if (status || !motion->path.lands || row == 0 || is_cut) return status;
     status = begin(self, row - 1, 0);
     if (!status) status = make_step(self, row - 1);
     if (status || !is_at(self, row)) return begin(self, row, 0);
@@ -100,7 +100,7 @@ static int make_general_step(zd_resample *self, int64_t row)
 /* A run may have left the direct road in the step: that road is taken which leads to the row after, to the last bit, if one does. */
 static int make_again(zd_resample *self, int64_t row)
 {
-    const int has_roads = self->run->motion.road.direct != NULL;
+    const int has_roads = self->run->motion.path.direct != NULL;
     int status = begin_from_before(self, row);
     if (!status) status = make_step(self, row);
     if (!has_roads || (!status && is_at(self, row + 1))) return status;
@@ -119,7 +119,7 @@ static int find_road(zd_resample *self, int64_t row)
     const int may_interpolate = may_have_polynomial(self);
     self->row = row;
     self->is_general = self->has_polynomial = 0;
-    int status = may_interpolate || self->run->motion.road.direct ? make_again(self, row) : ZD_DONE;
+    int status = may_interpolate || self->run->motion.path.direct ? make_again(self, row) : ZD_DONE;
     if (!status && may_interpolate && zd_may_spread(stepper, stepper->last.t)) {
         status = zd_spread(stepper);
         self->has_polynomial = !status;

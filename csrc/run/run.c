@@ -5,7 +5,7 @@
 
 double zd_run_progress(const zd_run *run)
 {
-    const double span = run->course.end - run->settings.t0;
+    const double span = run->loop.end - run->settings.t0;
     const double t = run->output.is_open ? run->output.after.t : run->stepper.t;    /* the step is made, though rows within it are not */
     return span > 0 ? (t - run->settings.t0) / span : 1;
 }

@@ -7,7 +7,7 @@
 #include "../output/events.h"
 #include "../output/record.h"
 #include "../safeguards/safeguards.h"
-#include "../stepping/course.h"
+#include "../stepping/step_loop.h"
 #include "../stepping/step.h"
 
 enum { ZD_MESSAGE = 500 };
@@ -22,7 +22,7 @@ struct zd_run {
     zd_motion motion;
     zd_stepper stepper;
     zd_safeguards safeguards;
-    zd_course course;
+    zd_step_loop loop;
     zd_recorder recorder;
     zd_output output;       /* where something between steps is wanted */
     zd_watch watch;

@@ -56,7 +56,7 @@ static violation position_violation(const zd_point *point)
 static violation velocity_violation(const zd_run *run, const double *Psi)
 {
     const zd_point *point = run->motion.point;
-    const double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->course.end - run->settings.t0);
+    const double speed = zd_max_scaled(run->motion.system.nv, point->v, point->inverse_unit) + 1 / (run->loop.end - run->settings.t0);
     violation largest = {0, 0};
     for (int k = 0; k < zd_constraints(&run->motion.system); k++) {
         const double size = point->size[k] * speed + (point->terms.Phi_t ? fabs(point->terms.Phi_t[k]) : 0);
@@ -70,7 +70,7 @@ static int check_constraints(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
     const zd_system *system = &run->motion.system;
-    const double allowed = fmax(run->motion.hold.tolerance, START_TOLERANCE);
+    const double allowed = fmax(run->motion.target.tolerance, START_TOLERANCE);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !zd_constraints(system)) return status;
     zd_point_velocity_violation(point, Psi);
@@ -88,10 +88,10 @@ static int check_constraints(zd_run *run, double *Psi)
 /* Refuses a tolerance that the rounding of p alone keeps Phi from reaching. */
 static int check_tolerance(zd_run *run)
 {
-    const zd_hold *hold = &run->motion.hold;
+    const zd_constraint_target *target = &run->motion.target;
     const zd_point *point = run->motion.point;
     int n = run->motion.system.nq < run->motion.system.nv ? run->motion.system.nq : run->motion.system.nv;
-    if (!hold->positions || !run->motion.system.mh) return ZD_DONE;
+    if (!target->positions || !run->motion.system.mh) return ZD_DONE;
     double reachable = 0;
     for (int k = 0; k < run->motion.system.mh; k++) {
         zd_row_of_C row = zd_point_row(point, k);
@@ -100,10 +100,10 @@ static int check_tolerance(zd_run *run)
             if (zd_column(&row, j) < n) rounding += 0x1p-53 * fabs(row.x[j] * point->p[zd_column(&row, j)]);
         reachable = fmax(reachable, rounding * point->inverse_size[k]);
     }
-    if (hold->tolerance > reachable) return ZD_DONE;
+    if (target->tolerance > reachable) return ZD_DONE;
     snprintf(run->outcome.message, sizeof run->outcome.message,
              "tol = %.3g is below what doubles can reach here: the rounding of p alone leaves |Phi| near %.2g of its size",
-             hold->tolerance, reachable);
+             target->tolerance, reachable);
     return ZD_UNREACHABLE;
 }
 
@@ -204,7 +204,7 @@ static int check_quaternions(zd_run *run)
 static int choose_step(zd_run *run, double *states, const double *p0, const double *v0)
 {
     if (run->settings.step > 0) return ZD_DONE;
-    int status = zd_adaptive_start(&run->course, states);
+    int status = zd_adaptive_start(&run->loop, states);
     return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* wherever that has looked */
 }
 
@@ -269,7 +269,7 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (status) return status;
-    if (motion->road.direct) return choose_step_directly(run, work->states, p0, v0);
+    if (motion->path.direct) return choose_step_directly(run, work->states, p0, v0);
     status = zd_motion_accelerate(motion);
     if (status || !are_independent(motion)) return ZD_SINGULAR;
     status = choose_step(run, work->states, p0, v0);
@@ -279,13 +279,13 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
 static void forget(zd_run *run, const void *data)
 {
     zd_motion *motion = &run->motion;
-    zd_road *road = &motion->road;
+    zd_path *path = &motion->path;
     zd_direct_leave(motion);
     motion->system.data = data;
     motion->point->known = motion->point->measured = motion->in_run = 0;
     motion->balance.initial = motion->statistics.smallest_pivot = 0;
     for (int i = motion->formulation_size; i < motion->rate.size; i++) run->stepper.y[i] = 0;
-    for (int i = 0; road->direct && i < road->direct->orders * motion->system.nv; i++) road->scale[i] = 0;
+    for (int i = 0; path->direct && i < path->direct->orders * motion->system.nv; i++) path->scale[i] = 0;
 }
 
 size_t zd_run_start_memory(const zd_run *run)

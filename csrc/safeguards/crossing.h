@@ -3,7 +3,7 @@
 #define ZD_CROSSING_H
 
 #include "../motion/motion.h"
-#include "../motion/place.h"
+#include "../motion/state.h"
 
 /* Memory for comparing C along a step. */
 typedef struct zd_crossing_memory {

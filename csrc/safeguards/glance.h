@@ -53,7 +53,7 @@ ZD_INLINE int zd_safeguards_glance(const int n, zd_safeguards *self, double h, i
     if (guard->watches_step) return 0;
     const zd_seen seen = zd_see(n, 0.5 * h, last->p, last->v, p, v, guard->motion->point->inverse_unit_p);
     if (!(ZD_CALM * ZD_CALM * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
-    if (!zd_pivots_stay(&guard->motion->road)) return 0;
+    if (!zd_pivots_stay(&guard->motion->path)) return 0;
     if (next_step >= guard->next_look) zd_guard_watch_next(guard);
     return 1;
 }

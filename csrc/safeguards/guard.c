@@ -43,10 +43,10 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
                        zd_crossing *crossing)
 {
     const zd_system *system = &motion->system;
-    const zd_hold *hold = &motion->hold;
-    int holds = !(motion->drifts_from & ZD_PHI) || hold->positions;
+    const zd_constraint_target *target = &motion->target;
+    int holds = !(motion->drifts_from & ZD_PHI) || target->positions;
     int own = (system->provides & ZD_A) != 0;
-    double least = NEARBY + 4 * hold->tolerance, astray = ASTRAY * fmax(1, hold->every), resolved = stability > 0 ? stability : RESOLVED;
+    double least = NEARBY + 4 * target->tolerance, astray = ASTRAY * fmax(1, target->every), resolved = stability > 0 ? stability : RESOLVED;
     return (zd_guard){
         .motion = motion,
         .last = last,

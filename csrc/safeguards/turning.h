@@ -3,7 +3,7 @@
 #define ZD_TURNING_H
 
 #include "../motion/motion.h"
-#include "../motion/place.h"
+#include "../motion/state.h"
 
 typedef struct zd_turning {
     zd_motion *motion;

@@ -3,57 +3,57 @@
 #include "../linalg/small.h"
 #include "clock.h"
 #include "passage.h"
-#include "road.h"
+#include "path.h"
 #include "short_step.h"
 #include "variables.h"
 
 enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
 
-static int integrate_and_land(zd_course *course, double h, double t1)
+static int integrate_and_land(zd_step_loop *loop, double h, double t1)
 {
-    const int is_short = zd_is_short(course->motion);
-    int status = is_short ? zd_short_integrate(course, h) : zd_stepper_integrate(course->stepper, h);
-    return status ? status : is_short ? zd_short_land(course, t1) : zd_passage_land(course, t1);
+    const int is_short = zd_is_short(loop->motion);
+    int status = is_short ? zd_short_integrate(loop, h) : zd_stepper_integrate(loop->stepper, h);
+    return status ? status : is_short ? zd_short_land(loop, t1) : zd_passage_land(loop, t1);
 }
 
-static int make_step(zd_course *course, double h, double t1)
+static int make_step(zd_step_loop *loop, double h, double t1)
 {
-    int status = integrate_and_land(course, h, t1);
-    if (zd_road_is_left(course, status)) {
-        status = zd_road_leave(course);
-        if (!status) status = integrate_and_land(course, h, t1);
+    int status = integrate_and_land(loop, h, t1);
+    if (zd_path_is_left(loop, status)) {
+        status = zd_path_leave(loop);
+        if (!status) status = integrate_and_land(loop, h, t1);
     }
-    if (!zd_variables_lose_digits(course->stepper, status)) return status;
-    status = zd_course_use_dependent(course);
-    return status ? status : integrate_and_land(course, h, t1);
+    if (!zd_variables_lose_digits(loop->stepper, status)) return status;
+    status = zd_step_loop_use_dependent(loop);
+    return status ? status : integrate_and_land(loop, h, t1);
 }
 
 /* From where the step began to t1, in equal parts. */
-static int take_parts(zd_course *course, double t1)
+static int take_parts(zd_step_loop *loop, double t1)
 {
-    const double t0 = course->undivided->t;
-    int status = zd_stepper_return_to(course->stepper, course->undivided);
-    if (!status) status = zd_safeguards_begin(course->safeguards, course->step + 1);
-    for (int part = 1; !status && part <= course->parts; part++) {
-        double t = part == course->parts ? t1 : t0 + (t1 - t0) * part / course->parts;
-        status = make_step(course, t - course->stepper->t, t);
+    const double t0 = loop->undivided->t;
+    int status = zd_stepper_return_to(loop->stepper, loop->undivided);
+    if (!status) status = zd_safeguards_begin(loop->safeguards, loop->step + 1);
+    for (int part = 1; !status && part <= loop->parts; part++) {
+        double t = part == loop->parts ? t1 : t0 + (t1 - t0) * part / loop->parts;
+        status = make_step(loop, t - loop->stepper->t, t);
     }
     return status;
 }
 
 static void *take_place(zd_arena *arena, const void *of)
 {
-    const zd_place place = zd_place_take(arena, of);
+    const zd_state place = zd_state_take(arena, of);
     return zd_take_filled(arena, &place, sizeof place);
 }
 
-static int remember_undivided(zd_course *course)
+static int remember_undivided(zd_step_loop *loop)
 {
-    zd_motion *motion = course->motion;
-    const zd_last *last = &course->stepper->last;
+    zd_motion *motion = loop->motion;
+    const zd_last *last = &loop->stepper->last;
     const int own = motion->formulation_size;
-    if (!course->undivided) course->undivided = zd_store_take(&motion->store, take_place, motion);
-    zd_place *undivided = course->undivided;
+    if (!loop->undivided) loop->undivided = zd_store_take(&motion->store, take_place, motion);
+    zd_state *undivided = loop->undivided;
     if (!undivided) return ZD_NO_MEMORY;
     undivided->t = last->t;
     zd_copy(motion->system.nq, last->p, undivided->p);
@@ -67,14 +67,14 @@ static int is_too_far(int status)
     return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_BIFURCATION_PASSED;
 }
 
-static int divide_step(zd_course *course, int status, double t1)
+static int divide_step(zd_step_loop *loop, int status, double t1)
 {
-    if (remember_undivided(course)) return ZD_NO_MEMORY;
-    for (course->parts = 2; is_too_far(status) && course->parts <= MOST_PARTS; course->parts *= 2) {
-        int again = take_parts(course, t1);
+    if (remember_undivided(loop)) return ZD_NO_MEMORY;
+    for (loop->parts = 2; is_too_far(status) && loop->parts <= MOST_PARTS; loop->parts *= 2) {
+        int again = take_parts(loop, t1);
         if (!again) {
-            course->parts = 0;
-            course->motion->statistics.subdivided++;
+            loop->parts = 0;
+            loop->motion->statistics.subdivided++;
             return ZD_DONE;
         }
         status = again;
@@ -82,10 +82,10 @@ static int divide_step(zd_course *course, int status, double t1)
     return status;
 }
 
-int zd_fixed_step(zd_course *course)
+int zd_fixed_step(zd_step_loop *loop)
 {
-    const zd_settings *settings = course->settings;
-    double t1 = zd_time_of_step(settings->t0, settings->step, course->step, course->steps, course->end);
-    int status = make_step(course, course->step == course->steps ? t1 - course->stepper->t : settings->step, t1);
-    return is_too_far(status) ? divide_step(course, status, t1) : status;
+    const zd_settings *settings = loop->settings;
+    double t1 = zd_time_of_step(settings->t0, settings->step, loop->step, loop->steps, loop->end);
+    int status = make_step(loop, loop->step == loop->steps ? t1 - loop->stepper->t : settings->step, t1);
+    return is_too_far(status) ? divide_step(loop, status, t1) : status;
 }

@@ -10,18 +10,18 @@
 static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
 static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
 
-static int land_and_judge(zd_course *course, double t1)
+static int land_and_judge(zd_step_loop *loop, double t1)
 {
-    zd_stepper *stepper = course->stepper;
+    zd_stepper *stepper = loop->stepper;
     double h = t1 - stepper->t;
-    int status = zd_stepper_land(stepper, t1, course->step, t1 == course->end || course->parts);
-    return status ? status : zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts);
+    int status = zd_stepper_land(stepper, t1, loop->step, t1 == loop->end || loop->parts);
+    return status ? status : zd_safeguards_judge(loop->safeguards, h, loop->step + 1, loop->parts);
 }
 
-static int integrate_and_land(zd_course *course, double h, double t1)
+static int integrate_and_land(zd_step_loop *loop, double h, double t1)
 {
-    int status = zd_stepper_integrate(course->stepper, h);
-    return status ? status : land_and_judge(course, t1);
+    int status = zd_stepper_integrate(loop->stepper, h);
+    return status ? status : land_and_judge(loop, t1);
 }
 
 /* A step to t from where the last one began, corrected and compared with nothing. */
@@ -32,11 +32,11 @@ static int move(zd_stepper *stepper, double t)
 }
 
 /* Whether the motion is continuous where the sign changes: it is seen to be at the bifurcation itself. */
-static int find(zd_course *course, double t1, int *found)
+static int find(zd_step_loop *loop, double t1, int *found)
 {
-    zd_stepper *stepper = course->stepper;
-    zd_point *point = course->motion->point;
-    const zd_safeguards *safeguards = course->safeguards;
+    zd_stepper *stepper = loop->stepper;
+    zd_point *point = loop->motion->point;
+    const zd_safeguards *safeguards = loop->safeguards;
     double t0 = stepper->last.t, resolution = fmin(SHORT / zd_guard_speed(&safeguards->guard), (t1 - t0) / 2);
     resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
     *found = 0;
@@ -59,27 +59,27 @@ static int find(zd_course *course, double t1, int *found)
 }
 
 /* The step again, through the bifurcation, if that is wanted and the motion leads there. */
-static int pass(zd_course *course, double t1, double h)
+static int pass(zd_step_loop *loop, double t1, double h)
 {
-    zd_stepper *stepper = course->stepper;
-    zd_crossing *crossing = &course->safeguards->crossing;
-    if (course->settings->on_singular == ZD_STOP) return ZD_BIFURCATION_PASSED;
-    int found, status = find(course, t1, &found);
+    zd_stepper *stepper = loop->stepper;
+    zd_crossing *crossing = &loop->safeguards->crossing;
+    if (loop->settings->on_singular == ZD_STOP) return ZD_BIFURCATION_PASSED;
+    int found, status = find(loop, t1, &found);
     if (status || !found) return status == ZD_CALLBACK || status == ZD_NO_MEMORY ? status : ZD_BRANCH;
     crossing->may_pass = 1;
     status = zd_stepper_return(stepper);
-    if (!status) status = integrate_and_land(course, h, t1);
+    if (!status) status = integrate_and_land(loop, h, t1);
     if (zd_variables_lose_digits(stepper, status)) {
-        status = zd_course_use_dependent(course);
-        if (!status) status = integrate_and_land(course, h, t1);
+        status = zd_step_loop_use_dependent(loop);
+        if (!status) status = integrate_and_land(loop, h, t1);
     }
     crossing->may_pass = 0;
     return status;
 }
 
-int zd_passage_land(zd_course *course, double t1)
+int zd_passage_land(zd_step_loop *loop, double t1)
 {
-    double h = course->stepper->last.h;
-    int status = land_and_judge(course, t1);
-    return status == ZD_BIFURCATION_PASSED ? pass(course, t1, h) : status;
+    double h = loop->stepper->last.h;
+    int status = land_and_judge(loop, t1);
+    return status == ZD_BIFURCATION_PASSED ? pass(loop, t1, h) : status;
 }

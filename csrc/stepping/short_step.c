@@ -28,10 +28,10 @@ ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
     return status;      /* what is not finite is found as the step lands */
 }
 
-int zd_short_integrate(zd_course *course, double h)
+int zd_short_integrate(zd_step_loop *loop, double h)
 {
-    zd_stepper *stepper = course->stepper;
-    const zd_point *point = course->motion->point;
+    zd_stepper *stepper = loop->stepper;
+    const zd_point *point = loop->motion->point;
     stepper->last.t = stepper->t;
     stepper->last.h = h;
     point->rank->was_ill_conditioned = 0;
@@ -59,19 +59,19 @@ ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, double *y, int
     return !status && stepper->motion->corrections > 1 ? correct_rest(n, stepper, y, step, forced) : status;
 }
 
-ZD_INLINE int land(const int n, zd_course *course, double t1)
+ZD_INLINE int land(const int n, zd_step_loop *loop, double t1)
 {
-    zd_stepper *stepper = course->stepper;
+    zd_stepper *stepper = loop->stepper;
     const double h = stepper->last.h;
-    int status = correct(n, stepper, t1, stepper->y, course->step, t1 == course->end || course->parts);
+    int status = correct(n, stepper, t1, stepper->y, loop->step, t1 == loop->end || loop->parts);
     if (status) return status;
-    if (!course->parts && zd_safeguards_glance(n, course->safeguards, h, course->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
-    return is_finite(n, stepper->y) ? zd_safeguards_judge(course->safeguards, h, course->step + 1, course->parts) : ZD_NOT_FINITE;
+    if (!loop->parts && zd_safeguards_glance(n, loop->safeguards, h, loop->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
+    return is_finite(n, stepper->y) ? zd_safeguards_judge(loop->safeguards, h, loop->step + 1, loop->parts) : ZD_NOT_FINITE;
 }
 
-int zd_short_land(zd_course *course, double t1)
+int zd_short_land(zd_step_loop *loop, double t1)
 {
-    return ZD_SIZED(land, course->motion->system.nv, course, t1);
+    return ZD_SIZED(land, loop->motion->system.nv, loop, t1);
 }
 
 ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t, double *y)
@@ -86,16 +86,16 @@ int zd_short_land_between(zd_stepper *stepper, double t, double *y)
 }
 
 /* What is known at the end changes places with memory for what is known between: a copy would take as long as a row of a table. */
-static void exchange_rates(zd_motion *motion, zd_rates_there *rates)
+static void exchange_rates(zd_motion *motion, zd_cached_accelerations *rates)
 {
     zd_exchange(&motion->point->vdot, &rates->vdot);
     zd_exchange(&motion->point->lambda, &rates->lambda);
-    zd_exchange(&motion->road.pivots, &rates->pivots);
+    zd_exchange(&motion->path.pivots, &rates->pivots);
 }
 
-void zd_short_keep_rates(const zd_stepper *stepper, zd_rates_there *rates)
+void zd_short_keep_rates(const zd_stepper *stepper, zd_cached_accelerations *rates)
 {
-    rates->smallest = stepper->motion->road.smallest;
+    rates->smallest = stepper->motion->path.smallest;
     exchange_rates(stepper->motion, rates);
 }
 
@@ -105,12 +105,12 @@ ZD_INLINE void return_to_end(const int n, const double *y, const zd_point *point
     zd_copy_pairs(n, y + n, point->v);
 }
 
-void zd_short_return_to_end(zd_stepper *stepper, double t, zd_rates_there *rates)
+void zd_short_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates)
 {
     zd_motion *motion = stepper->motion;
     motion->point->t = stepper->t = t;
     motion->point->known = ZD_ACCELERATED;
-    motion->road.smallest = rates->smallest;
+    motion->path.smallest = rates->smallest;
     exchange_rates(motion, rates);
     ZD_SIZED(return_to_end, motion->system.nv, stepper->y, motion->point);
 }

@@ -144,16 +144,16 @@ static size_t extras(const zd_motion *motion)
     return (size_t)(motion->rate.size - motion->formulation_size);
 }
 
-zd_place zd_place_take(zd_arena *arena, const zd_motion *motion)
+zd_state zd_state_take(zd_arena *arena, const zd_motion *motion)
 {
-    return (zd_place){
+    return (zd_state){
         .p = zd_take_doubles(arena, (size_t)motion->system.nq),
         .v = zd_take_doubles(arena, (size_t)motion->system.nv),
         .extra = zd_take_doubles(arena, extras(motion)),
     };
 }
 
-void zd_stepper_keep_place(const zd_stepper *self, zd_place *place)
+void zd_stepper_keep_place(const zd_stepper *self, zd_state *place)
 {
     const zd_motion *motion = self->motion;
     place->t = self->t;
@@ -162,7 +162,7 @@ void zd_stepper_keep_place(const zd_stepper *self, zd_place *place)
     if (extras(motion)) memcpy(place->extra, self->y + motion->formulation_size, extras(motion) * sizeof(double));
 }
 
-int zd_stepper_return_to(zd_stepper *self, const zd_place *place)
+int zd_stepper_return_to(zd_stepper *self, const zd_state *place)
 {
     const zd_motion *motion = self->motion;
     memcpy(self->y + motion->formulation_size, place->extra, extras(motion) * sizeof(double));
@@ -171,17 +171,17 @@ int zd_stepper_return_to(zd_stepper *self, const zd_place *place)
 
 /* ---- accelerations at a place ---- */
 
-zd_rates_there zd_rates_take(zd_arena *arena, const zd_motion *motion)
+zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion)
 {
     const size_t nv = (size_t)motion->system.nv;
-    return (zd_rates_there){
+    return (zd_cached_accelerations){
         .vdot = zd_take_doubles(arena, nv),
         .lambda = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .pivots = motion->road.direct ? zd_take_doubles(arena, nv) : NULL,
+        .pivots = motion->path.direct ? zd_take_doubles(arena, nv) : NULL,
     };
 }
 
-void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates)
+void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rates)
 {
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
@@ -189,21 +189,21 @@ void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates)
     rates->are_known = (point->known & ZD_ACCELERATED) && !has_more;
     if (!rates->are_known) return;
     zd_rank_find_multipliers(point);
-    rates->order = motion->road.order;
-    rates->smallest = motion->road.smallest;
+    rates->order = motion->path.order;
+    rates->smallest = motion->path.smallest;
     zd_copy_all(motion->system.nv, point->vdot, rates->vdot);
     zd_copy_all(zd_constraints(&motion->system), point->lambda, rates->lambda);
-    if (rates->order) zd_copy_all(motion->system.nv, motion->road.pivots, rates->pivots);
+    if (rates->order) zd_copy_all(motion->system.nv, motion->path.pivots, rates->pivots);
 }
 
-void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates)
+void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates)
 {
     zd_motion *motion = self->motion;
-    if (!rates->are_known || rates->order != motion->road.order) return;
+    if (!rates->are_known || rates->order != motion->path.order) return;
     motion->point->known |= ZD_ACCELERATED;
     zd_rank_forget_awaited(motion->point);
-    motion->road.smallest = rates->smallest;
+    motion->path.smallest = rates->smallest;
     zd_copy_all(motion->system.nv, rates->vdot, motion->point->vdot);
     zd_copy_all(zd_constraints(&motion->system), rates->lambda, motion->point->lambda);
-    if (rates->order) zd_copy_all(motion->system.nv, rates->pivots, motion->road.pivots);
+    if (rates->order) zd_copy_all(motion->system.nv, rates->pivots, motion->path.pivots);
 }

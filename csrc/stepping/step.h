@@ -4,7 +4,7 @@
 
 #include "../integrators/integrator.h"
 #include "../motion/motion.h"
-#include "../motion/place.h"
+#include "../motion/state.h"
 
 /* A formulation, and with it what is integrated. */
 typedef struct zd_variables {
@@ -46,12 +46,12 @@ int zd_stepper_return(zd_stepper *self);
 
 /* Point and y to (t, p, v). */
 int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v);
-zd_place zd_place_take(zd_arena *arena, const zd_motion *motion);
-void zd_stepper_keep_place(const zd_stepper *self, zd_place *place);
-int zd_stepper_return_to(zd_stepper *self, const zd_place *place);
+zd_state zd_state_take(zd_arena *arena, const zd_motion *motion);
+void zd_stepper_keep_place(const zd_stepper *self, zd_state *place);
+int zd_stepper_return_to(zd_stepper *self, const zd_state *place);
 /* The acceleration at the place where the motion is, if it is known, and if nothing but p and v says what it is; and back to it there. */
-zd_rates_there zd_rates_take(zd_arena *arena, const zd_motion *motion);
-void zd_stepper_keep_rates(const zd_stepper *self, zd_rates_there *rates);
-void zd_stepper_restore_rates(zd_stepper *self, const zd_rates_there *rates);
+zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion);
+void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rates);
+void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates);
 
 #endif

@@ -14,15 +14,15 @@
 
 extern const zd_formulation zd_augmented, zd_augmented_dense;
 
-static int is_held(const zd_hold *hold)
+static int is_held(const zd_constraint_target *target)
 {
-    return hold->every == 1 && hold->positions && hold->velocities;
+    return target->every == 1 && target->positions && target->velocities;
 }
 
 zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent)
 {
     int loses = motion->formulation->settle && zd_constraints(independent);
-    if (!loses || integrator->step_of_motion || !is_held(&motion->hold)) return (zd_variables){NULL, NULL, 0};
+    if (!loses || integrator->step_of_motion || !is_held(&motion->target)) return (zd_variables){NULL, NULL, 0};
     const zd_formulation *used = zd_takes_many_rows(motion->formulation, &motion->system) ? &zd_augmented : &zd_augmented_dense;
     return (zd_variables){used, NULL, used->state_size(independent)};
 }

@@ -1,21 +1,21 @@
 /* Where a motion was, to be returned to. */
-#ifndef ZD_PLACE_H
-#define ZD_PLACE_H
+#ifndef ZD_STATE_H
+#define ZD_STATE_H
 
-typedef struct zd_place {
+typedef struct zd_state {
     double t;
     double *p, *v;          /* (nq,), (nv,) */
     double *extra;          /* what the state has besides them */
-} zd_place;
+} zd_state;
 
 /* The acceleration where a motion was, with which a step may begin there: to be handed back with the place. */
-typedef struct zd_rates_there {
+typedef struct zd_cached_accelerations {
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *pivots;         /* (nv,): of the direct road; NULL where the system brings none, */
     const void *order;      /* the order of elimination that they are of; NULL: none */
     double smallest;        /* and of them */
     int are_known;
-} zd_rates_there;
+} zd_cached_accelerations;
 
 typedef struct zd_last {    /* the step being made: its size, and where it began */
     double t, h;

@@ -2,7 +2,7 @@
  * that is laid out in one piece, which is copied whole: so nothing has to be known of either. It is about as large as what a step writes.
  * What is taken from the store once something rare has happened stays as it is.
  */
-#include "aside.h"
+#include "checkpoint.h"
 
 #include <string.h>
 
@@ -10,23 +10,23 @@
 #include "../linalg/small.h"
 #include "variables.h"
 
-zd_aside zd_aside_take(zd_arena *arena, const zd_stepper *stepper)
+zd_checkpoint zd_checkpoint_take(zd_arena *arena, const zd_stepper *stepper)
 {
-    return (zd_aside){
+    return (zd_checkpoint){
         .of_integrator = zd_take(arena, stepper->memory_of_integrator.bytes),
         .of_chosen = zd_take(arena, stepper->motion->memory_of_chosen.bytes),
         .y = zd_take_doubles(arena, (size_t)stepper->capacity),
     };
 }
 
-void zd_aside_set(zd_aside *self, const zd_stepper *stepper)
+void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper)
 {
-    zd_aside_set_variables(self, stepper);
+    zd_checkpoint_set_variables(self, stepper);
     memcpy(self->of_integrator, stepper->memory_of_integrator.at, stepper->memory_of_integrator.bytes);
     self->has_integrator = 1;
 }
 
-void zd_aside_set_variables(zd_aside *self, const zd_stepper *stepper)
+void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper)
 {
     const zd_motion *motion = stepper->motion;
     zd_rank *rank = motion->point->rank;
@@ -40,7 +40,7 @@ void zd_aside_set_variables(zd_aside *self, const zd_stepper *stepper)
     self->is_set = rank->is_aside = 1;
 }
 
-int zd_aside_return(zd_aside *self, zd_stepper *stepper, const zd_place *end)
+int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end)
 {
     zd_motion *motion = stepper->motion;
     zd_rank *rank = motion->point->rank;
