@@ -1,4 +1,4 @@
-/* Many runs in one call: each begins where the tables say, and ends by itself, whatever happens to the others. */
+/* Many runs in one call: each begins at its entry of the arrays and ends independently of the others. */
 #include "side_by_side.h"
 
 static void prepare(const zd_batch *batch)

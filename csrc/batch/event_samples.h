@@ -1,20 +1,20 @@
-/* Where the events of a batch have happened. */
+/* Samples at the events of a batch. */
 #ifndef ZD_EVENT_SAMPLES_H
 #define ZD_EVENT_SAMPLES_H
 
 #include "../zerodrift.h"
 
-/* Whose events are written down, */
+/* Run whose events are recorded: the data of zd_events. */
 typedef struct zd_event_samples {
     const zd_batch *batch;
     int64_t run;
 } zd_event_samples;
 
-/* as `found` of zd_events has it, whose data is such a run. */
+/* `found` of zd_events: records an event of that run. */
 int zd_event_samples_add(void *found, int event, double t, const double *p, const double *v);
-/* How often an event of the run has happened so far; a place to count in. */
+/* Number of occurrences of an event of the run so far; writable. */
 int64_t *zd_event_samples_count(const zd_batch *batch, int64_t run, int event);
-/* As if none had happened. */
+/* Resets these numbers to 0. */
 void zd_event_samples_clear(const zd_batch *batch, int64_t run);
 
 #endif

@@ -1,7 +1,7 @@
-/* What is looked at now and then in the steps of lanes: which of them look, and their energy. */
+/* Full checks of the steps of lanes: selection of the lanes in which they are due, and their energy. */
 #include "group.h"
 
-enum { CHECK_EVERY = 8 };    /* steps: as guard.c has it */
+enum { CHECK_EVERY = 8 };    /* steps, as in guard.c */
 
 void zd_lane_group_check_closely(zd_lane_group *self)
 {

@@ -1,10 +1,10 @@
-/* The corrections that follow the projection, (29), of each lane by itself: as motion/correct.c makes them. */
+/* Corrections after the projection, (29), lane by lane, as in motion/correct.c. */
 #include <math.h>
 
 #include "../point/matrices.h"
 #include "group.h"
 
-/* Those of one lane; whether they could be made. */
+/* Corrects one lane; returns 0 on failure. */
 static int correct(zd_lane_group *self, int lane, double t, double *y, int forced)
 {
     zd_lanes *lanes = &self->lanes;

@@ -1,13 +1,13 @@
-/* Events in lanes, as output/events.c finds them: a change of sign is narrowed down to the rounding of t, on the polynomial of the step or by
- * shorter ones; where a run ends, the last step is made to there. Each lane checks for its own, one after the other; what this takes is made
- * in all lanes at once.
+/* Events in lanes, as in output/events.c: a change of sign is located to the rounding of t, by dense output or by shorter steps; if an
+ * event ends the run, the last step is repeated up to it. Each lane locates its own events, one after the other; the evaluations are
+ * made in all lanes at once.
  */
 #include <math.h>
 
 #include "event_samples.h"
 #include "group.h"
 
-static const double RESOLUTION = 4 * 0x1p-52;   /* as events.c has it */
+static const double RESOLUTION = 4 * 0x1p-52;   /* relative resolution of t, as in events.c */
 
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
 {
@@ -22,9 +22,9 @@ zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
     };
 }
 
-/* ---- values ---- */
+/* ---- event functions ---- */
 
-/* Of an event at the gathered state. Where it has none, the run is made by itself, which says so. */
+/* Value of an event function at the gathered state. If it fails, the run is repeated individually, which reports the failure. */
 static double evaluate(zd_lane_group *self, int lane, int event, double t)
 {
     double value = 0;
@@ -45,7 +45,7 @@ static int happens(const zd_lane_group *self, const zd_lane_search *search, int 
     return (before < 0 && now >= 0 && direction >= 0) || (before > 0 && now <= 0 && direction <= 0);
 }
 
-/* ---- from one event of a lane to the next ---- */
+/* ---- sequence of events in a lane ---- */
 
 static double resolution_of(const zd_lanes *lanes, int lane)
 {
@@ -57,14 +57,14 @@ static int is_wide(const zd_lanes *lanes, int lane, const zd_bracket *bracket)
     return bracket->b - bracket->a > resolution_of(lanes, lane);
 }
 
-/* Whether the event happens before the run ends, and is not the one that ends it, which comes last. */
+/* True if the event precedes the end of the run and is not the one that ends it, which is reported last. */
 static int is_reported(const zd_lane_search *search, int event)
 {
     const double b = search->bracket[event].b;
     return event != search->ended - 1 && b < INFINITY && b <= search->end;
 }
 
-/* Of those located, the next after this one that is gone to; the one that ends the run last; -1: there are no more. */
+/* Index of the next located event to be reported; the one that ends the run is last; -1: there are no more. */
 static int next_reported(const zd_lane_group *self, const zd_lane_search *search, int event)
 {
     const int last = search->ended - 1;
@@ -74,7 +74,7 @@ static int next_reported(const zd_lane_group *self, const zd_lane_search *search
     return last;
 }
 
-/* Whether the state there is mixed of those at both sides */
+/* True if the state at the event is interpolated between the states before and after. */
 static int is_mixed(const zd_lane_group *self, const zd_lane_search *search)
 {
     return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->bracket[search->event]);
@@ -86,7 +86,7 @@ static void go_to_next(zd_lane_group *self, zd_lane_search *search)
     search->stage = search->event < 0 ? ZD_FOUND_ALL : is_mixed(self, search) ? ZD_GOES_BEFORE : ZD_GOES_BEHIND;
 }
 
-/* The event is located: whether the run ends there depends on how often it has happened. */
+/* Records a located event as the end of the run, if it is the last that its count admits. */
 static void note_end(zd_lane_group *self, int lane)
 {
     const zd_lane_run *run = &self->run_of[lane];
@@ -103,7 +103,8 @@ static zd_bracket bracket_of_step(const zd_lanes *lanes, const zd_lane_search *s
     return zd_bracket_of(lanes->t_before[lane], lanes->t[lane], search->before[event], search->now[event], resolution_of(lanes, lane));
 }
 
-/* All are located. On a polynomial, the one that ends the run is near where it does. */
+/* Proceeds to the states, as all events are located. With dense output, the event that ends the run is located again by shorter steps,
+ * near its time. */
 static void go_to_places(zd_lane_group *self, int lane)
 {
     zd_lane_search *search = &self->run_of[lane].search;
@@ -117,7 +118,7 @@ static void go_to_places(zd_lane_group *self, int lane)
     search->stage = ZD_LOCATES_END;
 }
 
-/* On from this event to the first that has to be narrowed down; where there is none, to the places themselves. */
+/* Proceeds from this event to the first that has to be located; if there is none, to the states. */
 static void locate_from(zd_lane_group *self, int lane, int event)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -134,7 +135,7 @@ static void locate_from(zd_lane_group *self, int lane, int event)
     go_to_places(self, lane);
 }
 
-/* The step has been made again, to where the run ends: on its polynomial to what happens until then. */
+/* Locates events again in the step that was repeated up to the end of the run, by its dense output. */
 static void locate_until_end(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -146,7 +147,7 @@ static void locate_until_end(zd_lane_group *self, int lane)
     locate_from(self, lane, 0);
 }
 
-/* ---- the places themselves ---- */
+/* ---- states at events ---- */
 
 static void mix(const zd_lane_group *self, int lane, double share, double *mixed)
 {
@@ -160,8 +161,8 @@ static void mix(const zd_lane_group *self, int lane, double share, double *mixed
     for (int i = 0; i < lanes->nv; i++) self->v[i] = mixed[lanes->nq + i];
 }
 
-/* The states at both sides are known: the late one is in y_row. */
-static void settle(zd_lane_group *self, int lane)
+/* Finds the state at the event and records it; the states before and after are known, the latter in y_row. */
+static void find_state(zd_lane_group *self, int lane)
 {
     zd_lane_run *run = &self->run_of[lane];
     const zd_bracket *located = &run->search.bracket[run->search.event];
@@ -187,7 +188,7 @@ void zd_lane_group_go_to_end(zd_lane_group *self, int lane)
 
 /* ---- all lanes ---- */
 
-/* The step that a lane has just made: whether anything has happened in it. */
+/* Begins the location of events in the step that a lane has just made. */
 static void begin(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -203,15 +204,15 @@ static void begin(zd_lane_group *self, int lane)
     if (self->lanes.leaves[lane] == 0) locate_from(self, lane, 0);
 }
 
-static double time_to_look_at(const zd_lane_search *search)
+static double time_requested(const zd_lane_search *search)
 {
     const zd_bracket *bracket = &search->bracket[search->event];
     const int locates = search->stage == ZD_LOCATES || search->stage == ZD_LOCATES_END;
     return locates ? zd_bracket_choose(bracket) : search->stage == ZD_GOES_BEFORE ? bracket->a : bracket->b;
 }
 
-/* What a lane makes of the state at the time it has asked for. */
-static void go_on(zd_lane_group *self, int lane)
+/* Continues the location with the state at the time that the lane requested. */
+static void resume(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
     zd_lane_search *search = &self->run_of[lane].search;
@@ -235,14 +236,14 @@ static void go_on(zd_lane_group *self, int lane)
         search->stage = ZD_GOES_BEHIND;
         return;
     case ZD_GOES_BEHIND:
-        settle(self, lane);
+        find_state(self, lane);
         go_to_next(self, search);
         return;
     case ZD_FOUND_ALL: return;
     }
 }
 
-/* How a lane gets to what it checks for. */
+/* Evaluation of states within a step: as dense output allows, by a shorter step, or by repeating the step. */
 enum { BETWEEN, BY_SHORTER_STEP, BY_CUT, WAYS };
 
 static int way_of(const zd_lane_search *search)
@@ -250,30 +251,30 @@ static int way_of(const zd_lane_search *search)
     return search->stage == ZD_LOCATES_END ? BY_SHORTER_STEP : search->stage == ZD_CUTS ? BY_CUT : BETWEEN;
 }
 
-/* Whether a lane still checks for something that it gets to so; then it says when it wants to know. */
-static int ask(zd_lane_group *self, int lane, int way)
+/* Requests a state of the lane at a time within the step, if the lane needs one by this way; returns whether it does. */
+static int request(zd_lane_group *self, int lane, int way)
 {
     zd_lanes *lanes = &self->lanes;
     const zd_lane_run *run = &self->run_of[lane];
     const int is_checking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
-    const int asks = is_checking && way_of(&run->search) == way;
-    lanes->is_wanted[lane] = asks;
-    lanes->t_row[lane] = asks ? time_to_look_at(&run->search) : lanes->t[lane];
-    return asks;
+    const int requests = is_checking && way_of(&run->search) == way;
+    lanes->is_wanted[lane] = requests;
+    lanes->t_row[lane] = requests ? time_requested(&run->search) : lanes->t[lane];
+    return requests;
 }
 
-/* Whether any lane has gone on in that way. */
+/* Serves all requests by this way; returns 0 if there were none. */
 static int go_all(zd_lane_group *self, int way)
 {
     zd_lanes *lanes = &self->lanes;
     int any = 0;
-    for (int lane = 0; lane < lanes->lanes; lane++) any |= ask(self, lane, way);
+    for (int lane = 0; lane < lanes->lanes; lane++) any |= request(self, lane, way);
     if (!any) return 0;
     if (way == BETWEEN) self->functions->move_between(lanes, 0);
     else if (way == BY_SHORTER_STEP) self->functions->substep(lanes);
     else self->functions->cut(lanes);
     for (int lane = 0; lane < lanes->lanes; lane++)
-        if (lanes->is_wanted[lane] != 0 && lanes->leaves[lane] == 0) go_on(self, lane);
+        if (lanes->is_wanted[lane] != 0 && lanes->leaves[lane] == 0) resume(self, lane);
     return 1;
 }
 

@@ -1,17 +1,16 @@
-/* Which pins are on one body, and where that stands in C M^-1 C^T: found once for all runs, as it depends on no number. */
+/* Structure of C M^-1 C^T for bodies joined by pins, found once for all runs, as it does not depend on the data. */
 #include "lane_pins.h"
 
 #include <math.h>
 #include <string.h>
 
-static const double UNEQUAL_SHARES = 0x1p6;        /* what bodies contribute to a row, the largest to the smallest: see schur_blocks.c */
+static const double UNEQUAL_SHARES = 0x1p6;        /* largest ratio of the contributions of bodies to a constraint: see schur_blocks.c */
 
-/* ---- which ends each body has ---- */
+/* ---- ends of each body ---- */
 
 static int body_of(const zd_pinned *of, int end) { return end & 1 ? of->second[end / 2] : of->first[end / 2]; }
 
-/* `at` (bodies + 2,) and `end` (2 pins,): the ends of each body, where those of pin k are 2 place[k] and the next; place NULL:
- * as they are given. */
+/* `at` (bodies + 2,) and `end` (2 pins,): ends of each body; those of pin k are 2 place[k] and the next; place NULL: in the given order. */
 static void list_ends(const zd_pinned *of, const int *place, int *at, int *end)
 {
     memset(at, 0, (size_t)(of->bodies + 2) * sizeof *at);
@@ -44,7 +43,7 @@ void zd_pins_plan_free(zd_pins_plan *self)
     zd_ordering_free(&self->ordering);
 }
 
-/* ---- where they stand in S ---- */
+/* ---- positions in S ---- */
 
 static void list_pins(const zd_lane_pins *self, int *row, zd_pin_end *end)
 {
@@ -57,7 +56,7 @@ static void list_pins(const zd_lane_pins *self, int *row, zd_pin_end *end)
     }
 }
 
-/* Block (later, earlier) of S, both by their places. */
+/* Index of block (later, earlier) of S, both by position. */
 static int find(const zd_blocks *blocks, int later, int earlier)
 {
     int e = blocks->begin[earlier];
@@ -65,7 +64,7 @@ static int find(const zd_blocks *blocks, int later, int earlier)
     return blocks->entry_at[e];
 }
 
-/* `has` (size of S,) notes where blocks begin that a pair adds to. */
+/* `has` (size of S,): 1 at the start of blocks that a pair contributes to */
 static void list_pairs(const zd_lane_pins *self, int *pair_at, zd_pin_pair *pair, unsigned char *has)
 {
     int next = 0;
@@ -139,9 +138,9 @@ zd_lane_pins *zd_lane_pins_take(zd_arena *arena, const zd_pins_plan *plan, int l
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* ---- numbers ---- */
+/* ---- data ---- */
 
-/* What a body contributes to a row, c W c^T, is between 1 / mass and that with its whole arm. */
+/* Extends [least, most] by the bounds of a body's contribution c W c^T to a constraint: 1 / mass, and that with its whole arm. */
 static void widen(const double *numbers, int body, const double *point, double *least, double *most)
 {
     if (body < 0) return;

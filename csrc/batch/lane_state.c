@@ -1,12 +1,12 @@
-/* What is looked at in one lane: long steps, and the energy. */
+/* State of one lane in the checking run: rotation of C in long steps, and energy. */
 #include <math.h>
 
 #include "../point/matrices.h"
 #include "group.h"
 
-/* Of the warnings that a single run gives: it then gets the chance to give them. */
-static const double LARGEST_ENERGY_ERROR = 0.005;   /* of the kinetic energy */
-static const double ENERGY_ROUNDING = 1e-10;               /* of all the energy there is */
+/* Thresholds of the energy warning of a single run; beyond, the run is repeated individually and gives the warning itself. */
+static const double LARGEST_ENERGY_ERROR = 0.005;   /* relative to the largest kinetic energy */
+static const double ENERGY_ROUNDING = 1e-10;               /* relative to kinetic and potential energy */
 
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 {
@@ -20,7 +20,7 @@ const void *zd_lane_group_data(const zd_lane_group *self, int lane)
     return zd_single_run_data(self->batch, self->run_of[lane].number);
 }
 
-/* C (mh, nv) in natural units at y; returns whether that is known. */
+/* C (mh, nv) in characteristic scales at y; returns 0 if the evaluation failed. */
 static int evaluate_rows(zd_lane_group *self, int lane, double t, const double *y, double *C)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -33,7 +33,7 @@ static int evaluate_rows(zd_lane_group *self, int lane, double t, const double *
     return 1;
 }
 
-/* By more than 60 degrees or so: see guard.c. */
+/* True if a row has turned by more than about 60 degrees: see guard.c. */
 static int is_turned(int n, const double *before, const double *after)
 {
     double turned = 0, a = 0, b = 0;

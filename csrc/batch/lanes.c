@@ -1,4 +1,4 @@
-/* The lanes of a batch: their memory, and what goes into it where a run begins. */
+/* Lanes of a batch: allocation, and numbers at the start of a run. */
 #include <math.h>
 
 #include "../output/reading.h"
@@ -51,7 +51,7 @@ const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_u
     return NULL;
 }
 
-/* Every other column of numbers follows those before it in one block. */
+/* Allocates `count` numbers per lane; all are contiguous, from self->first on. */
 static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
 {
     double *here = zd_take_doubles(arena, (size_t)(count * self->lanes));
@@ -115,7 +115,7 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
     self->polynomial = take(self, arena, (int64_t)T->coefficients * size);
 }
 
-/* The number of y that an event is, if it is one: its place; else -1. */
+/* Index of the entry of y that the event is, -1 if it is none. */
 static int entry_of(const zd_lanes *self, const zd_events *events, int event)
 {
     if (!zd_is_known(events, event) || events->known[event].function) return -1;
@@ -189,8 +189,8 @@ static void load_state(zd_lanes *self, int lane, const zd_run *run)
     if (self->has_input) zd_lane_set(self, self->y, self->size - 1, lane, 0);
 }
 
-/* Which order of elimination serves, and the rates of that one, are found for all lanes at once. */
-static void load_road(zd_lanes *self, int lane, zd_run *run)
+/* Order of elimination and rates are found later, for all lanes at once. */
+static void load_direct(zd_lanes *self, int lane, zd_run *run)
 {
     zd_direct_measure(&run->motion);
     load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.path.scale, self->scale);
@@ -209,7 +209,7 @@ static void load_pins(zd_lanes *self, int lane, const zd_run *run, const double 
     self->pins->refines[lane] = zd_pins_are_unequal(self->pins->of, data);
 }
 
-/* What stays as it is from the start on: sizes of the rows of C, by which Phi is measured. */
+/* Scales that are constant during a run: of p, v, and of Phi. */
 static void load_units(zd_lanes *self, int lane, const zd_run *run)
 {
     const zd_point *point = run->motion.point;
@@ -227,8 +227,8 @@ static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers
     for (; count > 0; count--, numbers += stride) *numbers = 0;
 }
 
-/* When it is first looked closely: see guard.c. */
-static void set_look(zd_lanes *self, int lane)
+/* Sets the step of the first full check: see guard.c. */
+static void set_first_check(zd_lanes *self, int lane)
 {
     enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };
     self->next_check[lane] = self->is_fixed ? 1 : CHECK_SELDOM;
@@ -241,10 +241,10 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     load(self, lane, doubles, data, self->data);
     load_state(self, lane, run);
     load_units(self, lane, run);
-    if (self->direct) load_road(self, lane, run);
+    if (self->direct) load_direct(self, lane, run);
     else load_pins(self, lane, run, data);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->loop.control.h;
-    set_look(self, lane);
+    set_first_check(self, lane);
 }

@@ -1,4 +1,4 @@
-/* Steps one after the other, in all lanes at once, until somebody has to look at one of them; and what lies within a step. */
+/* Step loop in all lanes at once, until one of them requires attention; and states within a step. */
 #include "lanes_checks.h"
 
 /* y1 from y, by the method's stages */
@@ -16,7 +16,7 @@ ZD_KERNEL void ZD_NAMED(integrate)(const zd_lanes *self, const double *from, zd_
     ZD_NAMED(combine)(self, 0, size, &method->b, h, from, to);
 }
 
-/* k of the first stage is known where the step begins. */
+/* Sets the first stage from the rates at the start of the step. */
 ZD_KERNEL void ZD_NAMED(begin)(const zd_lanes *self)
 {
     const int nq = self->nq, nv = self->nv;
@@ -26,7 +26,7 @@ ZD_KERNEL void ZD_NAMED(begin)(const zd_lanes *self)
     if (self->has_input) REAL(self->k)[nq + nv] = *REAL(self->power);
 }
 
-/* When the step ends */
+/* Time at the end of the step, and *h its size. */
 ZD_KERNEL zd_real ZD_NAMED(end_of_step)(const zd_lanes *self, zd_real *h)
 {
     const zd_real t = *REAL(self->t), end = ZD_SPLAT(self->end);
@@ -44,7 +44,7 @@ ZD_KERNEL zd_real ZD_NAMED(end_of_step)(const zd_lanes *self, zd_real *h)
     return t1;
 }
 
-/* Takes y1 as the state where the step was accepted, and keeps where that began. */
+/* Sets the state to y1 in lanes whose step was accepted, and stores its start. */
 ZD_KERNEL void ZD_NAMED(keep)(zd_lanes *self, zd_condition accepted, zd_real t1, zd_real speed, zd_condition continues)
 {
     *REAL(self->t_before) = ZD_WHERE(accepted, *REAL(self->t), *REAL(self->t_before));
@@ -60,7 +60,7 @@ ZD_KERNEL void ZD_NAMED(keep)(zd_lanes *self, zd_condition accepted, zd_real t1,
     *REAL(self->order) = ZD_WHERE(accepted & ~continues, ZD_SPLAT(NAN), *REAL(self->order));
 }
 
-/* The next step's size, from what this one has missed; which lanes keep it. */
+/* Size of the next step, from the error of this one; returns the lanes that accept it. */
 ZD_KERNEL zd_condition ZD_NAMED(control)(zd_lanes *self, zd_real h, zd_real norm)
 {
     const zd_condition active = HOLDS(self->is_active), accepted = norm <= 1.0;
@@ -72,7 +72,7 @@ ZD_KERNEL zd_condition ZD_NAMED(control)(zd_lanes *self, zd_real h, zd_real norm
     return accepted;
 }
 
-/* Corrections besides the projection, in these lanes. A lane in which they fail leaves. */
+/* Makes the corrections besides the projection in these lanes. A lane in which they fail leaves. */
 ZD_KERNEL void ZD_NAMED(correct_rest)(zd_lanes *self, zd_condition which, const double *t, double *y, int forced)
 {
     if (!self->correct_rest) return;
@@ -80,7 +80,8 @@ ZD_KERNEL void ZD_NAMED(correct_rest)(zd_lanes *self, zd_condition which, const 
     self->correct_rest(self->of, t, y, forced);
 }
 
-/* When somebody has to look: where an uneasy step wants it soon, after the next of every eight steps. */
+/* True in lanes that require attention: a sample or a check is due. After a step that requests it, a check follows the next multiple of
+ * eight steps. */
 ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
@@ -91,7 +92,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
     return (*REAL(self->t) >= *REAL(self->next_t)) | (number >= *REAL(self->next_number)) | (number >= next);
 }
 
-/* Whether events may have happened in a step just made. */
+/* True in lanes in which events may have occurred in the last step. */
 ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
 {
     zd_condition any = ZD_SPLAT(0.0) != 0.0;
@@ -105,7 +106,7 @@ ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
     return any;
 }
 
-/* y1 back onto the constraints, where that is this step's turn. Returns the lanes in which that fails. */
+/* Projects y1 onto the constraints, if that is due in this step. Returns the lanes in which that fails. */
 ZD_KERNEL zd_condition ZD_NAMED(project)(zd_lanes *self, zd_condition accepted, const double *t1)
 {
     const zd_condition none = ZD_SPLAT(0.0) != 0.0;
@@ -114,14 +115,14 @@ ZD_KERNEL zd_condition ZD_NAMED(project)(zd_lanes *self, zd_condition accepted, 
     return ZD_ANY(accepted) ? ZD_NAMED(land)(self, t1, self->y1, accepted) & accepted : none;
 }
 
-/* A step in each lane; those that are done with are the ones somebody has to look at. */
+/* Makes a step in each lane; returns the lanes that require attention. */
 ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
 {
     const zd_condition active = HOLDS(self->is_active);
     zd_real h, speed, wanted = *REAL(self->t);
     zd_stored t1;
     t1 = ZD_NAMED(end_of_step)(self, &h);
-    const zd_condition stands = ~(t1 > wanted) & active;        /* time does not resolve the step */
+    const zd_condition stands = ~(t1 > wanted) & active;        /* step size underflow */
     const zd_real taken = ZD_WHERE(active, h, ZD_SPLAT(0.0));
     t1 = ZD_WHERE(active, t1, wanted);
     ZD_NAMED(begin)(self);
@@ -136,7 +137,7 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
     ZD_NAMED(correct_rest)(self, accepted & ~failed, (const double *)&t1, self->y1, 0);
     const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
     ZD_NAMED(accelerate)(self, (const double *)&t1, self->y1, self->y1 + self->nq * ZD_LANES, &to);
-    failed |= accepted & ~ZD_NAMED(is_believed)(self, taken, &speed, &continues);
+    failed |= accepted & ~ZD_NAMED(is_accepted)(self, taken, &speed, &continues);
     accepted &= ~failed;
     ZD_NAMED(keep)(self, accepted, t1, speed, continues);
     if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->most_steps));
@@ -161,7 +162,8 @@ ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
 
 /* ---- within the last step ---- */
 
-/* The polynomial through y0 and y, which has the rates of the step's ends and of some stages more: interpolation.h. Of these lanes */
+/* Dense output of the last step, in these lanes: polynomial through y0 and y from the rates at the ends of the step and of some more
+ * stages: interpolation.h. */
 ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_condition which, zd_real h)
 {
     const zd_method *method = &self->method;
@@ -198,10 +200,10 @@ ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
     }
 }
 
-/* A time within the step of the lanes in which one is wanted that is not its end, */
+/* Time within the step, in lanes in which one is requested that is not its end. */
 typedef struct ZD_NAMED(between) {
     zd_condition inside;
-    zd_real h, part;        /* the step, and what of it has passed; 0 in other lanes */
+    zd_real h, part;        /* size of the step, and its part up to that time; 0 in other lanes */
 } ZD_NAMED(between);
 
 ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
@@ -214,7 +216,7 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
     return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_row - before, ZD_SPLAT(0.0))};
 }
 
-/* and what is in y_row put onto the constraints there, with its multipliers where they are wanted. */
+/* Projects y_row onto the constraints at t_row; evaluates its multipliers if required. */
 ZD_KERNEL void ZD_NAMED(land_between)(zd_lanes *self, zd_condition inside, const double *t_row, int multipliers)
 {
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
@@ -227,8 +229,8 @@ ZD_KERNEL void ZD_NAMED(land_between)(zd_lanes *self, zd_condition inside, const
     ZD_NAMED(accelerate)(self, t_row, self->y_row, self->y_row + self->nq * ZD_LANES, &to);
 }
 
-/* By the polynomial where the method has one and steps are chosen, else by a shorter step. Orders of elimination may be others by now than
- * where the step began, and are sound at its end. */
+/* y_row at t_row by dense output, if the method has it and steps are adaptive, else by a shorter step. Orders of elimination may have
+ * changed since the start of the step; they are valid at its end. */
 ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
@@ -238,7 +240,7 @@ ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
     ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
 }
 
-/* The polynomial, which others may ask for yet, is made of the stages that this takes for itself. */
+/* y_row at t_row by a shorter step. Its stages overwrite those of dense output, which is therefore computed before. */
 ZD_KERNEL zd_condition ZD_NAMED(make_shorter)(zd_lanes *self)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
@@ -253,7 +255,7 @@ ZD_KERNEL void ZD_NAMED(substep)(zd_lanes *self)
     ZD_NAMED(make_shorter)(self);
 }
 
-/* The same where this takes the place of the step made: it ends there, and the polynomial is its own. */
+/* The same, and the shorter step replaces the last one, with its dense output. */
 ZD_KERNEL void ZD_NAMED(cut)(zd_lanes *self)
 {
     const zd_condition inside = ZD_NAMED(make_shorter)(self);

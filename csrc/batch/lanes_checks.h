@@ -1,13 +1,13 @@
-/* What is looked at now and then in the lanes, as often as in any other run: each part of the motion by itself, as resolution.c weighs it,
- * and how far steps are from being too long, as guard.c sees it. Products are not contracted here: counts are those of a single run.
+/* Full checks in lanes, as often as in a single run: resolution of each velocity, as in resolution.c, and distance from the stability
+ * limit, as in guard.c. Products are not contracted here, so that counts are those of a single run.
  */
 #include "lanes_steps.h"
 
 static const double FORGET = 1.0 / 128, SHARE = 1e-3, UNRESOLVED = 0.03, NOTED = 1e-3, AMPLE_PART = 0x1p-4;    /* resolution.c */
-static const double AMPLE_CHANGE = 0x1p-8;     /* guard.c, as are */
+static const double AMPLE_CHANGE = 0x1p-8;     /* guard.c, as are the following */
 enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };  /* steps */
 
-/* What coordinate i misses in the step, in its own units */
+/* Error of coordinate i in the step, in its own unit. */
 ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
 {
     const zd_real before = REAL(self->k)[self->nq + i], after = REAL(self->vdot)[i];
@@ -16,7 +16,7 @@ ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
     return self->order_of_method < 2 ? h * h * after : self->order_of_method < 4 ? h * h * (after - before) : h * (v1 - v0 - h / 2 * (before + after));
 }
 
-/* An error of coordinate i that counts. */
+/* Records a significant error of coordinate i. */
 ZD_KERNEL void ZD_NAMED(note_part)(zd_lanes *self, int i, zd_condition counts, zd_real error)
 {
     const zd_condition is_unresolved = counts & (error > UNRESOLVED), is_first = is_unresolved & (*REAL(self->unresolved) == 0.0);
@@ -27,13 +27,13 @@ ZD_KERNEL void ZD_NAMED(note_part)(zd_lanes *self, int i, zd_condition counts, z
     *REAL(self->part) = ZD_WHERE(is_largest, ZD_SPLAT((double)i), *REAL(self->part));
 }
 
-/* Whether an error counts, if it is compared with so much of the bounds */
+/* True if an error is significant relative to `share` of the bounds. */
 ZD_KERNEL zd_condition ZD_NAMED(counts)(zd_real error, zd_real path, double share)
 {
     return (error > share * NOTED) & (error > share * SHARE * path);
 }
 
-/* Coordinate i of the lanes that look; returns whether it is far from what is noted. */
+/* Accumulates error and path of coordinate i in the lanes checked; returns whether the error is well below the significant ones. */
 ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition checks, zd_real h, zd_real steps)
 {
     const zd_real forget = ZD_WHERE(steps > 8.0, steps / 8 * FORGET, ZD_SPLAT(FORGET)), unit = REAL(self->inverse_unit)[i];
@@ -55,7 +55,7 @@ ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition chec
     return ~ZD_NAMED(counts)(error, path, AMPLE_PART);
 }
 
-/* Whether the step was far from too long, (omega h)^4 being what guard.c has it from */
+/* True if the step was well below the stability limit, by (omega h)^4 as in guard.c. */
 ZD_KERNEL zd_condition ZD_NAMED(is_ample)(const zd_lanes *self, zd_real h)
 {
     const zd_real square = h * h;
@@ -71,7 +71,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_ample)(const zd_lanes *self, zd_real h)
     return square * square * changed <= AMPLE_CHANGE * self->limit * moved;
 }
 
-/* The next look of the lanes that look. */
+/* Sets the step of the next check in the lanes checked. */
 ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition checks, zd_condition ample)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
@@ -86,7 +86,7 @@ ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition checks, zd_condition
     *REAL(self->check_soon) = ZD_WHERE(checks, ZD_SPLAT(0.0), *REAL(self->check_soon));
 }
 
-/* Lanes that are wanted look at the step that they have just made. */
+/* Checks the last step in lanes with is_wanted. */
 ZD_KERNEL void ZD_NAMED(check)(zd_lanes *self)
 {
     const zd_condition checks = HOLDS(self->is_wanted);

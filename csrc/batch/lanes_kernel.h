@@ -1,5 +1,5 @@
-/* One text for the lanes of each vector unit, included with ZD_UNIT and ZD_LANES: see zerodrift/lanes.h. What a lane gets depends on what
- * is in that lane alone.
+/* Source for the lanes of each vector unit, included with ZD_UNIT and ZD_LANES: see zerodrift/lanes.h. The results of a lane do not
+ * depend on the other lanes.
  */
 #include "../include/zerodrift/lanes.h"
 #include "lane_numbers.h"
@@ -29,7 +29,7 @@ ZD_KERNEL void ZD_NAMED(take_where)(zd_condition condition, int n, const double 
     for (int i = 0; i < n; i++) REAL(to)[i] = ZD_WHERE(condition, REAL(from)[i], REAL(to)[i]);
 }
 
-/* Whether a number of steps is a multiple of another */
+/* True if a number of steps is a multiple of another. */
 ZD_KERNEL zd_condition ZD_NAMED(is_multiple)(zd_real number, double of)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), share = number / of;
@@ -38,14 +38,14 @@ ZD_KERNEL zd_condition ZD_NAMED(is_multiple)(zd_real number, double of)
 
 /* ---- sums over stages ---- */
 
-/* What goes into a sum over stages: rates and weights. */
+/* Summands of a sum over stages: rates and weights. */
 typedef struct ZD_NAMED(summands) {
     int count;
     const zd_stored *k[ZD_MOST_STAGES];
     zd_real factor[ZD_MOST_STAGES];
 } ZD_NAMED(summands);
 
-/* n sums beside each other, of the numbers from i on; with n written out they stay in registers. */
+/* n adjacent sums, of the numbers from i on; with constant n they stay in registers. */
 ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(add)(const int n, const ZD_NAMED(summands) *of, int i, const zd_stored *from, zd_stored *to)
 {
     zd_real sum[ZD_SUMS];
@@ -74,11 +74,11 @@ ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, con
 
 #include "lanes_pins.h"
 
-/* ---- direct functions ---- */
+/* ---- closed-form functions ---- */
 
-/* Where the functions of the lanes' orders write. */
+/* Results of the closed-form functions. */
 typedef struct ZD_NAMED(rates) {
-    double *pdot, *vdot, *lambda, *power, *pivots;      /* the last three NULL: not wanted */
+    double *pdot, *vdot, *lambda, *power, *pivots;      /* the last three NULL: not required */
 } ZD_NAMED(rates);
 
 ZD_KERNEL void ZD_NAMED(fill_pivots)(const zd_lanes *self, const zd_elimination *order, double *pivots)
@@ -89,14 +89,14 @@ ZD_KERNEL void ZD_NAMED(fill_pivots)(const zd_lanes *self, const zd_elimination 
 ZD_KERNEL void ZD_NAMED(call)(const zd_lanes *self, const zd_elimination *order, const double *t, const double *p, const double *v,
                               const ZD_NAMED(rates) *to)
 {
-    /* Of what a function reports not to know it makes what no comparison passes. */
+    /* Lanes in which the function fails get NAN, which fails every comparison. */
     const int unknown = order->accelerate(self->data, t, p, v, NULL, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
     ZD_NAMED(fill_pivots)(self, order, to->pivots);
     for (int lane = 0; unknown && lane < ZD_LANES; lane++)
         if (unknown >> lane & 1) to->vdot[lane] = NAN;
 }
 
-/* The order that all lanes have; -1: they differ. */
+/* Order of elimination common to all lanes; -1: they differ. */
 ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
 {
     const double first = self->order[0];
@@ -131,7 +131,7 @@ ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const
     }
 }
 
-/* Phi, dp and dv at (t, p, v), where the order is what it was where the step began; of pins it is Phi alone. */
+/* Phi, dp and dv at (t, p, v), with the order of elimination at the start of the step; for pins, Phi alone. */
 ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const double *p, const double *v)
 {
     if (self->pins) {
@@ -154,7 +154,7 @@ ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const do
     }
 }
 
-/* The state's rates, where `rates` is a stage of the method. */
+/* Rates of the state, written to a stage `rates` of the method. */
 ZD_KERNEL void ZD_NAMED(rate)(const zd_lanes *self, const double *t, const double *y, double *rates)
 {
     const double *v = y + self->nq * ZD_LANES;

@@ -1,13 +1,13 @@
-/* (13) and (27) of bodies joined by pins, in lanes: what schur_blocks.c and products.c do for one trajectory.
+/* (13) and (27) of bodies joined by pins, in lanes: as schur_blocks.c and products.c for one trajectory,
  *
  *     Phi = x2 + w - x1 - u - zero,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u         (3), (5), (6)
  *     S = C M^-1 C^T = L D L^T,     S lambda = C g - xi,     vdot = g - M^-1 C^T lambda                         (13)
  *
  * with u and w the arms of a pin and g of gravity, in blocks of two rows. */
 
-static const double GOOD_PIVOT = 0x1p-10;         /* of the diagonal of S: with pivots that are larger, few digits are lost */
-static const double REPORTED_PIVOT = 0x1p-26;         /* of it: of smaller ones somebody is to be told, see SMALLEST_PIVOT in solution.py */
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;      /* of the terms of C x: nothing to be corrected */
+static const double GOOD_PIVOT = 0x1p-10;         /* pivot relative to the diagonal of S above which few digits are lost */
+static const double REPORTED_PIVOT = 0x1p-26;         /* relative pivot below which runs give a warning: SMALLEST_PIVOT in solution.py */
+static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;      /* residual relative to the terms of C x that needs no refinement */
 
 typedef struct ZD_NAMED(plane) {
     zd_real x, y;
@@ -19,7 +19,7 @@ ZD_KERNEL ZD_NAMED(plane) ZD_NAMED(arm_of)(const zd_lane_pins *pins, int end)
     return (ZD_NAMED(plane)){arm[0], arm[1]};
 }
 
-/* ---- where the pins are ---- */
+/* ---- arms ---- */
 
 ZD_KERNEL void ZD_NAMED(turn_body)(const zd_lanes *self, int body, const double *p)
 {
@@ -35,7 +35,7 @@ ZD_KERNEL void ZD_NAMED(turn_body)(const zd_lanes *self, int body, const double 
     }
 }
 
-/* The arms at p, if they are not those there yet. */
+/* Computes the arms at p, unless they are known. */
 ZD_KERNEL void ZD_NAMED(turn)(const zd_lanes *self, const double *p)
 {
     zd_lane_pins *pins = self->pins;
@@ -56,7 +56,7 @@ ZD_KERNEL void ZD_NAMED(turn)(const zd_lanes *self, const double *p)
 
 /* ---- S and its factors ---- */
 
-/* What a body contributes to the blocks of its pins. */
+/* Adds the contributions of a body to the blocks of its pins. */
 ZD_KERNEL void ZD_NAMED(add_body)(const zd_lanes *self, int body)
 {
     const zd_lane_pins *pins = self->pins;
@@ -74,7 +74,7 @@ ZD_KERNEL void ZD_NAMED(add_body)(const zd_lanes *self, int body)
     }
 }
 
-/* The diagonal block of a pin, and how large its diagonal is before others are eliminated. */
+/* Diagonal block of a pin, and its diagonal before the elimination of others. */
 ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
 {
     const zd_lane_pins *pins = self->pins;
@@ -94,12 +94,12 @@ ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
     to[3] = diagonal[1] = yy;
 }
 
-/* Which lanes have a pivot that is small, and one of which nothing is known */
+/* Updates is_small and is_lost: lanes with a small pivot, and with one that is not positive. */
 typedef struct ZD_NAMED(judged) {
     zd_condition small, lost;
 } ZD_NAMED(judged);
 
-/* D_k^-1 in place of the block of this place: as zd_invert_two() has it. */
+/* Inverts the diagonal block of this position: D_k^-1 as in zd_invert_two(). */
 ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(judged) *judged)
 {
     zd_stored *P = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
@@ -112,7 +112,7 @@ ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(ju
     P[3] = a * scale;
 }
 
-/* Takes what is of this place out of the blocks of later ones. */
+/* Eliminates this position from the later blocks. */
 ZD_KERNEL void ZD_NAMED(eliminate)(const zd_lane_pins *pins, int place)
 {
     const zd_blocks *blocks = pins->blocks;
@@ -138,7 +138,7 @@ ZD_KERNEL void ZD_NAMED(eliminate)(const zd_lane_pins *pins, int place)
     }
 }
 
-/* S at p and its factors, if they are not those there yet. */
+/* Forms and factors S at p, unless that is done. */
 ZD_KERNEL void ZD_NAMED(factorize)(const zd_lanes *self, const double *p)
 {
     zd_lane_pins *pins = self->pins;
@@ -214,7 +214,7 @@ ZD_KERNEL void ZD_NAMED(spread_forces)(const zd_lanes *self, double falls, doubl
     }
 }
 
-/* What the velocities of the body of an end do to both rows of its pin, and the sizes of the terms */
+/* Contribution of the velocities of an end's body to both rows of its pin, and the sizes of the terms. */
 typedef struct ZD_NAMED(moved) {
     ZD_NAMED(plane) by, size;
 } ZD_NAMED(moved);
@@ -231,8 +231,7 @@ ZD_KERNEL ZD_NAMED(moved) ZD_NAMED(move_end)(const zd_lane_pins *pins, int end, 
                                                       ZD_NAMED(size_of)(y) + ZD_NAMED(size_of)(along)}};
 }
 
-/* rest <- rhs - C x, and y <- its opposite where that is more than the rounding of x makes it, else 0.
- * Returns how much it is of its terms. */
+/* y <- -(rhs - C x), with rhs in `rest`; returns the largest residual relative to its terms, 0 if it is within the rounding of x. */
 ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
 {
     zd_real left = ZD_SPLAT(0.0);
@@ -251,7 +250,7 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
     return left;
 }
 
-/* Takes what is left of C x = rhs out of x, in those lanes where pivots or masses say that something may be: as in schur_blocks.c. */
+/* Refines x until C x = rhs, in lanes with small pivots or unequal masses: as in schur_blocks.c. */
 ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
 {
     enum { MAX_REFINEMENTS = 40 };
@@ -273,7 +272,7 @@ ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
     for (int i = 0; i < 2 * pins->count; i++) REAL(pins->y)[i] = REAL(pins->lambda)[i];
 }
 
-/* x with C x = rhs, which stands in `rest` and its opposite, with C g where x falls, in y */
+/* x with C x = rhs, from rhs in `rest`, and -rhs (plus C g, if x includes gravity) in y. */
 ZD_KERNEL void ZD_NAMED(exchange)(const zd_lanes *self, double falls, double *x)
 {
     ZD_NAMED(solve)(self->pins);
@@ -281,7 +280,7 @@ ZD_KERNEL void ZD_NAMED(exchange)(const zd_lanes *self, double falls, double *x)
     ZD_NAMED(refine)(self, x);
 }
 
-/* ---- what lanes ask for ---- */
+/* ---- functions for the lanes ---- */
 
 ZD_KERNEL zd_real ZD_NAMED(spin_squared)(const zd_lane_pins *pins, int end, const double *v)
 {
@@ -291,7 +290,7 @@ ZD_KERNEL zd_real ZD_NAMED(spin_squared)(const zd_lane_pins *pins, int end, cons
     return spin * spin;
 }
 
-/* vdot and, where it is wanted, lambda; what is not known is no number. */
+/* vdot and, if required, lambda; NAN if there is no solution. */
 ZD_KERNEL void ZD_NAMED(accelerate_pins)(const zd_lanes *self, const double *p, const double *v, double *vdot, double *lambda)
 {
     const zd_lane_pins *pins = self->pins;

@@ -1,9 +1,9 @@
-/* Steps in lanes: integrated, put back onto the constraints, and believed or not, each lane for itself. */
+/* Steps in lanes: integration, projection onto the constraints, and acceptance, separately for each lane. */
 #include "lanes_kernel.h"
 
-/* ---- onto the constraints ---- */
+/* ---- projection onto the constraints ---- */
 
-/* Whether each Phi is small enough; and the largest in units of its row's size. */
+/* True if some Phi exceeds its tolerance; *residual: the largest relative to its row's size. */
 ZD_KERNEL zd_condition ZD_NAMED(is_open)(const zd_lanes *self, zd_real *residual)
 {
     zd_condition open = ZD_SPLAT(0.0) != 0.0;
@@ -16,7 +16,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_open)(const zd_lanes *self, zd_real *residual
     return open;
 }
 
-/* y <- its correction at t, (25) ... (27), of those lanes that are wanted. Returns those where that does not converge. */
+/* y <- its correction at t, (25) ... (27), in the `wanted` lanes. Returns the lanes in which it does not converge. */
 ZD_KERNEL zd_condition ZD_NAMED(land)(zd_lanes *self, const double *t, double *y, zd_condition wanted)
 {
     double *v = y + self->nq * ZD_LANES;
@@ -41,13 +41,13 @@ ZD_KERNEL zd_condition ZD_NAMED(land)(zd_lanes *self, const double *t, double *y
     return failed;
 }
 
-/* ---- whether a step is believed ---- */
+/* ---- acceptance of a step ---- */
 
 typedef struct ZD_NAMED(path) {
-    zd_real moved, detour, speed;       /* sums of squares, in natural units */
+    zd_real moved, detour, speed;       /* sums of squares, characteristic scales */
 } ZD_NAMED(path);
 
-/* The rates of p at y, and where the step has ended */
+/* Rates of p at y, and at the end of the step. */
 ZD_KERNEL const double *ZD_NAMED(rates_at)(const zd_lanes *self, const double *y, const double *pdot)
 {
     return self->has_A ? pdot : y + self->nq * ZD_LANES;
@@ -69,7 +69,7 @@ ZD_KERNEL ZD_NAMED(path) ZD_NAMED(find_path)(const zd_lanes *self, zd_real h)
     return sum;
 }
 
-/* Whether the path is as near to h times some mean of the rates at its ends: see guard.c. */
+/* True if the path is within `bound` of h times some mean of the rates at its ends: see guard.c. */
 ZD_KERNEL zd_condition ZD_NAMED(is_near)(const zd_lanes *self, zd_real h, zd_real bound)
 {
     const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot)), *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
@@ -84,7 +84,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_near)(const zd_lanes *self, zd_real h, zd_rea
     return rest - 2 * share * along + share * share * turn <= bound;
 }
 
-/* The smallest pivots of rows and of D^T M D, in parts of what they are measured by */
+/* Smallest pivots of constraints and of D^T M D, relative to their scales. */
 ZD_KERNEL void ZD_NAMED(smallest)(const zd_lanes *self, const zd_elimination *order, const double *scale, const double *pivots,
                                   zd_real *of_rows, zd_real *of_mass)
 {
@@ -96,7 +96,7 @@ ZD_KERNEL void ZD_NAMED(smallest)(const zd_lanes *self, const zd_elimination *or
     }
 }
 
-/* Whether pivots are large enough to end a step with; *continues: whether the next may begin with the first order, which the lane has. */
+/* True if pivots are large enough at the end of a step; *continues: the next step may begin with the first order, which the lane has. */
 ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condition *continues)
 {
     zd_condition sound = ZD_SPLAT(0.0) != 0.0;
@@ -117,8 +117,7 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
     return sound;
 }
 
-/* Steps of fixed size in succession that are longer than the method is stable for: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0),
- * as guard.c has it. */
+/* Counts successive fixed steps beyond the stability limit: omega h from vdot1 - vdot0 = -omega^2 (p1 - p0), as in guard.c. */
 ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real moved)
 {
     zd_real changed = ZD_SPLAT(0.0);
@@ -130,7 +129,8 @@ ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real move
     *REAL(self->streak) = ZD_WHERE(square * square * changed > self->limit * moved, streak, ZD_SPLAT(0.0));
 }
 
-/* Whether no coordinate has moved so far that rows may have turned in the step: all of many together move far in any. */
+/* True if no coordinate has moved so far that rows of C may have turned in the step. The norm over all of many coordinates is always
+ * large. */
 ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
 {
     zd_condition is_short = ZD_SPLAT(0.0) == 0.0;
@@ -139,8 +139,8 @@ ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
     return is_short;
 }
 
-/* Whether the step to y1 is believed; else the run has to be made by itself. */
-ZD_KERNEL zd_condition ZD_NAMED(is_believed)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
+/* True if the step to y1 is accepted; else the run has to be made individually. */
+ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
 {
     enum { STREAK = 3 };
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
@@ -149,24 +149,24 @@ ZD_KERNEL zd_condition ZD_NAMED(is_believed)(zd_lanes *self, zd_real h, zd_real 
     const zd_condition is_calm = (CALM_DETOUR * CALM_DETOUR * path.detour <= path.moved + self->nearby)
                                & (path.speed <= FASTER_SPEED * *REAL(self->fastest) + self->nearby);
     *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), ZD_SPLAT(1.0));
-    zd_condition believed = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
+    zd_condition accepted = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
     if (self->mh && self->corrects) {
         const zd_real bound = ZD_FMA(self->astray * h * h, *REAL(self->speed) + path.speed, ZD_SPLAT(self->nearby));
         zd_condition near = path.detour <= bound;
         if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
-        believed &= near;
+        accepted &= near;
         if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > LONG_PATH * LONG_PATH);
     }
     if (self->is_fixed) {
         ZD_NAMED(watch_stability)(self, h, path.moved);
-        believed &= *REAL(self->streak) < (double)STREAK;
+        accepted &= *REAL(self->streak) < (double)STREAK;
     }
-    return believed & (path.moved == path.moved);
+    return accepted & (path.moved == path.moved);
 }
 
-/* ---- the order of elimination ---- */
+/* ---- order of elimination ---- */
 
-/* Takes order i in the lanes that have none and where its pivots are large enough. */
+/* Selects order i in the lanes that have none, if its pivots are large enough. */
 ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
 {
     const zd_elimination *order = self->direct->order + i;
@@ -183,7 +183,7 @@ ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
     if (self->has_input) ZD_NAMED(take_where)(takes, 1, self->power1, self->power);
 }
 
-/* The first order whose pivots are large, or else large enough; where there is none the run leaves. The speed is that of these rates. */
+/* Selects the first order whose pivots are large, or else sufficient; if there is none the run leaves. Updates the speed. */
 ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
 {
     for (int pass = 0; pass < 2; pass++)
@@ -202,9 +202,9 @@ ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
     *REAL(self->speed) = speed;
 }
 
-/* ---- the size of steps ---- */
+/* ---- step-size control ---- */
 
-/* 1 / x^(1 / k) of x between 2^-40 and 2^40: Halley's iteration from a guess out of the bits of x, which are nearly its logarithm */
+/* 1 / x^(1 / k) for x between 2^-40 and 2^40: Halley's iteration from a guess by the bits of x, which are nearly its logarithm */
 ZD_KERNEL zd_real ZD_NAMED(inverse_root)(zd_real x, int k)
 {
     const zd_real magic = ZD_SPLAT(0x1p52);
@@ -220,7 +220,7 @@ ZD_KERNEL zd_real ZD_NAMED(inverse_root)(zd_real x, int k)
     return y;
 }
 
-/* The sum of squares of sum_j weight_j k_j in units of what is allowed */
+/* Sum of squares of sum_j weight_j k_j relative to the tolerances. */
 ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weights)
 {
     zd_real squares = ZD_SPLAT(0.0);
@@ -232,7 +232,7 @@ ZD_KERNEL zd_real ZD_NAMED(squares)(const zd_lanes *self, const zd_weights *weig
     return squares;
 }
 
-/* Counts steps that are as long as stability allows, as adaptive.c does it, of these lanes: by |lambda h|, see runge_kutta.c. */
+/* Counts steps at the stability limit, as in adaptive.c, in these lanes: by |lambda h|, see runge_kutta.c. */
 ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd_real h)
 {
     const int size = self->size, stages = self->method.stages;
@@ -256,7 +256,7 @@ ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd
     *REAL(self->stiff) += ZD_WHERE(is_long, more, ZD_SPLAT(0.0));
 }
 
-/* Which lanes look at that: where it costs an evaluation, at one of so many steps. */
+/* Lanes in which stiffness is checked: if that takes an evaluation, every CHECK_STIFFNESS_EVERY steps. */
 ZD_KERNEL zd_condition ZD_NAMED(checks_stiffness)(const zd_lanes *self)
 {
     const zd_method *method = &self->method;
@@ -266,7 +266,7 @@ ZD_KERNEL zd_condition ZD_NAMED(checks_stiffness)(const zd_lanes *self)
     return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, CHECK_STIFFNESS_EVERY);
 }
 
-/* The error of the step to y1, root mean square in units of what is allowed: see runge_kutta.h. */
+/* Error of the step to y1, root mean square relative to the tolerances: see runge_kutta.h. */
 ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
 {
     const zd_method *method = &self->method;

@@ -1,4 +1,4 @@
-/* What a run in lanes leaves out of its rows, from the states that it has in them: on the general road. */
+/* Columns of a record that runs in lanes do not compute, from the saved states, by the matrix path. */
 #include "../run/explain.h"
 #include "../run/run.h"
 

@@ -1,4 +1,4 @@
-/* Rows of runs in lanes: what is due within the step just made, and at its end. */
+/* Samples of runs in lanes that are due within the last step and at its end. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@ static void store(const zd_lanes *lanes, int lane, const double *from, int64_t c
     for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(lanes, from, i, lane);
 }
 
-/* What is found in y_row at t_row is a row of the run. */
+/* Saves y_row at t_row as a sample of the run. */
 static void save_row(zd_lane_group *self, int lane)
 {
     const zd_batch *batch = self->batch;
@@ -41,12 +41,12 @@ void zd_lane_group_set_next(zd_lane_group *self, int lane)
     zd_lanes *lanes = &self->lanes;
     const double every = lanes->save_every;
     const int by_time = self->batch->settings->t_eval != NULL;
-    if (lanes->t[lane] < lanes->next_t[lane] && lanes->number[lane] < lanes->next_number[lane]) return;     /* it was for something else */
+    if (lanes->t[lane] < lanes->next_t[lane] && lanes->number[lane] < lanes->next_number[lane]) return;    /* no sample was due */
     lanes->next_t[lane] = fmin(lanes->end, by_time ? next_time(self, &self->run_of[lane]) : INFINITY);
     lanes->next_number[lane] = by_time ? INFINITY : every * (floor(lanes->number[lane] / every) + 1);
 }
 
-/* The same of a run that an event has ended within the step: times before that, and then that itself, to which the lane is taken. */
+/* is_due() for a run that an event has ended within the step: times before the event, then the event, to which the lane is set. */
 static int is_due_before_end(zd_lane_group *self, int lane, double *when)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -58,7 +58,8 @@ static int is_due_before_end(zd_lane_group *self, int lane, double *when)
     return !run->is_complete;
 }
 
-/* Whether a row of the lane's run is due by the end of the last step, and when. Without t_eval it is that of every so many steps. */
+/* True if a sample of the lane's run is due by the end of the last step, at *when. Without t_eval, samples are due every save_every
+ * steps. */
 static int is_due(zd_lane_group *self, int lane, double *when)
 {
     const zd_lanes *lanes = &self->lanes;
@@ -73,7 +74,7 @@ static int is_due(zd_lane_group *self, int lane, double *when)
     return run->next == 0 && (lanes->number[lane] >= lanes->next_number[lane] || lanes->t[lane] == lanes->end);
 }
 
-/* Marks the lanes that have a row due; whether any has, and whether one of those lies within the step. */
+/* Marks the lanes that have a sample due; returns 1 if any has; *is_within: one of these lies within the step. */
 static int mark(zd_lane_group *self, int *is_within)
 {
     zd_lanes *lanes = &self->lanes;

@@ -1,4 +1,4 @@
-/* The runs of a batch side by side: a lane whose run has ended gets the next one, and what a lane cannot make is made by itself. */
+/* Runs of a batch in SIMD lanes: a lane whose run has ended gets the next one; runs that lanes cannot make are made individually. */
 #include "side_by_side.h"
 
 #include "../registry.h"
@@ -8,9 +8,9 @@
 #include "event_samples.h"
 #include "group.h"
 
-/* ---- whether lanes serve ---- */
+/* ---- applicability of lanes ---- */
 
-/* Whether the runs are those of bodies joined by so many pins that nothing dense is made of them, and nobody checks for bifurcations. */
+/* True for bodies joined by so many pins that no dense matrices are formed and bifurcations are not detected. */
 static int are_of_pins(const zd_batch *batch)
 {
     const zd_formulation *formulation = zd_formulation_of(batch->settings->formulation);
@@ -30,14 +30,15 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_settings *settings = batch->settings;
     const zd_direct *direct;
     if (!batch->lanes || batch->settings_differ || batch->family || system->quaternions || settings->outputs || !are_known(settings->events)
-        || settings->given_jacobian || settings->max_move > 0 || system->mh + system->mn > system->nv || !zd_takes_direct(settings) || zd_takes_embeddings(settings)
+        || settings->given_jacobian || settings->max_move > 0 || system->mh + system->mn > system->nv || !zd_takes_direct(settings)
+        || zd_takes_embeddings(settings)
         || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
         return 0;
     if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
     return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &direct) != NULL;
 }
 
-/* Corrections that follow the projection are made lane by lane. Events look at the ends of steps that all of them have been made at. */
+/* True if the corrections after the projection can be made lane by lane. Events require them in each step. */
 static int rest_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
@@ -46,8 +47,8 @@ static int rest_serves(const zd_run *run)
     return !motion->is_stabilized;
 }
 
-/* What is corrected has to be the projection in the mass metric, of positions and of velocities, with what follows that; or nothing. Of pins,
- * each step is. */
+/* True if lanes can make the corrections: none, or projection of positions and velocities in the mass metric with those that follow it;
+ * with pins, in each step. */
 static int run_serves(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
@@ -60,11 +61,11 @@ static int run_serves(const zd_run *run)
 
 /* ---- memory ---- */
 
-/* `pins` NULL: there are direct functions. */
+/* `pins` NULL: closed-form functions are used. */
 static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run, const zd_pins_plan *pins)
 {
     const zd_system *system = batch->system;
-    const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* of pins, C is looked at nowhere */
+    const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* pins do not use C */
     const zd_direct *direct = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
@@ -88,7 +89,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
 
 /* ---- runs ---- */
 
-/* Systems are copied for those alone whose starts have to be made consistent. */
+/* Finds the start of a run; its system is copied only if it has to be projected. */
 static int start_of(const zd_batch *batch, const zd_single_run *own, int64_t number)
 {
     if (!batch->assembly) return zd_single_run_start(batch, batch->system, own, number);
@@ -96,7 +97,7 @@ static int start_of(const zd_batch *batch, const zd_single_run *own, int64_t num
     return zd_single_run_start(batch, &system, own, number);
 }
 
-/* The next run that begins in a lane; those that cannot are made by themselves. Returns whether there is one. */
+/* Finds the next run that can begin in a lane; others are made individually. Returns 0 if there is none. */
 static int find_next(zd_lane_group *self)
 {
     const zd_batch *batch = self->batch;
@@ -123,7 +124,7 @@ static void begin(zd_lane_group *self, int lane)
     zd_lane_group_note_start(self, lane);
 }
 
-/* Gives the lane a run; where there is none it stands still, with numbers of a lane that has one. */
+/* Begins the next run in the lane; if there is none, the lane is inactive, with the numbers of an active one. */
 static void fill(zd_lane_group *self, int lane)
 {
     zd_lanes *lanes = &self->lanes;
@@ -139,7 +140,7 @@ static void fill(zd_lane_group *self, int lane)
     lanes->is_active[lane] = lanes->leaves[lane] = lanes->is_long[lane] = lanes->has_event[lane] = 0;
 }
 
-/* As any run says that an event has ended it. */
+/* Writes the message of a run that an event has ended. */
 static int say_event(const zd_lane_group *self, int lane)
 {
     const zd_batch *batch = self->batch;
@@ -152,7 +153,7 @@ static int say_event(const zd_lane_group *self, int lane)
     return ZD_EVENT;
 }
 
-/* How many steps of the lane were put back onto the constraints. */
+/* Number of steps of the lane that were projected onto the constraints. */
 static int64_t count_corrected(const zd_lanes *lanes, int lane)
 {
     const int64_t steps = (int64_t)lanes->number[lane], every = (int64_t)lanes->every;
@@ -179,7 +180,7 @@ static void end(zd_lane_group *self, int lane)
     };
 }
 
-/* Whether the lane has done with its run, which has ended or is made by itself. */
+/* Ends the lane's run if it is complete or has to be made individually; returns 1 if so. */
 static int is_over(zd_lane_group *self, int lane)
 {
     zd_lanes *lanes = &self->lanes;
@@ -197,13 +198,13 @@ static int is_over(zd_lane_group *self, int lane)
     return 1;
 }
 
-/* Runs that have just begun, all at once: where one has no order of elimination that serves, it leaves. */
-static void have_rates(zd_lane_group *self)
+/* Evaluates the accelerations of runs that have just begun, in all lanes at once. A run without a suitable order of elimination leaves. */
+static void evaluate_rates(zd_lane_group *self)
 {
     if (self->lanes.direct) self->functions->choose(&self->lanes);
 }
 
-/* Lanes whose runs are over get others; whether one has begun, whose first row may be due. */
+/* Replaces runs that have ended; returns 1 if a run has begun, whose first sample may be due. */
 static int replace(zd_lane_group *self)
 {
     int has_begun = 0;
@@ -214,12 +215,12 @@ static int replace(zd_lane_group *self)
             has_begun |= self->run_of[lane].number >= 0;
         } else if (self->run_of[lane].number >= 0) zd_lane_group_set_next(self, lane);
     }
-    if (has_begun) have_rates(self);
+    if (has_begun) evaluate_rates(self);
     return has_begun;
 }
 
-/* What has to be looked at after steps. */
-static void look(zd_lane_group *self)
+/* Checks, events, samples and replacements after the last steps. */
+static void check(zd_lane_group *self)
 {
     zd_lanes *lanes = &self->lanes;
     for (int lane = 0; lane < lanes->lanes; lane++) {
@@ -238,14 +239,14 @@ static void run_all(zd_lane_group *self)
     self->lanes.of = self;
     if (self->run->motion.corrections > 1) self->lanes.correct_rest = zd_lane_group_correct_rest;
     for (int lane = 0; lane < self->lanes.lanes; lane++) fill(self, lane);
-    have_rates(self);
+    evaluate_rates(self);
     while (self->active && !zd_batch_is_stopped(self->batch)) {
-        look(self);
+        check(self);
         if (self->active) self->functions->advance(&self->lanes);
     }
 }
 
-/* A run that has been created, to look at starts; those before it that cannot be are made by themselves, and fail so. */
+/* Creates the first run that can be, to evaluate starts; those before it are made individually, and fail with their message. */
 static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, int64_t *first)
 {
     for (*first = 0; *first < batch->runs && !zd_batch_is_stopped(batch); ++*first) {

@@ -4,9 +4,9 @@
 
 #include "single_run.h"
 
-/* Whether runs of this batch can be made so, as far as its system and settings tell. */
+/* True if the system and the settings of the batch admit runs in lanes. */
 int zd_lanes_serve(const zd_batch *batch);
-/* All runs: in lanes, and those by themselves that these cannot make. */
+/* Makes all runs: in lanes, or individually those that these cannot make. */
 int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own);
 
 #endif

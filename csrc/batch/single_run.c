@@ -8,7 +8,7 @@
 #include "../stepping/clock.h"
 #include "event_samples.h"
 
-static const double SLICE = 0.02;       /* s: so soon is seen that nobody waits any more */
+static const double SLICE = 0.02;       /* s: interval at which a stop request is checked */
 
 static int count_constraints(const zd_system *system) { return system->mh + system->mn; }
 
@@ -52,7 +52,7 @@ static void redirect(double **column, double *wanted, int64_t run, int64_t size)
     if (wanted) *column = wanted + run * size;
 }
 
-/* The record of a run: what is wanted of it goes where it is wanted. */
+/* Record of a run; requested columns are redirected to the batch's arrays. */
 static zd_record record_of(const zd_batch *batch, const zd_single_run *own, int64_t run)
 {
     const zd_system *system = batch->system;
@@ -128,7 +128,7 @@ zd_system zd_single_run_system(const zd_batch *batch, int64_t number)
     return system;
 }
 
-/* Its own, or those of all; events are written down for this run. */
+/* Settings of the run, its own or common; events are recorded for this run. */
 static zd_settings settings_of(const zd_batch *batch, zd_event_samples *found, zd_events *events)
 {
     zd_settings settings = batch->settings[batch->settings_differ ? found->run : 0];

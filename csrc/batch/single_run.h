@@ -1,13 +1,13 @@
-/* A run of a batch by itself. */
+/* Individual execution of a run of a batch. */
 #ifndef ZD_SINGLE_RUN_H
 #define ZD_SINGLE_RUN_H
 
 #include "../workspace.h"
 #include "../zerodrift.h"
 
-typedef struct zd_single_run {  /* memory of one run after the other */
-    double *p, *v;          /* (nq,), (nv,): its start */
-    zd_record record;       /* columns that somebody wants are theirs */
+typedef struct zd_single_run {  /* memory of a run, reused by the next */
+    double *p, *v;          /* (nq,), (nv,): state at the start */
+    zd_record record;       /* columns; those requested are in the batch's own arrays */
 } zd_single_run;
 
 zd_single_run zd_single_run_take(zd_arena *arena, const zd_batch *batch);
@@ -18,9 +18,9 @@ static inline const void *zd_single_run_data(const zd_batch *batch, int64_t numb
     return batch->data ? batch->data + number * batch->doubles : batch->system->data;
 }
 
-/* The system of a run, with its own data. */
+/* System of a run, with its own data. */
 zd_system zd_single_run_system(const zd_batch *batch, int64_t number);
-/* p and v of the memory <- where the run of a system begins, which may be made consistent. */
+/* p, v of the memory <- state at the start of a run, projected onto the constraints if required. */
 int zd_single_run_start(const zd_batch *batch, const zd_system *system, const zd_single_run *own, int64_t number);
 void zd_single_run_execute(const zd_batch *batch, const zd_single_run *own, int64_t number);
 

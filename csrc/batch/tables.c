@@ -1,4 +1,4 @@
-/* The numbers of many systems, from their parameters. */
+/* Constants and starts of many systems, from their parameters. */
 #include "../zerodrift.h"
 
 static int64_t count_parameters(const zd_kind *kind)
